@@ -182,7 +182,7 @@ class Free {
   Free(const Grid& grid, const std::vector<Case>& cases) : search_(grid) {
     for (const Case& c : cases) {
       stops_.push_back(std::make_unique<AgentStops>(*c.instance, *c.distances, 0));
-      goals_.push_back(std::make_unique<FreeGoals>(*stops_.back(), SequenceClass{}));
+      goals_.push_back(std::make_unique<SequenceStages>(*stops_.back(), SequenceClass{}));
     }
   }
   void find(const Case& c, std::size_t i, Path& path) {
@@ -193,7 +193,7 @@ class Free {
  private:
   FreeOrderSipp search_;
   std::vector<std::unique_ptr<AgentStops>> stops_;
-  std::vector<std::unique_ptr<FreeGoals>> goals_;
+  std::vector<std::unique_ptr<SequenceStages>> goals_;
 };
 
 template <class Search>

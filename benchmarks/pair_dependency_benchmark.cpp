@@ -42,7 +42,7 @@ double median(std::vector<double> values) {
 
 struct Agent {
   std::unique_ptr<AgentStops> stops;
-  std::unique_ptr<FreeGoals> goals;
+  std::unique_ptr<SequenceStages> goals;
   std::vector<Constraint> constraints;
   Time cost = 0;
   MddBuilder::Outcome outcome{};
@@ -61,7 +61,7 @@ class Agents {
     for (AgentIndex a = 0; a < instance_.agent_count(); ++a) {
       Agent& agent = agents_.emplace_back();
       agent.stops = std::make_unique<AgentStops>(instance_, distances_, a);
-      agent.goals = std::make_unique<FreeGoals>(*agent.stops, SequenceClass{});
+      agent.goals = std::make_unique<SequenceStages>(*agent.stops, SequenceClass{});
       constrain(agent, search, constraints, random);
     }
   }

@@ -6,8 +6,8 @@
 
 namespace grove::detail {
 
-PathOutcome BaselineSearch::find(FreeGoals& goals, const PathQuery& query, const Limits& limits,
-                                 Path& path) {
+PathOutcome BaselineSearch::find(SequenceStages& goals, const PathQuery& query,
+                                 const Limits& limits, Path& path) {
   const auto is_bar = [](const Constraint& c) { return c.kind == ConstraintKind::kVertexOrEdge; };
   if (!std::ranges::all_of(query.constraints, is_bar))
     throw std::invalid_argument("the low levels of other methods know no constraints but bars");

@@ -8,7 +8,7 @@ namespace grove::detail {
 
 class BaselineSearch : public AgentPlanner {
  public:
-  PathOutcome find(FreeGoals& goals, const PathQuery& query, const Limits& limits,
+  PathOutcome find(SequenceStages& goals, const PathQuery& query, const Limits& limits,
                    Path& path) final;
 
  private:

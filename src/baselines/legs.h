@@ -10,8 +10,8 @@
 #include "model/limits.h"
 #include "model/plan.h"
 #include "planning/constraint.h"
-#include "planning/free_goals.h"
 #include "planning/safe_intervals.h"
+#include "planning/sequence_stages.h"
 
 namespace grove::detail {
 

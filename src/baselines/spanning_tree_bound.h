@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "planning/free_goals.h"
+#include "planning/sequence_stages.h"
 #include "sequencing/sequence_dag.h"
 
 namespace grove::detail {

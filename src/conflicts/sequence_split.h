@@ -3,7 +3,7 @@
 #pragma once
 
 #include "conflicts/conflict.h"
-#include "planning/free_goals.h"
+#include "planning/sequence_stages.h"
 
 namespace grove::detail {
 

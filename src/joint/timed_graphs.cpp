@@ -27,8 +27,9 @@ constexpr std::size_t kMostNumbers = std::numeric_limits<AgentGraph::Node>::max(
 
 TimedGraphs::TimedGraphs(const World& world) : world_(world), intervals_(world) {}
 
-TimedGraphs::Outcome TimedGraphs::make(FreeGoals& goals, std::span<const Constraint> constraints,
-                                       Time most_cost, std::size_t most_nodes, const Limits& limits,
+TimedGraphs::Outcome TimedGraphs::make(SequenceStages& goals,
+                                       std::span<const Constraint> constraints, Time most_cost,
+                                       std::size_t most_nodes, const Limits& limits,
                                        AgentGraph& graph) {
   intervals_.assign(constraints);
   if (world_.states_are_places()) most_cost = std::min(most_cost, intervals_.latest_rest());
@@ -63,7 +64,7 @@ void TimedGraphs::start() {
   const State state = goals_->stops().start();
   const int slot = intervals_.start_slot(state);
   const StageId first = goals_->first_stage();
-  if (slot < 0 || first == FreeGoals::kOutside) return;
+  if (slot < 0 || first == SequenceStages::kOutside) return;
   goals_->on_arrival(first, state, [&](StageId stage) {
     if (goals_->distance(stage, state) <= most_cost_) first_stages_.push_back(stage);
   });

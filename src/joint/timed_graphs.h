@@ -10,8 +10,8 @@
 
 #include "joint/agent_graph.h"
 #include "model/limits.h"
-#include "planning/free_goals.h"
 #include "planning/safe_intervals.h"
+#include "planning/sequence_stages.h"
 
 namespace grove::detail {
 
@@ -31,13 +31,13 @@ class TimedGraphs {
   // The ways that realize a sequence of the class of `goals`, obey `constraints`, none of them
   // about the sequence, and cost `most_cost` at most; without a node if there are none. Widens the
   // completions of `goals` as needed.
-  Outcome make(FreeGoals& goals, std::span<const Constraint> constraints, Time most_cost,
+  Outcome make(SequenceStages& goals, std::span<const Constraint> constraints, Time most_cost,
                std::size_t most_nodes, const Limits& limits, AgentGraph& graph);
   // Nodes looked at so far.
   std::int64_t nodes() const { return looked_at_; }
 
  private:
-  using StageId = FreeGoals::StageId;
+  using StageId = SequenceStages::StageId;
   using Index = std::int32_t;
 
   struct Timed {
@@ -65,7 +65,7 @@ class TimedGraphs {
   std::unordered_map<std::uint64_t, Index> next_;  // the layer being made, by slot and stage
   std::int64_t looked_at_ = 0;
   // Of the call under way.
-  FreeGoals* goals_ = nullptr;
+  SequenceStages* goals_ = nullptr;
   Time most_cost_ = 0;
 };
 

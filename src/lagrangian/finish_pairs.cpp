@@ -81,7 +81,7 @@ FinishPairs::OfAgent& FinishPairs::of(AgentIndex agent, const Limits& limits) {
   if (static_cast<std::size_t>(agent) >= agents_.size()) agents_.resize(agent + 1);
   OfAgent& of_agent = agents_[agent];
   if (!of_agent.goals) {
-    of_agent.goals = std::make_unique<FreeGoals>(stops_.of(agent), SequenceClass{});
+    of_agent.goals = std::make_unique<SequenceStages>(stops_.of(agent), SequenceClass{});
     of_agent.least = least_cost(*of_agent.goals, limits);
   }
   return of_agent;

@@ -50,7 +50,7 @@ class FinishPairs {
  private:
   enum class Known : std::uint8_t { kNot, kExcluded, kNotExcluded };  // 0 first: see Grid
   struct OfAgent {
-    std::unique_ptr<FreeGoals> goals;
+    std::unique_ptr<SequenceStages> goals;
     Time least = 0;  // it cannot finish before
     // By how much later; null: too large. Empty: none finishes exactly then.
     std::vector<std::unique_ptr<Mdd>> sets;

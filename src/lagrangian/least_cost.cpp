@@ -3,12 +3,12 @@
 
 namespace grove::detail {
 
-Time least_cost(FreeGoals& goals, const Limits& limits) {
+Time least_cost(SequenceStages& goals, const Limits& limits) {
   CostToGo& cost_to_go = goals.cost_to_go();
   for (;;) {
-    const FreeGoals::StageId stage = goals.first_stage();
+    const SequenceStages::StageId stage = goals.first_stage();
     const Time beyond = cost_to_go.beyond();
-    if (stage != FreeGoals::kOutside) {
+    if (stage != SequenceStages::kOutside) {
       const Time distance = goals.distance(stage, goals.stops().start());
       if (distance < beyond) return distance;
     }

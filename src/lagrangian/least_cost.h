@@ -3,12 +3,12 @@
 #pragma once
 
 #include "model/limits.h"
-#include "planning/free_goals.h"
+#include "planning/sequence_stages.h"
 
 namespace grove::detail {
 
 // Exact, unless limits strike: then a lower bound. Widens the completions so far that they hold an
 // order that costs no more.
-Time least_cost(FreeGoals& goals, const Limits& limits);
+Time least_cost(SequenceStages& goals, const Limits& limits);
 
 }  // namespace grove::detail

@@ -24,7 +24,7 @@ constexpr std::size_t kLayersPerPoll = 16;
 PenalizedSearch::PenalizedSearch(const Penalties& penalties)
     : penalties_(penalties), world_(penalties.world()) {}
 
-Price PenalizedSearch::search(FreeGoals& goals, std::span<const Amount> on_finish, Price below,
+Price PenalizedSearch::search(SequenceStages& goals, std::span<const Amount> on_finish, Price below,
                               std::int64_t most_labels, const Limits& limits, Path* path) {
   goals_ = &goals;
   on_finish_ = on_finish;
@@ -60,7 +60,7 @@ Price PenalizedSearch::search(FreeGoals& goals, std::span<const Amount> on_finis
   return below_;
 }
 
-bool PenalizedSearch::improve(FreeGoals& goals, std::span<const Amount> on_finish,
+bool PenalizedSearch::improve(SequenceStages& goals, std::span<const Amount> on_finish,
                               const ReservationTable& others, Time latest, Price price,
                               std::int64_t most_labels, const Limits& limits, Path& path) {
   others_ = &others;
@@ -92,7 +92,7 @@ void PenalizedSearch::look_at_ends() {
 void PenalizedSearch::start() {
   time_ = 0;
   const StageId stage = goals_->first_stage();
-  if (stage == FreeGoals::kOutside) return;
+  if (stage == SequenceStages::kOutside) return;
   const State state = goals_->stops().start();
   goals_->on_arrival(stage, state, [&](StageId then) { arrive(kNone, state, then, 0); });
 }

@@ -12,8 +12,8 @@
 
 #include "lagrangian/penalties.h"
 #include "model/limits.h"
-#include "planning/free_goals.h"
 #include "planning/reservation_table.h"
+#include "planning/sequence_stages.h"
 
 namespace grove::detail {
 
@@ -34,12 +34,12 @@ class PenalizedSearch {
   // Proven: a path costs at least the price, which is at most `below`. `on_finish`: what finishing
   // at a time costs, 0 beyond its end. `path`, not null, becomes one of that price if it is less
   // than `below` and the search was not cut short; else it stays as it is.
-  Price search(FreeGoals& goals, std::span<const Penalties::Amount> on_finish, Price below,
+  Price search(SequenceStages& goals, std::span<const Penalties::Amount> on_finish, Price below,
                std::int64_t most_labels, const Limits& limits, Path* path);
 
   // Puts in the place of `path`, whose price is `price`, the cheapest one that goes around others,
   // as it does, and finishes by `latest`. False: none is cheaper, or it would take more labels.
-  bool improve(FreeGoals& goals, std::span<const Penalties::Amount> on_finish,
+  bool improve(SequenceStages& goals, std::span<const Penalties::Amount> on_finish,
                const ReservationTable& others, Time latest, Price price, std::int64_t most_labels,
                const Limits& limits, Path& path);
 
@@ -48,7 +48,7 @@ class PenalizedSearch {
 
  private:
   using Amount = Penalties::Amount;
-  using StageId = FreeGoals::StageId;
+  using StageId = SequenceStages::StageId;
   static constexpr std::uint32_t kNone = UINT32_MAX;
 
   struct Label {
@@ -92,7 +92,7 @@ class PenalizedSearch {
   std::int64_t labels_met_ = 0;
 
   // Of the call under way.
-  FreeGoals* goals_ = nullptr;
+  SequenceStages* goals_ = nullptr;
   std::span<const Amount> on_finish_;
   Time time_ = 0;           // of the labels that are being made
   Penalties::Layer layer_;  // then

@@ -25,10 +25,10 @@ void Pricer::perform(PriceJob& job, const Limits& limits) {
   }
 }
 
-FreeGoals& Pricer::goals(AgentIndex agent) {
+SequenceStages& Pricer::goals(AgentIndex agent) {
   if (static_cast<std::size_t>(agent) >= goals_.size()) goals_.resize(agent + std::size_t{1});
   if (!goals_[agent])
-    goals_[agent] = std::make_unique<FreeGoals>(stops_.of(agent), SequenceClass{});
+    goals_[agent] = std::make_unique<SequenceStages>(stops_.of(agent), SequenceClass{});
   return *goals_[agent];
 }
 
@@ -45,7 +45,7 @@ Price Pricer::first_price(AgentIndex agent, const Limits& limits, Path& path) {
 }
 
 Price Pricer::price_below(Price below, AgentIndex agent, const Limits& limits, Path& path) {
-  FreeGoals& goals = this->goals(agent);
+  SequenceStages& goals = this->goals(agent);
   CostToGo& cost_to_go = goals.cost_to_go();
   if (Price{cost_to_go.beyond()} * Penalties::kUnit < below)
     cost_to_go.widen(static_cast<Time>(below / Penalties::kUnit), limits);

@@ -10,7 +10,7 @@
 #include "lagrangian/tariff.h"
 #include "model/limits.h"
 #include "planning/agent_stops_store.h"
-#include "planning/free_goals.h"
+#include "planning/sequence_stages.h"
 
 namespace grove::detail {
 
@@ -38,14 +38,14 @@ class Pricer {
   void perform(PriceJob& job, const Limits& limits);
 
  private:
-  FreeGoals& goals(AgentIndex agent);
+  SequenceStages& goals(AgentIndex agent);
   Price first_price(AgentIndex agent, const Limits& limits, Path& path);
   Price price_below(Price below, AgentIndex agent, const Limits& limits, Path& path);
 
   const Tariff& tariff_;
   AgentStopsStore stops_;
   PenalizedSearch search_;
-  std::vector<std::unique_ptr<FreeGoals>> goals_;  // by agent
+  std::vector<std::unique_ptr<SequenceStages>> goals_;  // by agent
 };
 
 }  // namespace grove::detail

@@ -6,8 +6,8 @@
 
 #include "model/limits.h"
 #include "model/plan.h"
-#include "planning/free_goals.h"
 #include "planning/path_query.h"
+#include "planning/sequence_stages.h"
 
 namespace grove::detail {
 
@@ -25,7 +25,7 @@ class AgentPlanner {
   // the agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound. May widen
   // the completions of `goals`. Throws std::invalid_argument for a query that is none, or not one
   // for this planner.
-  virtual PathOutcome find(FreeGoals& goals, const PathQuery& query, const Limits& limits,
+  virtual PathOutcome find(SequenceStages& goals, const PathQuery& query, const Limits& limits,
                            Path& path) = 0;
 
   // Labels expanded by all calls so far.

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "planning/free_goals.h"
+#include "planning/sequence_stages.h"
 
 namespace grove::detail {
 

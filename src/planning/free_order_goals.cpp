@@ -3,7 +3,7 @@
 
 namespace grove::detail {
 
-bool FreeOrderGoals::assign(FreeGoals& goals, SafeIntervals& intervals, int greed_percent) {
+bool FreeOrderGoals::assign(SequenceStages& goals, SafeIntervals& intervals, int greed_percent) {
   goals_ = &goals;
   greed_percent_ = greed_percent;
   const AgentStops& stops = goals.stops();
@@ -61,7 +61,7 @@ Time FreeOrderGoals::put_off_by_gates(Progress id, State state, Time time, Time 
     put_off = layer_of(until, greed_percent_ == 0 ? 0 : goals_->distance(id, state));
     if (put_off <= layer) return layer;
   }
-  const FreeGoals::Stage& stage = goals_->stage(id);
+  const SequenceStages::Stage& stage = goals_->stage(id);
   if (std::popcount(stage.next) * goals_->stops().ports() != stage.count) outside_ = true;
   return put_off;
 }

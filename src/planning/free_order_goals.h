@@ -33,21 +33,21 @@
 #include <cstdint>
 #include <vector>
 
-#include "planning/free_goals.h"
 #include "planning/safe_interval_search.h"
+#include "planning/sequence_stages.h"
 #include "planning/stop_dominance.h"
 
 namespace grove::detail {
 
 class FreeOrderGoals {
  public:
-  using Progress = FreeGoals::StageId;
+  using Progress = SequenceStages::StageId;
 
   // `goals` must outlive the search. False when there is plainly no path.
-  bool assign(FreeGoals& goals, SafeIntervals& intervals, int greed_percent);
+  bool assign(SequenceStages& goals, SafeIntervals& intervals, int greed_percent);
   // Goes on with the same class over other completions.
-  void turn_to(FreeGoals& goals) { goals_ = &goals; }
-  FreeGoals& free_goals() const { return *goals_; }
+  void turn_to(SequenceStages& goals) { goals_ = &goals; }
+  SequenceStages& free_goals() const { return *goals_; }
 
   // Forgets all that was dropped. Dearer labels will be.
   void begin(Time cap);
@@ -72,7 +72,7 @@ class FreeOrderGoals {
     return layer_of(time + to_go, to_go);
   }
   bool may_end(Progress progress, State state) const {
-    const FreeGoals::Stage& stage = goals_->stage(progress);
+    const SequenceStages::Stage& stage = goals_->stage(progress);
     return stage.left == 0 && goals_->is_rest(stage, state);
   }
   Time put_off(Progress stage, State state, Time time, Time layer) {
@@ -106,7 +106,7 @@ class FreeOrderGoals {
            static_cast<Time>(std::int64_t{to_go} * greed_percent_ / 100);
   }
 
-  FreeGoals* goals_ = nullptr;
+  SequenceStages* goals_ = nullptr;
   int greed_percent_ = 0;
   std::vector<Deadline> deadlines_;
   Time first_rest_ = 0;

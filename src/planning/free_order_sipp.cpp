@@ -80,7 +80,7 @@ class FreeOrderSipp::Workspace {
         visit_check_(world, search_.intervals()),
         late_goals_(world, search_.intervals()) {}
 
-  PathOutcome find(FreeGoals& goals, const PathQuery& query, const Limits& limits, Path& path);
+  PathOutcome find(SequenceStages& goals, const PathQuery& query, const Limits& limits, Path& path);
   std::int64_t expanded() const { return search_.expanded(); }
 
  private:
@@ -92,7 +92,7 @@ class FreeOrderSipp::Workspace {
   std::optional<PathOutcome> find_within(Time cap);
   std::optional<PathOutcome> doubt();
   bool price_anew();
-  FreeGoals& goals() { return search_.goals().free_goals(); }
+  SequenceStages& goals() { return search_.goals().free_goals(); }
 
   Search search_;
   VisitCheck visit_check_;
@@ -113,7 +113,7 @@ class FreeOrderSipp::Workspace {
 FreeOrderSipp::FreeOrderSipp(const World& world) : workspace_(std::make_unique<Workspace>(world)) {}
 FreeOrderSipp::~FreeOrderSipp() = default;
 
-PathOutcome FreeOrderSipp::find(FreeGoals& goals, const PathQuery& query, const Limits& limits,
+PathOutcome FreeOrderSipp::find(SequenceStages& goals, const PathQuery& query, const Limits& limits,
                                 Path& path) {
   return workspace_->find(goals, query, limits, path);
 }
@@ -122,7 +122,7 @@ std::int64_t FreeOrderSipp::expanded() const {
   return workspace_->expanded();
 }
 
-PathOutcome FreeOrderSipp::Workspace::find(FreeGoals& goals, const PathQuery& query,
+PathOutcome FreeOrderSipp::Workspace::find(SequenceStages& goals, const PathQuery& query,
                                            const Limits& limits, Path& path) {
   SafeIntervals& intervals = search_.intervals();
   if (query.reservations)
@@ -171,7 +171,7 @@ PathOutcome FreeOrderSipp::Workspace::find_any() {
     if (!outcome) continue;
     if (*outcome != PathOutcome::kAboveCutoff) return *outcome;
     if (latest_ < beyond || beyond == kNever) return above_;
-    if (goals().first_stage() != FreeGoals::kOutside) {
+    if (goals().first_stage() != SequenceStages::kOutside) {
       if (const auto answer = doubt()) return *answer;
       if (price_anew()) continue;
     }
@@ -183,8 +183,8 @@ PathOutcome FreeOrderSipp::Workspace::find_any() {
 // None: the goals changed meanwhile, begin again.
 std::optional<PathOutcome> FreeOrderSipp::Workspace::find_within(Time cap) {
   const bool all_known = goals().cost_to_go().beyond() == kNever;
-  const FreeGoals::StageId first = goals().first_stage();
-  if (first == FreeGoals::kOutside)
+  const SequenceStages::StageId first = goals().first_stage();
+  if (first == SequenceStages::kOutside)
     return all_known ? PathOutcome::kInfeasible : PathOutcome::kAboveCutoff;
   search_.goals().begin(cap);
   search_.begin(goals().stops().start(), first, 0, others_, *limits_);
@@ -222,7 +222,7 @@ std::optional<PathOutcome> FreeOrderSipp::Workspace::doubt() {
 bool FreeOrderSipp::Workspace::price_anew() {
   if (price_at_ == kNotAgain) return false;
   price_at_ = kNotAgain;
-  FreeGoals* const late = late_goals_.over(goals(), *limits_);
+  SequenceStages* const late = late_goals_.over(goals(), *limits_);
   if (late) search_.goals().turn_to(*late);
   return late != nullptr;
 }

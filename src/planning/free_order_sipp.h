@@ -18,7 +18,7 @@ class FreeOrderSipp : public AgentPlanner {
   explicit FreeOrderSipp(const World& world);
   ~FreeOrderSipp() override;
 
-  PathOutcome find(FreeGoals& goals, const PathQuery& query, const Limits& limits,
+  PathOutcome find(SequenceStages& goals, const PathQuery& query, const Limits& limits,
                    Path& path) override;
   std::int64_t expanded() const override;
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "planning/free_goals.h"
 #include "planning/safe_intervals.h"
+#include "planning/sequence_stages.h"
 #include "sequencing/cost_matrix.h"
 
 namespace grove::detail {

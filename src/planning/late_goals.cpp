@@ -12,10 +12,10 @@ namespace grove::detail {
 namespace {
 
 // At most what any sequence of the class costs, by the completions.
-Time least_cost(FreeGoals& goals) {
+Time least_cost(SequenceStages& goals) {
   const Time beyond = goals.cost_to_go().beyond();
-  const FreeGoals::StageId stage = goals.first_stage();
-  if (stage == FreeGoals::kOutside) return beyond;
+  const SequenceStages::StageId stage = goals.first_stage();
+  if (stage == SequenceStages::kOutside) return beyond;
   return std::min(beyond, goals.distance(stage, goals.stops().start()));
 }
 
@@ -33,7 +33,7 @@ CostToGo late_completions(const AgentStops& stops, CostMatrix late) {
 
 }  // namespace
 
-FreeGoals* LateGoals::over(FreeGoals& plain, const Limits& limits) {
+SequenceStages* LateGoals::over(SequenceStages& plain, const Limits& limits) {
   const Time plain_cost = least_cost(plain);
   auto matrix = late_cost_matrix(world_, intervals_, plain.stops(), plain_cost);
   if (!matrix) return nullptr;

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "planning/free_goals.h"
 #include "planning/safe_intervals.h"
+#include "planning/sequence_stages.h"
 
 namespace grove::detail {
 
@@ -16,15 +16,15 @@ class LateGoals {
 
   // The same class over completions by late costs (late_costs.h), if its best sequence costs more
   // by these; null: it does not, or a limit struck. Until the next call.
-  FreeGoals* over(FreeGoals& plain, const Limits& limits);
+  SequenceStages* over(SequenceStages& plain, const Limits& limits);
 
  private:
   const World& world_;
   SafeIntervals& intervals_;
   std::optional<CostToGo> completions_;
-  AgentIndex agent_ = 0;            // whose they are,
-  SequenceClass class_;             // and of which class
-  std::optional<FreeGoals> goals_;  // over these
+  AgentIndex agent_ = 0;                 // whose they are,
+  SequenceClass class_;                  // and of which class
+  std::optional<SequenceStages> goals_;  // over these
 };
 
 }  // namespace grove::detail

@@ -45,12 +45,12 @@ class MddBuilder::Workspace {
  public:
   explicit Workspace(const World& world) : world_(world), intervals_(world) {}
 
-  Outcome build(FreeGoals& goals, std::span<const Constraint> constraints, Time cost,
+  Outcome build(SequenceStages& goals, std::span<const Constraint> constraints, Time cost,
                 std::size_t most_nodes, const Limits& limits, Mdd& paths);
   std::int64_t nodes() const { return met_; }
 
  private:
-  using StageId = FreeGoals::StageId;
+  using StageId = SequenceStages::StageId;
   using NodeId = Mdd::NodeId;
   using LabelId = std::int32_t;
   static constexpr LabelId kNoLabel = -1;
@@ -114,7 +114,7 @@ class MddBuilder::Workspace {
   std::int64_t met_ = 0;                // labels and nodes, in all calls
 
   // Of the call under way.
-  FreeGoals* goals_ = nullptr;
+  SequenceStages* goals_ = nullptr;
   const Limits* limits_ = nullptr;
   Time cost_ = 0;
 };
@@ -150,13 +150,13 @@ std::int64_t MddBuilder::nodes() const {
   return workspace_->nodes();
 }
 
-MddBuilder::Outcome MddBuilder::build(FreeGoals& goals, std::span<const Constraint> constraints,
-                                      Time cost, std::size_t most_nodes, const Limits& limits,
-                                      Mdd& paths) {
+MddBuilder::Outcome MddBuilder::build(SequenceStages& goals,
+                                      std::span<const Constraint> constraints, Time cost,
+                                      std::size_t most_nodes, const Limits& limits, Mdd& paths) {
   return workspace_->build(goals, constraints, cost, most_nodes, limits, paths);
 }
 
-MddBuilder::Outcome MddBuilder::Workspace::build(FreeGoals& goals,
+MddBuilder::Outcome MddBuilder::Workspace::build(SequenceStages& goals,
                                                  std::span<const Constraint> constraints, Time cost,
                                                  std::size_t most_nodes, const Limits& limits,
                                                  Mdd& paths) {
@@ -209,7 +209,7 @@ void MddBuilder::Workspace::start() {
   const State state = goals_->stops().start();
   const StageId stage = goals_->first_stage();
   const int slot = intervals_.start_slot(state);
-  if (slot < 0 || stage == FreeGoals::kOutside) return;
+  if (slot < 0 || stage == SequenceStages::kOutside) return;
   goals_->on_arrival(stage, state, [&](StageId then) { reach(kNoLabel, slot, then, 0); });
 }
 

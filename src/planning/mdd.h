@@ -10,7 +10,7 @@
 
 #include "model/limits.h"
 #include "planning/constraint.h"
-#include "planning/free_goals.h"
+#include "planning/sequence_stages.h"
 
 namespace grove::detail {
 
@@ -80,7 +80,7 @@ class MddBuilder {
   // come to rest exactly at `cost`: with the least cost there is, all optimal paths. Widens the
   // completions of `goals` as needed. `paths` is empty after all outcomes but kBuilt. Throws
   // std::invalid_argument for a constraint that does not fit the grid.
-  Outcome build(FreeGoals& goals, std::span<const Constraint> constraints, Time cost,
+  Outcome build(SequenceStages& goals, std::span<const Constraint> constraints, Time cost,
                 std::size_t most_nodes, const Limits& limits, Mdd& paths);
 
   // How much was done so far: nodes made, and (slot, stage) pairs looked at for them.

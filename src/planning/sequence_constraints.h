@@ -5,7 +5,7 @@
 #include <span>
 
 #include "planning/constraint.h"
-#include "planning/free_goals.h"
+#include "planning/sequence_stages.h"
 
 namespace grove::detail {
 

@@ -35,12 +35,12 @@ void StopDominance::begin_search() {
 }
 
 // One gate is kept per way: the one that puts off furthest.
-void StopDominance::close(const FreeGoals& goals, StageId from, State state, Time time,
+void StopDominance::close(const SequenceStages& goals, StageId from, State state, Time time,
                           Time until) {
   const AgentStops& stops = goals.stops();
   const int stop = stops.stop_at(state);
   const auto ways = goals.onward(goals.stage(from));
-  const auto of_stop = [&](const FreeGoals::Onward& way) {
+  const auto of_stop = [&](const SequenceStages::Onward& way) {
     return way.port / stops.ports() == stop;
   };
   if (std::ranges::none_of(ways, of_stop)) return;
@@ -59,11 +59,11 @@ void StopDominance::close(const FreeGoals& goals, StageId from, State state, Tim
   }
 }
 
-Time StopDominance::least_cost(const FreeGoals& goals, StageId stage, State state,
+Time StopDominance::least_cost(const SequenceStages& goals, StageId stage, State state,
                                Time time) const {
   const Gate* gate = &gates_[static_cast<std::size_t>(by_stage_[stage])];
   Time least = kNever;
-  for (const FreeGoals::Onward& way : goals.onward(goals.stage(stage))) {
+  for (const SequenceStages::Onward& way : goals.onward(goals.stage(stage))) {
     const Time there = time + goals.stops().to_port(state, way.port);
     const Time visit = there >= gate->from ? std::max(there, gate->until) : there;
     if (visit < kNever) least = std::min(least, visit + way.cost);

@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "model/plan.h"
-#include "planning/free_goals.h"
+#include "planning/sequence_stages.h"
 
 namespace grove::detail {
 
-// The gates of one search, by state and onward way (FreeGoals::onward). What a gate is, and why it
-// loses no path: gates.cpp.
+// The gates of one search, by state and onward way (SequenceStages::onward). What a gate is, and
+// why it loses no path: gates.cpp.
 class StopDominance {
  public:
-  using StageId = FreeGoals::StageId;
+  using StageId = SequenceStages::StageId;
 
   // Opens all.
   void begin_search();
@@ -23,7 +23,7 @@ class StopDominance {
   // A label in the stage after `from` was expanded in `state`, on a stop just counted at `time`.
   // Whoever comes to that stop earlier than `until` could be where it is; kNever: whoever comes at
   // all.
-  void close(const FreeGoals& goals, StageId from, State state, Time time, Time until);
+  void close(const SequenceStages& goals, StageId from, State state, Time time, Time until);
 
   // Is any way on from this state closed?
   bool any(StageId stage) const {
@@ -31,7 +31,7 @@ class StopDominance {
   }
   // What a path from here on costs that is of use: the least f of the ways on, each with the visit
   // of its stop put off as its gate says; kNever or more: none is. There must be any().
-  Time least_cost(const FreeGoals& goals, StageId stage, State state, Time time) const;
+  Time least_cost(const SequenceStages& goals, StageId stage, State state, Time time) const;
 
  private:
   // A label that reaches the stop at `from` or later need not be looked at for the sake of this

@@ -6,8 +6,8 @@
 
 #include "model/limits.h"
 #include "planning/bucket_queue.h"
-#include "planning/free_goals.h"
 #include "planning/safe_intervals.h"
+#include "planning/sequence_stages.h"
 
 namespace grove::detail {
 

@@ -23,9 +23,9 @@ Router::Router(const Problem& problem, AgentStopsStore& stops)
       goals_(problem.instance.agent_count()),
       own_paths_(problem.instance.agent_count()) {}
 
-FreeGoals& Router::goals(AgentIndex agent) {
+SequenceStages& Router::goals(AgentIndex agent) {
   auto& goals = goals_[agent];
-  if (!goals) goals = std::make_unique<FreeGoals>(stops_.of(agent), SequenceClass());
+  if (!goals) goals = std::make_unique<SequenceStages>(stops_.of(agent), SequenceClass());
   return *goals;
 }
 
@@ -50,7 +50,7 @@ bool Router::follow_good_sequence(AgentIndex agent, const Limits& limits) {
   AgentStops& stops = stops_.of(agent);
   const CostMatrix& matrix = stops.cost_to_go().matrix();
   in_order_[agent] = std::make_unique<CostToGo>(CostToGo::in_order(matrix, good_sequence(matrix)));
-  goals_[agent] = std::make_unique<FreeGoals>(stops, SequenceClass(), *in_order_[agent]);
+  goals_[agent] = std::make_unique<SequenceStages>(stops, SequenceClass(), *in_order_[agent]);
   ++calls_;
   const PathQuery query{.known_sequences = true};
   return low_level_.find(goals(agent), query, limits, own_paths_[agent]) == PathOutcome::kFound;

@@ -62,7 +62,7 @@ class Router {
   }
 
  private:
-  FreeGoals& goals(AgentIndex agent);
+  SequenceStages& goals(AgentIndex agent);
   bool follow_good_sequence(AgentIndex agent, const Limits& limits);
 
   const Problem& problem_;
@@ -70,7 +70,7 @@ class Router {
   FreeOrderSipp low_level_;
   // By AgentIndex. Of an agent that follows a good sequence: its completions.
   std::vector<std::unique_ptr<CostToGo>> in_order_;
-  std::vector<std::unique_ptr<FreeGoals>> goals_;
+  std::vector<std::unique_ptr<SequenceStages>> goals_;
   std::vector<Path> own_paths_;  // by AgentIndex
   std::int64_t calls_ = 0;
   std::shared_ptr<const PriceList> prices_;

@@ -30,7 +30,7 @@ PathOutcome PathPlanner::find(AgentIndex agent, const AgentOrder& order, PathQue
                               const Limits& limits, Path& path) {
   ++calls_;
   if (order.goals) return fixed_.find(*order.goals, query, limits, path);
-  FreeGoals& goals = free_goals(agent, order, query.constraints);
+  SequenceStages& goals = free_goals(agent, order, query.constraints);
   query.constraints = on_path(query.constraints);
   return free_->find(goals, query, limits, path);
 }
@@ -60,7 +60,7 @@ Sequence PathPlanner::sequence(AgentIndex agent, const AgentOrder& order, Constr
 std::optional<Split> PathPlanner::sequence_split(AgentIndex agent, const AgentOrder& order,
                                                  Constraints constraints, const Path& path) {
   if (order.goals) return std::nullopt;
-  const FreeGoals& goals = free_goals(agent, order, constraints);
+  const SequenceStages& goals = free_goals(agent, order, constraints);
   const SequenceClass& work = goals.sequence_class();
   if (!leaves_choice(goals.stops(), work)) return std::nullopt;
   return grove::detail::sequence_split(agent, goals.stops(), work, realized_sequence(goals, path));
@@ -74,14 +74,14 @@ PathPlanner::Constraints PathPlanner::on_path(Constraints constraints) {
   return on_path_;
 }
 
-FreeGoals& PathPlanner::free_goals(AgentIndex agent, const AgentOrder& order,
-                                   Constraints constraints) {
+SequenceStages& PathPlanner::free_goals(AgentIndex agent, const AgentOrder& order,
+                                        Constraints constraints) {
   if (std::ranges::none_of(constraints, is_about_sequence))
     return free_goals(agent, order.sequences);
   return free_goals(agent, narrowed(order.sequences, stops_.of(agent), constraints));
 }
 
-FreeGoals& PathPlanner::free_goals(AgentIndex agent, const SequenceClass& work) {
+SequenceStages& PathPlanner::free_goals(AgentIndex agent, const SequenceClass& work) {
   auto& kept = free_goals_[agent];
   const auto known = std::ranges::find_if(
       kept, [&](const auto& goals) { return goals->sequence_class() == work; });
@@ -89,7 +89,7 @@ FreeGoals& PathPlanner::free_goals(AgentIndex agent, const SequenceClass& work) 
     std::rotate(kept.begin(), known, known + 1);
   } else {
     if (kept.size() == kMostClassesKept) kept.pop_back();
-    kept.insert(kept.begin(), std::make_unique<FreeGoals>(stops_.of(agent), work));
+    kept.insert(kept.begin(), std::make_unique<SequenceStages>(stops_.of(agent), work));
   }
   if (repeatable_) kept.front()->cost_to_go().reset();
   return *kept.front();

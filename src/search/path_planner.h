@@ -65,8 +65,8 @@ class PathPlanner {
  private:
   using Constraints = std::span<const Constraint>;
 
-  FreeGoals& free_goals(AgentIndex agent, const AgentOrder& order, Constraints constraints);
-  FreeGoals& free_goals(AgentIndex agent, const SequenceClass& work);
+  SequenceStages& free_goals(AgentIndex agent, const AgentOrder& order, Constraints constraints);
+  SequenceStages& free_goals(AgentIndex agent, const SequenceClass& work);
   Constraints on_path(Constraints constraints);
 
   std::int64_t calls_ = 0;
@@ -76,7 +76,7 @@ class PathPlanner {
   TimedGraphs timed_;
   AgentStopsStore& stops_;
   bool repeatable_;
-  std::vector<std::vector<std::unique_ptr<FreeGoals>>>
+  std::vector<std::vector<std::unique_ptr<SequenceStages>>>
       free_goals_;  // by AgentIndex: of the classes asked for last, the last of all in front
   std::vector<Constraint> on_path_;
 };

@@ -32,7 +32,7 @@ NodePtr SingleTree::next_root() {
   std::vector<std::shared_ptr<const AgentOrder>> orders;
   Path path;
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent) {
-    FreeGoals goals(stops_.of(agent), SequenceClass());
+    SequenceStages goals(stops_.of(agent), SequenceClass());
     const PathOutcome outcome = planner_->find(goals, {.others = &others}, limits_, path);
     if (outcome == PathOutcome::kStopped) return nullptr;
     if (outcome != PathOutcome::kFound)

@@ -101,7 +101,7 @@ AgentOrder Trees::made(AgentIndex agent, const TreeRecord::Order& record) {
   GoalSequence goals = goals_in_order(
       problem_, agent,
       record.fixed ? record.sequences.prefix
-                   : realized_sequence(FreeGoals(stops_.of(agent), record.sequences), path));
+                   : realized_sequence(SequenceStages(stops_.of(agent), record.sequences), path));
   require(visits_in_turn(path, goals), "a tree's path must visit its agent's stops in order");
   require(static_cast<Time>(record.steps) == least_cost(goals, record.steps),
           "a tree's path must be shortest in its order of stops");

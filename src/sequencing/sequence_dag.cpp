@@ -30,17 +30,16 @@
 // visits it. So with direct legs (direct_legs.h) the graph holds what agents can do instead of all
 // sequences. Definitions: a path of a class *counts* a stop when it is first on its place (or has
 // completed its work there), once the prefix and the first free stop are counted; so it realizes a
-// sequence of the class (planning/free_goals.cpp). c(S, v, w) is the least sum of direct legs from
-// v over stops outside S to w.
-// *Claim: a path from v to w that counts none of S between costs at least c(S, v, w).* Its places
-// of plain stops, in their order, are all outside S, and cut it into ways that pass no other plain
-// stop; each costs at least its direct leg.
-// So with c(S, v, w) for the cost of going on to w, g of a state is at most what a path pays that
-// comes there, and the invariant holds for paths: every state of a path that costs <= reach is
-// kept, and beyond() bounds all paths with a state outside. b stays a bound, for no direct leg
-// costs less than the matrix has. Legs of the prefix, and the one to the first free stop, may pass
-// anything: they cost what the matrix has. The graph is then of this class alone: another prefix
-// reaches states that no path of this class can.
+// sequence of the class (planning/sequence_stages.cpp). c(S, v, w) is the least sum of direct legs
+// from v over stops outside S to w. *Claim: a path from v to w that counts none of S between costs
+// at least c(S, v, w).* Its places of plain stops, in their order, are all outside S, and cut it
+// into ways that pass no other plain stop; each costs at least its direct leg. So with c(S, v, w)
+// for the cost of going on to w, g of a state is at most what a path pays that comes there, and the
+// invariant holds for paths: every state of a path that costs <= reach is kept, and beyond() bounds
+// all paths with a state outside. b stays a bound, for no direct leg costs less than the matrix
+// has. Legs of the prefix, and the one to the first free stop, may pass anything: they cost what
+// the matrix has. The graph is then of this class alone: another prefix reaches states that no path
+// of this class can.
 //
 // *Passed stops.* Where sequences alone matter, and of these a cheapest member of one class, the
 // graph holds its canonical sequences (passed_stops.cpp): the invariant and beyond() are of these,

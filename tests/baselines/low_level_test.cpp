@@ -31,7 +31,7 @@ class Baselines : public ::testing::TestWithParam<LowLevel> {
             const Limits& limits = Limits()) {
     const DistanceFields distances(instance);
     AgentStops stops(instance, distances, 0);
-    FreeGoals goals(stops, {});
+    SequenceStages goals(stops, {});
     const auto search = make_agent_planner(GetParam(), instance.grid());
     const Outcome outcome = search->find(goals, {constraints}, limits, path_);
     if (outcome == Outcome::kInfeasible) return kNever;
@@ -75,8 +75,8 @@ TEST_P(Baselines, RefuseWhatTheyDoNotKnow) {
                std::invalid_argument);
   const DistanceFields distances(instance);
   AgentStops stops(instance, distances, 0);
-  FreeGoals all(stops, {});
-  FreeGoals some(stops, {.prefix = {}, .forbidden_next = 1});
+  SequenceStages all(stops, {});
+  SequenceStages some(stops, {.prefix = {}, .forbidden_next = 1});
   const ReservationTable none(instance.grid());
   const auto search = make_agent_planner(GetParam(), instance.grid());
   EXPECT_THROW(search->find(some, {}, Limits(), path_), std::invalid_argument);
@@ -87,7 +87,7 @@ TEST_P(Baselines, SayNothingWhenStopped) {
   const Instance instance = instance_of({".."}, {{{0, 0}, Position{1, 0}, {}}});
   const DistanceFields distances(instance);
   AgentStops stops(instance, distances, 0);
-  FreeGoals goals(stops, {});
+  SequenceStages goals(stops, {});
   const Limits limits;
   limits.stop(StopReason::kTime);
   const auto search = make_agent_planner(GetParam(), instance.grid());
@@ -103,7 +103,7 @@ TEST_P(Baselines, SayNothingWhenStoppedOnTheWay) {
   const Time truth = cost(instance, constraints);
   const DistanceFields distances(instance);
   AgentStops stops(instance, distances, 0);
-  FreeGoals goals(stops, {});
+  SequenceStages goals(stops, {});
   const auto search = make_agent_planner(GetParam(), instance.grid());
   const testing::LimitOfLooks whole(testing::kNoEnd);
   ASSERT_EQ(search->find(goals, {constraints}, whole, path_), Outcome::kFound);
@@ -137,7 +137,7 @@ TEST_P(Baselines, AgreeWithTheDefinition) {
     const Instance instance = testing::instance_of(problem);
     const DistanceFields distances(instance);
     AgentStops stops(instance, distances, 0);
-    FreeGoals goals(stops, {});
+    SequenceStages goals(stops, {});
     const auto search = make_agent_planner(GetParam(), grid);
     for (int n = problems.below(12); n >= 0; --n) {
       const std::optional<Time> expected = testing::free_reference_cost(problem);
@@ -176,7 +176,7 @@ TEST_P(Baselines, AgreeWithGrovesOwn) {
     const Instance instance = instance_of(rows, {{{0, 6}, goal, tasks}});
     const DistanceFields distances(instance);
     AgentStops stops(instance, distances, 0);
-    FreeGoals goals(stops, {});
+    SequenceStages goals(stops, {});
     FreeOrderSipp own(instance.grid());
     const auto search = make_agent_planner(GetParam(), instance.grid());
     std::vector<Constraint> constraints;

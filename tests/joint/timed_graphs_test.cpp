@@ -38,7 +38,7 @@ class Fuzzer {
 
   AgentGraph graph(AgentIndex agent, const Demands& demands, Time most) {
     AgentStops stops(instance_, distances_, agent);
-    FreeGoals goals(stops, SequenceClass());
+    SequenceStages goals(stops, SequenceClass());
     AgentGraph graph;
     EXPECT_EQ(graphs_.make(goals, demands, most, kPlenty, Limits(), graph),
               TimedGraphs::Outcome::kMade);
@@ -173,7 +173,7 @@ TEST(TimedGraphs, AreNotMadeTooLarge) {
   Fuzzer fuzzer(2);
   const DistanceFields distances(fuzzer.instance());
   AgentStops stops(fuzzer.instance(), distances, 0);
-  FreeGoals goals(stops, SequenceClass());
+  SequenceStages goals(stops, SequenceClass());
   AgentGraph graph;
   TimedGraphs graphs(fuzzer.instance().world());
   EXPECT_EQ(graphs.make(goals, Demands(), 40, 10, Limits(), graph),

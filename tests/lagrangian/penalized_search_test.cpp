@@ -113,7 +113,7 @@ TEST(PenalizedSearch, FindsTheLeastPrice) {
     for (AgentIndex agent = 0; agent < known.instance.agent_count(); ++agent) {
       const auto graph = AgentGraph::make(known.instance, agent);
       if (!graph || graph->count() == 0) continue;
-      FreeGoals goals(known.stops.of(agent), SequenceClass{});
+      SequenceStages goals(known.stops.of(agent), SequenceClass{});
       ASSERT_LE(least_cost(goals, {}), graph->to_go(AgentGraph::start()));
       goals.cost_to_go().widen(kHorizon, {});
       const std::vector<Amount> on_finish = random_on_finish(random);
@@ -148,7 +148,7 @@ TEST(PenalizedSearch, ImprovesAPathAroundOthers) {
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
       const auto graph = AgentGraph::make(instance, agent);
       if (!graph || graph->count() == 0) continue;
-      FreeGoals goals(known.stops.of(agent), SequenceClass{});
+      SequenceStages goals(known.stops.of(agent), SequenceClass{});
       goals.cost_to_go().widen(kHorizon, {});
       const std::vector<Amount> on_finish = random_on_finish(random);
       const Time latest = random.below(20);
@@ -186,7 +186,7 @@ TEST(PenalizedSearch, IsNeverAboveWhereItIsCutShort) {
     penalise(penalties, random);
     PenalizedSearch search(penalties);
     for (AgentIndex agent = 0; agent < known.instance.agent_count(); ++agent) {
-      FreeGoals goals(known.stops.of(agent), SequenceClass{});
+      SequenceStages goals(known.stops.of(agent), SequenceClass{});
       if (least_cost(goals, {}) >= kNever) continue;
       const Price least =
           search.search(goals, {}, PenalizedSearch::kMostPrice, 1 << 20, {}, nullptr);

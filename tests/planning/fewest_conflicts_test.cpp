@@ -28,7 +28,7 @@ void expect_fewest(const Instance& instance, std::initializer_list<Time> costs) 
   const Grid& grid = instance.grid();
   const DistanceFields distances(instance);
   AgentStops stops(instance, distances, 0);
-  FreeGoals goals(stops, {});
+  SequenceStages goals(stops, {});
   MddBuilder builder(grid);
   FewestConflicts search;
   std::mt19937 random(11);

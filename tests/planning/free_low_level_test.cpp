@@ -96,7 +96,7 @@ struct Agent : FreeAgent {
   }
 
   CostToGo direct;
-  FreeGoals direct_goals;
+  SequenceStages direct_goals;
   FreeOrderSipp free;
   FixedOrderSipp fixed;
   Path path;
@@ -468,7 +468,7 @@ TEST(FreeLowLevel, APathFoundWithoutAllLabelsIsNoAnswer) {
   FreeProblem problem{&grid, 2, {1, 4}, {}, {{0, 1}, 0}, {{4, kNoCell, 30, 30}}};
   Agent agent(problem);
   EXPECT_EQ(agent.cost(), 31);  // its three states have labels from now on
-  FreeGoals both(agent.stops, {});
+  SequenceStages both(agent.stops, {});
   const PathQuery query{problem.constraints};
   Limits limits;
   limits.set_memory_limit(resident_bytes() + (std::size_t{4} << 20));

@@ -10,7 +10,7 @@
 #include "model/instance.h"
 #include "model/plan.h"
 #include "planning/constraint.h"
-#include "planning/free_goals.h"
+#include "planning/sequence_stages.h"
 #include "sequencing/rtsp.h"
 
 namespace grove::detail::testing {
@@ -41,7 +41,7 @@ struct FreeAgent {
   Instance instance;
   DistanceFields distances;
   AgentStops stops;
-  FreeGoals goals;
+  SequenceStages goals;
 };
 
 // The cost of a cheapest path that realizes a sequence of the class, none if there is no path. An

@@ -119,7 +119,7 @@ class Crowd {
   void check() {
     const DistanceFields distances(instance_);
     AgentStops stops(instance_, distances, 0);
-    FreeGoals goals(stops, {});
+    SequenceStages goals(stops, {});
     FreeOrderSipp search(grid_);
     ReservationTable reservations(grid_);
     std::vector<Path> walks;
@@ -175,7 +175,7 @@ class Crowd {
     return path;
   }
 
-  void compare(FreeGoals& goals, FreeOrderSipp& search, const ReservationTable& reservations,
+  void compare(SequenceStages& goals, FreeOrderSipp& search, const ReservationTable& reservations,
                const std::vector<Path>& walks) {
     ++compared;
     std::vector<Constraint> constraints;
@@ -208,7 +208,7 @@ class Crowd {
     expect_valid(goals, path, walks);
   }
 
-  void expect_valid(const FreeGoals& goals, const Path& path, const std::vector<Path>& walks) {
+  void expect_valid(const SequenceStages& goals, const Path& path, const std::vector<Path>& walks) {
     EXPECT_EQ(path[0], goals.stops().start());
     EXPECT_NO_THROW(realized_sequence(goals, path));
     for (std::size_t t = 1; t < path.size(); ++t)
@@ -247,7 +247,7 @@ TEST(ReservationTable, AnEffortIsLimited) {
                            {{{0, 0}, Position{59, 2}, {{30, 0}, {2, 2}, {50, 1}, {20, 1}}}});
   const DistanceFields distances(instance);
   AgentStops stops(instance, distances, 0);
-  FreeGoals goals(stops, {});
+  SequenceStages goals(stops, {});
   ReservationTable reservations(instance.grid());
   Path late(300, 30);  // on a task for long
   late.push_back(31);

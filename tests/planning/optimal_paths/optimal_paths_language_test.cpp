@@ -235,7 +235,7 @@ class Fuzzer {
     const Instance instance = instance_of(problem_);
     const DistanceFields distances(instance);
     AgentStops stops(instance, distances, 0);
-    FreeGoals goals(stops, problem_.work);
+    SequenceStages goals(stops, problem_.work);
     MddBuilder builder(grid);
     FreeOrderSipp search(grid);
     for (int round = 0; round < 6; ++round) {
@@ -270,7 +270,7 @@ class Fuzzer {
     return choices[static_cast<std::size_t>(below(static_cast<int>(choices.size())))];
   }
 
-  void check(TimeExpanded& reference, MddBuilder& builder, FreeGoals& goals, Time cost) {
+  void check(TimeExpanded& reference, MddBuilder& builder, SequenceStages& goals, Time cost) {
     using Outcome = MddBuilder::Outcome;
     const auto useful = cost < 0 ? std::vector<std::set<Memory>>(1) : reference.nodes_of(cost);
     Mdd graph;
@@ -479,8 +479,8 @@ TEST(OptimalPathsLanguage, IsWholeWhereTheSequenceGraphIsBounded) {
       AgentStops wide(instance, distances, 0);
       ASSERT_TRUE(wide.cost_to_go().widen(cost + 4, Limits()));
       Mdd graphs[2];
-      FreeGoals few(narrow, {});
-      FreeGoals all(wide, {});
+      SequenceStages few(narrow, {});
+      SequenceStages all(wide, {});
       const auto of_few = builder.build(few, {}, cost, kPlenty, Limits(), graphs[0]);
       ASSERT_EQ(of_few, builder.build(all, {}, cost, kPlenty, Limits(), graphs[1])) << cost;
       ASSERT_TRUE(cells_of(graphs[0]) == cells_of(graphs[1])) << cost;
@@ -499,7 +499,7 @@ TEST(OptimalPathsLanguage, WidensTheCompletionsThatItsStatesAreMadeOf) {
   const DistanceFields distances(instance);
   AgentStops stops(instance, distances, 0);
   CostToGo others(stops.cost_to_go().matrix());
-  FreeGoals goals(stops, {}, others);
+  SequenceStages goals(stops, {}, others);
   Mdd graph;
   EXPECT_EQ(MddBuilder(grid).build(goals, {}, 4, kPlenty, Limits(), graph),
             MddBuilder::Outcome::kBuilt);
@@ -513,7 +513,7 @@ TEST(OptimalPathsLanguage, IsWholeOrNotThereWhenALimitStrikes) {
   const Instance instance = instance_of(problem);
   const DistanceFields distances(instance);
   AgentStops stops(instance, distances, 0);
-  FreeGoals goals(stops, {});
+  SequenceStages goals(stops, {});
   Path path;
   FreeOrderSipp search(grid);
   ASSERT_EQ(search.find(goals, {}, Limits(), path), PathOutcome::kFound);

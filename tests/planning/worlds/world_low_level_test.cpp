@@ -115,7 +115,7 @@ class Fuzzer {
     agent_ = agent;
     work_ = work;
     CostToGo cost_to_go = completions_of(stops, work);
-    FreeGoals goals(stops, work, cost_to_go);
+    SequenceStages goals(stops, work, cost_to_go);
     constraints_.clear();
     Path path;
     for (int n = below(14); n >= 0; --n) {
@@ -158,7 +158,7 @@ class Fuzzer {
             begin + below(8), ConstraintKind::kNoTraversal};
   }
 
-  bool check(AgentIndex agent, FreeGoals& goals, const SequenceClass& work, Path& path) {
+  bool check(AgentIndex agent, SequenceStages& goals, const SequenceClass& work, Path& path) {
     ++cases;
     ++by_world[world_of(agent)];
     const auto expected = world_reference_cost(instance_, agent, work, constraints_);
@@ -196,7 +196,8 @@ class Fuzzer {
     }
   }
 
-  void check_free(AgentIndex agent, FreeGoals& goals, std::optional<Time> expected, Path& path) {
+  void check_free(AgentIndex agent, SequenceStages& goals, std::optional<Time> expected,
+                  Path& path) {
     PathQuery query{constraints_};
     const PathOutcome outcome = free_.find(goals, query, Limits(), path);
     ASSERT_EQ(outcome, expected ? PathOutcome::kFound : PathOutcome::kInfeasible) << text();
@@ -224,7 +225,7 @@ class Fuzzer {
   }
 
   // All of that cost, and none of less.
-  void check_optimal_paths(AgentIndex agent, FreeGoals& goals, Time cost) {
+  void check_optimal_paths(AgentIndex agent, SequenceStages& goals, Time cost) {
     using Outcome = MddBuilder::Outcome;
     Mdd paths;
     constexpr std::size_t kPlenty = 1 << 20;

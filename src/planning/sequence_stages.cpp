@@ -43,7 +43,7 @@
 // within a turn; they have no ports): so a path that counts u pays at least dist(state, port) +
 // onward(port) for the port that it is in then. A port does not rule out another of a stop that
 // takes time: who is at work there in one heading would have to begin anew in the other.
-#include "planning/free_goals.h"
+#include "planning/sequence_stages.h"
 
 #include <algorithm>
 #include <bit>
@@ -164,7 +164,7 @@ Time AgentStops::turn(State state, int port) const {
   return std::min(quarters, ports_ - quarters) * turn_steps_;
 }
 
-FreeGoals::FreeGoals(AgentStops& stops, SequenceClass work)
+SequenceStages::SequenceStages(AgentStops& stops, SequenceClass work)
     : stops_(stops),
       completions_(&stops.cost_to_go()),
       class_(std::move(work)),
@@ -177,20 +177,20 @@ FreeGoals::FreeGoals(AgentStops& stops, SequenceClass work)
   if (own_) completions_ = &*own_;
 }
 
-FreeGoals::FreeGoals(AgentStops& stops, SequenceClass work, CostToGo& cost_to_go)
-    : FreeGoals(stops, std::move(work)) {
+SequenceStages::SequenceStages(AgentStops& stops, SequenceClass work, CostToGo& cost_to_go)
+    : SequenceStages(stops, std::move(work)) {
   own_.reset();
   completions_ = &cost_to_go;
 }
 
-bool FreeGoals::plausible() const {
+bool SequenceStages::plausible() const {
   if (free_ != 0 && first_free_ == 0) return false;
   for (int stop = 0; stop < stops_.count(); ++stop)
     if (stops_.distance(stops_.start(), stop) >= kNever) return false;
   return stops_.rests_on_last_stop() || stops_.to_rest(stops_.start()) < kNever;
 }
 
-FreeGoals::StageId FreeGoals::first_stage() {
+SequenceStages::StageId SequenceStages::first_stage() {
   if (built_beyond_ == completions_->beyond()) return first_stage_;
   built_beyond_ = completions_->beyond();
   stages_.clear();
@@ -201,7 +201,7 @@ FreeGoals::StageId FreeGoals::first_stage() {
   return first_stage_ = make_stage(stops_.all(), rests);
 }
 
-Time FreeGoals::to_rest(const Stage& stage, State state) const {
+Time SequenceStages::to_rest(const Stage& stage, State state) const {
   if (!stops_.rests_on_last_stop()) return stops_.to_rest(state);
   Time best = kNever;
   for (StopSet rests = stage.rests; rests != 0; rests &= rests - 1)
@@ -210,19 +210,19 @@ Time FreeGoals::to_rest(const Stage& stage, State state) const {
 }
 
 // Those of `left` that may be counted next.
-StopSet FreeGoals::next_of(StopSet left) const {
+StopSet SequenceStages::next_of(StopSet left) const {
   for (Stop stop : class_.prefix)
     if (holds(left, stop)) return bit(stop);
   return left == free_ ? first_free_ : left;
 }
 
-StopSet FreeGoals::rests_after(const Stage& stage, int stop) const {
+StopSet SequenceStages::rests_after(const Stage& stage, int stop) const {
   const bool first = rest_is_not_first_ && stage.left == free_;
   return first ? stage.rests & ~bit(stop) : stage.rests;
 }
 
 // From each port of the next stop through the other stops of `left` to the end.
-FreeGoals::PortCosts FreeGoals::onward_costs(StopSet left, int stop) const {
+SequenceStages::PortCosts SequenceStages::onward_costs(StopSet left, int stop) const {
   const int ports = stops_.ports();
   const int first = stop * ports;
   left &= ~bit(stop);
@@ -246,14 +246,14 @@ FreeGoals::PortCosts FreeGoals::onward_costs(StopSet left, int stop) const {
   return costs;
 }
 
-FreeGoals::StageId FreeGoals::make_after(StageId id, int stop) {
+SequenceStages::StageId SequenceStages::make_after(StageId id, int stop) {
   const Stage from = stages_[id];
   const StageId to = make_stage(from.left & ~bit(stop), rests_after(from, stop));
   after_[static_cast<std::size_t>(id) * stride_ + static_cast<std::size_t>(stop)] = to;
   return to;
 }
 
-FreeGoals::StageId FreeGoals::make_stage(StopSet left, StopSet rests) {
+SequenceStages::StageId SequenceStages::make_stage(StopSet left, StopSet rests) {
   const StopSet barred = rest_is_not_first_ ? free_ & ~rests : 0;
   StopSetIndex& index = index_[barred == 0 ? 0 : 1 + std::countr_zero(barred)];
   if (const std::uint32_t known = index.find(left); known != StopSetIndex::kAbsent)
@@ -270,7 +270,7 @@ FreeGoals::StageId FreeGoals::make_stage(StopSet left, StopSet rests) {
   return id;
 }
 
-void FreeGoals::add_onward(Stage& stage) {
+void SequenceStages::add_onward(Stage& stage) {
   stage.first = static_cast<std::int32_t>(onward_.size());
   const int ports = stops_.ports();
   for (StopSet next = stage.next; next != 0; next &= next - 1) {
@@ -296,7 +296,7 @@ void FreeGoals::add_onward(Stage& stage) {
   std::ranges::copy(sorted, ways);
 }
 
-Sequence realized_sequence(const FreeGoals& goals, const Path& path) {
+Sequence realized_sequence(const SequenceStages& goals, const Path& path) {
   const AgentStops& stops = goals.stops();
   const SequenceClass& work = goals.sequence_class();
   const auto next_in_class = [&](const Sequence& so_far, int stop) {

@@ -20,8 +20,8 @@
 
 namespace grove::detail {
 
-// One agent's stops, with all that does not depend on the class: shared by its FreeGoals. Copies
-// share what does not change; a copy may go to another thread.
+// One agent's stops, with all that does not depend on the class: shared by its SequenceStages.
+// Copies share what does not change; a copy may go to another thread.
 class AgentStops {
  public:
   static constexpr int kNoStop = -1;
@@ -108,8 +108,9 @@ class AgentStops {
 // The stages of one agent under one sequence class - how far it has come with its stops -, numbered
 // as the search comes upon them. A
 // path *realizes* a sequence if it is on its stops one after the other and, without a destination,
-// rests on the last one. For one thread; several FreeGoals may share their AgentStops within it.
-class FreeGoals {
+// rests on the last one. For one thread; several SequenceStages may share their AgentStops within
+// it.
+class SequenceStages {
  public:
   using StageId = std::int32_t;
   static constexpr StageId kOutside = -1;
@@ -132,10 +133,10 @@ class FreeGoals {
 
   // `stops` must outlive this. Throws std::invalid_argument for a prefix that repeats a stop or
   // names one that the agent does not have.
-  FreeGoals(AgentStops& stops, SequenceClass work);
+  SequenceStages(AgentStops& stops, SequenceClass work);
   // The same with other completions than those of `stops`, of this class and over as many stops.
   // They must outlive this.
-  FreeGoals(AgentStops& stops, SequenceClass work, CostToGo& cost_to_go);
+  SequenceStages(AgentStops& stops, SequenceClass work, CostToGo& cost_to_go);
 
   AgentStops& stops() { return stops_; }
   const AgentStops& stops() const { return stops_; }
@@ -239,6 +240,6 @@ class FreeGoals {
 
 // The sequence of the class that a path realizes: each stop counted as early as may be, without a
 // destination the one it rests on last. Throws std::invalid_argument if it realizes none.
-Sequence realized_sequence(const FreeGoals& goals, const Path& path);
+Sequence realized_sequence(const SequenceStages& goals, const Path& path);
 
 }  // namespace grove::detail
