@@ -74,7 +74,7 @@ class Search {
   NodePool pool_;
   SequenceForest forest_;
   Frontier frontier_;
-  AgentStopsStore stops_;
+  AgentStopsCache stops_;
   Expander expander_;
   Cost last_tree_cost_ = 0;
   std::int64_t generated_ = 0;

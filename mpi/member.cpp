@@ -9,7 +9,7 @@
 namespace grove::detail {
 
 Member::Member(const Problem& problem, const SolveOptions& options, const Limits& limits,
-               RunObserver& observer, Transport& transport, const AgentStopsStore& stops)
+               RunObserver& observer, Transport& transport, const AgentStopsCache& stops)
     : transport_(transport), rank_(problem, options, limits, transport, stops) {
   const Hierarchy hierarchy(transport.ranks(), options.tuning.coordinator_children);
   const int highest = hierarchy.highest_at(transport.rank());

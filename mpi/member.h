@@ -19,11 +19,11 @@ class Member {
  public:
   // All must outlive this, but for `stops`; see Rank. The observer hears of the run on rank 0.
   Member(const Problem& problem, const SolveOptions& options, const Limits& limits,
-         RunObserver& observer, Transport& transport, const AgentStopsStore& stops);
+         RunObserver& observer, Transport& transport, const AgentStopsCache& stops);
   Member(const Problem& problem, const SolveOptions& options, const Limits& limits,
          RunObserver& observer, Transport& transport)
       : Member(problem, options, limits, observer, transport,
-               AgentStopsStore(problem.instance, problem.distances)) {}
+               AgentStopsCache(problem.instance, problem.distances)) {}
 
   // Handles what has arrived and says what is new. `now` in seconds since the beginning. True if
   // anything had arrived.

@@ -42,7 +42,7 @@ message::Status first_status(int rank) {
 }  // namespace
 
 Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& limits,
-           Transport& transport, const AgentStopsStore& stops)
+           Transport& transport, const AgentStopsCache& stops)
     : problem_(problem),
       omega_(options.omega),
       limits_(limits),

@@ -19,7 +19,7 @@
 #include "mpi/messages.h"
 #include "mpi/superior.h"
 #include "mpi/transport.h"
-#include "planning/agent_stops_store.h"
+#include "planning/agent_stops_cache.h"
 #include "search/problem.h"
 #include "search/tree_record.h"
 
@@ -33,12 +33,12 @@ class Rank {
   // All must outlive this, but for `stops`, of which it makes a copy: what is known already of the
   // agents' stops.
   Rank(const Problem& problem, const SolveOptions& options, const Limits& limits,
-       Transport& transport, const AgentStopsStore& stops);
+       Transport& transport, const AgentStopsCache& stops);
 
   SharedSearch& search() { return search_; }
   const LocalNodes& nodes() const { return nodes_; }
   // For workers to begin with.
-  const AgentStopsStore& stops() const { return stops_; }
+  const AgentStopsCache& stops() const { return stops_; }
 
   // Something that a rank may be told. Throws std::invalid_argument for what cannot be.
   void handle(int from, message::Message&& message);
@@ -95,7 +95,7 @@ class Rank {
   const Hierarchy hierarchy_;
   Superior superior_;
   LocalNodes nodes_;
-  AgentStopsStore stops_;
+  AgentStopsCache stops_;
   Trees trees_;  // outlives all that holds nodes of them
   LedgerCopy ledger_;
   TreeSource elsewhere_;    // the coordinator brings trees,

@@ -121,7 +121,7 @@ void add_options(CLI::App& app, SimArguments& a) {
 // What the search for plans finds by itself.
 std::optional<Plan> find_plan(const Problem& problem, const SolveOptions& options,
                               const Limits& limits, std::int64_t steps) {
-  AgentStopsStore stops(problem.instance, problem.distances);
+  AgentStopsCache stops(problem.instance, problem.distances);
   PrimalSearch primal(problem, stops, options.seed, options.techniques, options.tuning);
   std::optional<Plan> best;
   for (std::int64_t i = 0; i < steps && !primal.optimal() && !limits.stop_requested(); ++i)

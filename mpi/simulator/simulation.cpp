@@ -61,7 +61,7 @@ struct Setting {
   RunObserver observer;
   Talk talk;
   SimulatedNetwork network;
-  AgentStopsStore stops;
+  AgentStopsCache stops;
   EqualSets sets;
 };
 

@@ -22,7 +22,7 @@ constexpr double kMostHere = 4;                    // of its own work to other w
 
 }  // namespace
 
-void LagrangianShare::open(const Instance& instance, const AgentStopsStore& stops,
+void LagrangianShare::open(const Instance& instance, const AgentStopsCache& stops,
                            bool keeps_reasons) {
   instance_ = &instance;
   keeps_reasons_ = keeps_reasons;
@@ -86,7 +86,7 @@ void LagrangianShare::perform(LagrangianBound::Job& job, Pricer& pricer, Cost cu
     bound_->perform(job, pricer, cutoff, known, limits);
 }
 
-Pricer LagrangianShare::pricer(const AgentStopsStore& stops) const {
+Pricer LagrangianShare::pricer(const AgentStopsCache& stops) const {
   return {helps_ ? help_->tariff() : bound_->tariff(), stops};
 }
 

@@ -25,7 +25,7 @@ class LagrangianShare {
   explicit LagrangianShare(const Tuning& tuning) : tuning_(tuning) {}
 
   // Before the search. `instance` must outlive this. `keeps_reasons`: for write_down().
-  void open(const Instance& instance, const AgentStopsStore& stops, bool keeps_reasons);
+  void open(const Instance& instance, const AgentStopsCache& stops, bool keeps_reasons);
 
   // So much was done beside it.
   void others_worked(std::int64_t work) { others_ += work; }
@@ -41,7 +41,7 @@ class LagrangianShare {
   Cost commit(LagrangianBound::Job job);
 
   // Of one who has a job.
-  Pricer pricer(const AgentStopsStore& stops) const;
+  Pricer pricer(const AgentStopsCache& stops) const;
   int rounds() const { return rounds_; }
   // After the search: why the bound holds.
   void write_down(ProofLog& proof) const;
@@ -71,7 +71,7 @@ class LagrangianShare {
 
   const Tuning& tuning_;
   const Instance* instance_ = nullptr;
-  std::optional<AgentStopsStore> stops_;
+  std::optional<AgentStopsCache> stops_;
   bool keeps_reasons_ = false;
   std::atomic<std::int64_t> others_{0};
   std::atomic<std::int64_t> own_{0};       // that of other ranks too

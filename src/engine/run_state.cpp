@@ -17,7 +17,7 @@ bool same_sequences(const Tree& a, const Tree& b) {
   return std::ranges::equal(a.orders, b.orders, {}, &AgentOrder::sequences, &AgentOrder::sequences);
 }
 
-std::unique_ptr<Forest> make_forest(const Problem& problem, AgentStopsStore& stops, NodePool& pool,
+std::unique_ptr<Forest> make_forest(const Problem& problem, AgentStopsCache& stops, NodePool& pool,
                                     const SolveOptions& options, const Limits& limits) {
   if (options.policy == Policy::kFixed)
     return std::make_unique<SequenceForest>(problem, pool, options.rtsp, limits);

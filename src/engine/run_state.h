@@ -14,7 +14,7 @@
 #include "engine/checkpoint.h"
 #include "engine/live_nodes.h"
 #include "engine/solve.h"
-#include "planning/agent_stops_store.h"
+#include "planning/agent_stops_cache.h"
 #include "search/forest.h"
 #include "search/tree_record.h"
 
@@ -34,7 +34,7 @@ class RunState {
   CentralTrees& trees() { return trees_; }
   Announcements& announcements() { return announcements_; }
   // What the first tree found out about the agents' stops, for workers to begin with.
-  const AgentStopsStore& stops() const { return stops_; }
+  const AgentStopsCache& stops() const { return stops_; }
 
   // Before all else: the plan to start from, and the first tree.
   void begin();
@@ -61,7 +61,7 @@ class RunState {
   const SolveOptions& options_;
   const Limits& limits_;
   LiveNodes& nodes_;
-  AgentStopsStore stops_;  // the forest's
+  AgentStopsCache stops_;  // the forest's
   const std::unique_ptr<Forest> forest_;
   Trees restored_trees_;
   Announcements announcements_;

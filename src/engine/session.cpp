@@ -147,7 +147,7 @@ std::optional<Plan> start_from(const Plan& plan, const std::vector<bool>& affect
   std::vector<Path> paths(affected.size());
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
     if (!affected[agent]) paths[agent] = walked_path(problem.instance, agent, plan.agents[agent]);
-  AgentStopsStore stops(problem.instance, problem.distances);
+  AgentStopsCache stops(problem.instance, problem.distances);
   return repaired(problem, stops, paths, options.seed, limits);
 }
 
@@ -313,7 +313,7 @@ class Session::Impl {
       return unknown(options, error.what());
     }
     const Kept later(std::move(rest->instance), limits, options.threads, &now);
-    AgentStopsStore stops(now.instance, now.problem.distances);
+    AgentStopsCache stops(now.instance, now.problem.distances);
     const Cost own_costs = sum_of_own_costs(now.problem, stops, limits);
     WholePlans plans(observer, now.instance, *old_, commit, later.instance, own_costs);
     Solution solution = solve_from(&rest->plan, affected, later.problem, options, limits, plans);

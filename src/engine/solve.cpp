@@ -32,7 +32,7 @@ bool begin(const Problem& problem, const SolveOptions& options, RunState& run, L
 class Workers {
  public:
   Workers(const Problem& problem, const SolveOptions& options, const Limits& limits,
-          SharedSearch& shared, const AgentStopsStore& stops)
+          SharedSearch& shared, const AgentStopsCache& stops)
       : options_(options), limits_(limits), shared_(shared) {
     const int count = options.deterministic ? kDeterministicWorkers : options.threads;
     for (int number = 0; number < count; ++number)

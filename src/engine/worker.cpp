@@ -39,7 +39,7 @@ void weigh(Worker::Turn& turn, Expander& by, const What& what) {
 }  // namespace
 
 Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits& limits,
-               SharedSearch& shared, const AgentStopsStore& stops, int number)
+               SharedSearch& shared, const AgentStopsCache& stops, int number)
     : problem_(problem),
       options_(options),
       limits_(limits),

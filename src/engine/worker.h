@@ -25,7 +25,7 @@ class Worker {
   // All must outlive this, but for `stops`, of which it makes a copy. `number` from 0; each number
   // looks for plans from another seed.
   Worker(const Problem& problem, const SolveOptions& options, const Limits& limits,
-         SharedSearch& shared, const AgentStopsStore& stops, int number);
+         SharedSearch& shared, const AgentStopsCache& stops, int number);
   ~Worker();
 
   // What is done at one go, and what became of it.
@@ -91,9 +91,9 @@ class Worker {
   const int number_;
   // Each with what it knows of the agents, for they may be in the hands of different threads. Made
   // when they are first due.
-  AgentStopsStore expander_stops_;
+  AgentStopsCache expander_stops_;
   std::unique_ptr<Expander> expander_;
-  AgentStopsStore primal_stops_;
+  AgentStopsCache primal_stops_;
   std::unique_ptr<PrimalSearch> primal_;
   const std::unique_ptr<PrimalShare> share_;
   const std::unique_ptr<JointShare> joint_;

@@ -15,7 +15,7 @@ constexpr std::size_t kBytesOfNode = 24;  // about, with the way to the next
 
 }  // namespace
 
-FinishPairs::FinishPairs(const World& world, AgentStopsStore& stops, Most most)
+FinishPairs::FinishPairs(const World& world, AgentStopsCache& stops, Most most)
     : world_(world), stops_(stops), most_(most), builder_(world), dependency_(world) {}
 FinishPairs::~FinishPairs() = default;
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "model/limits.h"
-#include "planning/agent_stops_store.h"
+#include "planning/agent_stops_cache.h"
 #include "planning/joint_mdd_search.h"
 #include "planning/mdd.h"
 
@@ -36,7 +36,7 @@ class FinishPairs {
   };
 
   // All must outlive this.
-  FinishPairs(const World& world, AgentStopsStore& stops, Most most);
+  FinishPairs(const World& world, AgentStopsCache& stops, Most most);
   ~FinishPairs();
 
   // Proven: no two paths without a collision finish by these times. Not found out: false.
@@ -64,7 +64,7 @@ class FinishPairs {
   OfAgent& of(AgentIndex agent, const Limits& limits);
 
   const World& world_;
-  AgentStopsStore& stops_;
+  AgentStopsCache& stops_;
   const Most most_;
   MddBuilder builder_;
   JointMddSearch dependency_;

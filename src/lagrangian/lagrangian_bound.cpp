@@ -42,7 +42,7 @@ constexpr double kLeastWay = 0.02 * Penalties::kUnit;  // nothing comes of a sho
 }  // namespace
 
 std::unique_ptr<LagrangianBound> LagrangianBound::make(const Instance& instance,
-                                                       const AgentStopsStore& stops,
+                                                       const AgentStopsCache& stops,
                                                        const Tuning& tuning) {
   const auto states = static_cast<std::size_t>(instance.world().state_count());
   for (const Agent& agent : instance.agents()) {
@@ -53,7 +53,7 @@ std::unique_ptr<LagrangianBound> LagrangianBound::make(const Instance& instance,
   return std::unique_ptr<LagrangianBound>(new LagrangianBound(instance, stops, tuning));
 }
 
-LagrangianBound::LagrangianBound(const Instance& instance, const AgentStopsStore& stops,
+LagrangianBound::LagrangianBound(const Instance& instance, const AgentStopsCache& stops,
                                  const Tuning& tuning)
     : instance_(instance),
       tuning_(tuning),

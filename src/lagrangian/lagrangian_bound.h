@@ -16,7 +16,7 @@
 #include "lagrangian/pricer.h"
 #include "lagrangian/relaxed_rows.h"
 #include "model/tuning.h"
-#include "planning/agent_stops_store.h"
+#include "planning/agent_stops_cache.h"
 
 namespace grove::detail {
 
@@ -29,7 +29,7 @@ class LagrangianBound {
   // None: not for this method, for an agent may have done too many things to keep a price for each.
   // Both must outlive it, but for `stops`, of which it makes a copy.
   static std::unique_ptr<LagrangianBound> make(const Instance& instance,
-                                               const AgentStopsStore& stops, const Tuning& tuning);
+                                               const AgentStopsCache& stops, const Tuning& tuning);
 
   // What is done at one go: the prices of some agents, or, if of none, a part of what follows in a
   // round.
@@ -74,7 +74,7 @@ class LagrangianBound {
  private:
   enum class Phase : std::uint8_t { kPricing, kBetween, kEnded };
 
-  LagrangianBound(const Instance& instance, const AgentStopsStore& stops, const Tuning& tuning);
+  LagrangianBound(const Instance& instance, const AgentStopsCache& stops, const Tuning& tuning);
   // To be asked of a helper: agents in a row.
   struct Cut {
     int helper;
@@ -104,7 +104,7 @@ class LagrangianBound {
 
   const Instance& instance_;
   const Tuning& tuning_;
-  AgentStopsStore stops_;  // of pairs_
+  AgentStopsCache stops_;  // of pairs_
   RelaxedRows rows_;
   Encounters encounters_;
   FinishPairs pairs_;

@@ -9,7 +9,7 @@
 #include "lagrangian/penalized_search.h"
 #include "lagrangian/tariff.h"
 #include "model/limits.h"
-#include "planning/agent_stops_store.h"
+#include "planning/agent_stops_cache.h"
 #include "planning/sequence_stages.h"
 
 namespace grove::detail {
@@ -31,7 +31,7 @@ struct PriceJob {
 class Pricer {
  public:
   // `tariff` must outlive this, and may change between jobs.
-  Pricer(const Tariff& tariff, const AgentStopsStore& stops)
+  Pricer(const Tariff& tariff, const AgentStopsCache& stops)
       : tariff_(tariff), stops_(stops), search_(tariff.penalties()) {}
 
   // Proven: under the tariff no path of an agent costs less than its price.
@@ -43,7 +43,7 @@ class Pricer {
   Price price_below(Price below, AgentIndex agent, const Limits& limits, Path& path);
 
   const Tariff& tariff_;
-  AgentStopsStore stops_;
+  AgentStopsCache stops_;
   PenalizedSearch search_;
   std::vector<std::unique_ptr<SequenceStages>> goals_;  // by agent
 };

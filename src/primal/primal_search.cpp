@@ -70,7 +70,7 @@ constexpr std::uint64_t kSeeds = std::uint64_t{1} << 32;
 
 class PrimalSearch::Impl {
  public:
-  Impl(const Problem& problem, AgentStopsStore& stops, std::uint64_t seed, Techniques techniques,
+  Impl(const Problem& problem, AgentStopsCache& stops, std::uint64_t seed, Techniques techniques,
        const Tuning& tuning)
       : problem_(problem),
         tuning_(tuning),
@@ -409,7 +409,7 @@ void PrimalSearch::Impl::put_all(const Plan& plan, PlanSource source) {
   begin_guiding(plan);
 }
 
-PrimalSearch::PrimalSearch(const Problem& problem, AgentStopsStore& stops, std::uint64_t seed,
+PrimalSearch::PrimalSearch(const Problem& problem, AgentStopsCache& stops, std::uint64_t seed,
                            Techniques techniques, const Tuning& tuning)
     : impl_(std::make_unique<Impl>(problem, stops, seed, techniques, tuning)) {}
 PrimalSearch::~PrimalSearch() = default;

@@ -10,7 +10,7 @@
 #include "model/limits.h"
 #include "model/plan.h"
 #include "model/tuning.h"
-#include "planning/agent_stops_store.h"
+#include "planning/agent_stops_cache.h"
 #include "primal/plan_source.h"
 #include "search/problem.h"
 #include "search/techniques.h"
@@ -34,7 +34,7 @@ class PrimalSearch {
   };
 
   // All must outlive this; `stops` may be shared with other searches of the same thread.
-  PrimalSearch(const Problem& problem, AgentStopsStore& stops, std::uint64_t seed,
+  PrimalSearch(const Problem& problem, AgentStopsCache& stops, std::uint64_t seed,
                Techniques techniques = Techniques::usual(), const Tuning& tuning = {});
   ~PrimalSearch();
 

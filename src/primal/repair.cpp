@@ -24,7 +24,7 @@ constexpr int kLatest = 8;                 // steps late that those are looked f
 
 class Repair {
  public:
-  Repair(const Problem& problem, AgentStopsStore& stops, std::uint64_t seed, const Limits& limits)
+  Repair(const Problem& problem, AgentStopsCache& stops, std::uint64_t seed, const Limits& limits)
       : problem_(problem),
         agents_(problem.instance.agent_count()),
         limits_(limits),
@@ -107,13 +107,13 @@ class Repair {
 
 }  // namespace
 
-std::optional<Plan> repaired(const Problem& problem, AgentStopsStore& stops,
+std::optional<Plan> repaired(const Problem& problem, AgentStopsCache& stops,
                              const std::vector<Path>& paths, std::uint64_t seed,
                              const Limits& limits) {
   return Repair(problem, stops, seed, limits).run(paths);
 }
 
-Cost sum_of_own_costs(const Problem& problem, AgentStopsStore& stops, const Limits& limits) {
+Cost sum_of_own_costs(const Problem& problem, AgentStopsCache& stops, const Limits& limits) {
   Router router(problem, stops);
   Cost sum = 0;
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)

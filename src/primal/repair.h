@@ -8,7 +8,7 @@
 
 #include "model/limits.h"
 #include "model/plan.h"
-#include "planning/agent_stops_store.h"
+#include "planning/agent_stops_cache.h"
 #include "search/problem.h"
 
 namespace grove::detail {
@@ -18,12 +18,12 @@ namespace grove::detail {
 // the way of what an agent would do alone give way and are planned anew themselves: as few agents
 // as need be get other paths. Proves nothing, and gives up after some tries: no plan, as when a
 // limit strikes. The same seed makes the same plan, limits aside.
-std::optional<Plan> repaired(const Problem& problem, AgentStopsStore& stops,
+std::optional<Plan> repaired(const Problem& problem, AgentStopsCache& stops,
                              const std::vector<Path>& paths, std::uint64_t seed,
                              const Limits& limits);
 
 // What the agents would cost if each were alone: no plan costs less. Of those met before a limit
 // strikes, the others counting nothing.
-Cost sum_of_own_costs(const Problem& problem, AgentStopsStore& stops, const Limits& limits);
+Cost sum_of_own_costs(const Problem& problem, AgentStopsCache& stops, const Limits& limits);
 
 }  // namespace grove::detail

@@ -15,7 +15,7 @@ constexpr std::int64_t kMostPricedLabels = 1 << 18;
 
 }  // namespace
 
-Router::Router(const Problem& problem, AgentStopsStore& stops)
+Router::Router(const Problem& problem, AgentStopsCache& stops)
     : problem_(problem),
       stops_(stops),
       low_level_(problem.instance.world()),

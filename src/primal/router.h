@@ -9,7 +9,7 @@
 
 #include "lagrangian/price_list.h"
 #include "lagrangian/pricer.h"
-#include "planning/agent_stops_store.h"
+#include "planning/agent_stops_cache.h"
 #include "planning/free_order_sipp.h"
 #include "search/problem.h"
 #include "search/work.h"
@@ -20,7 +20,7 @@ namespace grove::detail {
 class Router {
  public:
   // Both must outlive this.
-  Router(const Problem& problem, AgentStopsStore& stops);
+  Router(const Problem& problem, AgentStopsCache& stops);
 
   // Finds the agent's best path without other agents, or a good one if its sequences are too
   // many to tell; to be called for an agent before any other question about it. Returns false if a
@@ -66,7 +66,7 @@ class Router {
   bool follow_good_sequence(AgentIndex agent, const Limits& limits);
 
   const Problem& problem_;
-  AgentStopsStore& stops_;
+  AgentStopsCache& stops_;
   FreeOrderSipp low_level_;
   // By AgentIndex. Of an agent that follows a good sequence: its completions.
   std::vector<std::unique_ptr<CostToGo>> in_order_;

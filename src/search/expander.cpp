@@ -43,7 +43,7 @@ struct Expander::Leaving {
   }
 };
 
-Expander::Expander(const Problem& problem, AgentStopsStore& stops, const SearchOptions& options,
+Expander::Expander(const Problem& problem, AgentStopsCache& stops, const SearchOptions& options,
                    std::shared_ptr<CommonMemory> memory, std::unique_ptr<AgentPlanner> planner)
     : problem_(problem),
       techniques_(options.techniques),

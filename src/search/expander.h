@@ -67,7 +67,7 @@ class Expander {
  public:
   // `problem` and `stops` must outlive the expander; `stops` may be shared with others of the same
   // thread. `planner` plans agents whose order is open; null: Grove's own low level.
-  Expander(const Problem& problem, AgentStopsStore& stops, const SearchOptions& options,
+  Expander(const Problem& problem, AgentStopsCache& stops, const SearchOptions& options,
            std::shared_ptr<CommonMemory> memory = std::make_shared<CommonMemory>(),
            std::unique_ptr<AgentPlanner> planner = nullptr);
 

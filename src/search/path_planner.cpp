@@ -16,7 +16,7 @@ constexpr std::size_t kMostClassesKept = 4;  // of an agent, with their states
 
 }  // namespace
 
-PathPlanner::PathPlanner(const Problem& problem, AgentStopsStore& stops,
+PathPlanner::PathPlanner(const Problem& problem, AgentStopsCache& stops,
                          std::unique_ptr<AgentPlanner> free, bool repeatable)
     : fixed_(problem.instance.world()),
       free_(free ? std::move(free) : std::make_unique<FreeOrderSipp>(problem.instance.world())),

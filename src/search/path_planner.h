@@ -10,7 +10,7 @@
 
 #include "joint/timed_graphs.h"
 #include "planning/agent_planner.h"
-#include "planning/agent_stops_store.h"
+#include "planning/agent_stops_cache.h"
 #include "planning/fixed_order_sipp.h"
 #include "planning/mdd.h"
 #include "search/node.h"
@@ -25,7 +25,7 @@ class PathPlanner {
   // `problem` and `stops` must outlive this; `stops` may be shared with others of the same thread.
   // `free` plans where the order is open; null: Grove's own low level. `repeatable`: the labels
   // that a call expands do not depend on the calls before.
-  PathPlanner(const Problem& problem, AgentStopsStore& stops,
+  PathPlanner(const Problem& problem, AgentStopsCache& stops,
               std::unique_ptr<AgentPlanner> free = nullptr, bool repeatable = false);
 
   // As AgentPlanner::find, with the agent's constraints of all kinds in the query.
@@ -74,7 +74,7 @@ class PathPlanner {
   std::unique_ptr<AgentPlanner> free_;
   MddBuilder optimal_;
   TimedGraphs timed_;
-  AgentStopsStore& stops_;
+  AgentStopsCache& stops_;
   bool repeatable_;
   std::vector<std::vector<std::unique_ptr<SequenceStages>>>
       free_goals_;  // by AgentIndex: of the classes asked for last, the last of all in front

@@ -12,7 +12,7 @@
 
 namespace grove::detail {
 
-SingleTree::SingleTree(const Problem& problem, AgentStopsStore& stops, NodePool& pool,
+SingleTree::SingleTree(const Problem& problem, AgentStopsCache& stops, NodePool& pool,
                        const Limits& limits, std::unique_ptr<AgentPlanner> planner)
     : problem_(problem),
       stops_(stops),

@@ -8,7 +8,7 @@
 
 #include "model/limits.h"
 #include "planning/agent_planner.h"
-#include "planning/agent_stops_store.h"
+#include "planning/agent_stops_cache.h"
 #include "search/forest.h"
 
 namespace grove::detail {
@@ -19,7 +19,7 @@ class SingleTree : public Forest {
  public:
   // All must outlive this; `stops` may be shared with others of the same thread. `planner` plans
   // the root's paths; null: Grove's own low level.
-  SingleTree(const Problem& problem, AgentStopsStore& stops, NodePool& pool, const Limits& limits,
+  SingleTree(const Problem& problem, AgentStopsCache& stops, NodePool& pool, const Limits& limits,
              std::unique_ptr<AgentPlanner> planner = nullptr);
 
   Cost next_bound() const override { return tree_.empty() ? relaxed_bound_ : kInfiniteCost; }
@@ -28,7 +28,7 @@ class SingleTree : public Forest {
 
  private:
   const Problem& problem_;
-  AgentStopsStore& stops_;
+  AgentStopsCache& stops_;
   NodePool& pool_;
   const Limits& limits_;
   std::unique_ptr<AgentPlanner> planner_;  // until there is a root

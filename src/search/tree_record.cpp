@@ -58,7 +58,7 @@ TreeRecord record_of(const Tree& tree) {
   return record;
 }
 
-Trees::Trees(const Problem& problem, AgentStopsStore& stops, NodePool& pool)
+Trees::Trees(const Problem& problem, AgentStopsCache& stops, NodePool& pool)
     : problem_(problem), stops_(stops), pool_(pool), orders_(problem.instance.agent_count()) {}
 
 NodePtr Trees::add(const TreeRecord& record, std::uint32_t number) {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "planning/agent_stops_store.h"
+#include "planning/agent_stops_cache.h"
 #include "search/node.h"
 
 namespace grove::detail {
@@ -37,7 +37,7 @@ class Trees {
  public:
   // All must outlive this; `stops` may be shared with others of the same thread, and is asked for
   // agents whose order is not fixed. Nodes of these trees will live in `pool`.
-  Trees(const Problem& problem, AgentStopsStore& stops, NodePool& pool);
+  Trees(const Problem& problem, AgentStopsCache& stops, NodePool& pool);
 
   // The root of the tree of this number again. Throws std::invalid_argument, and adds nothing, for
   // a record that cannot be of this instance: a number of agents or stops that is not its own, a
@@ -56,7 +56,7 @@ class Trees {
   AgentOrder made(AgentIndex agent, const TreeRecord::Order& record);
 
   const Problem& problem_;
-  AgentStopsStore& stops_;
+  AgentStopsCache& stops_;
   NodePool& pool_;
   std::vector<std::vector<Order>> orders_;  // by AgentIndex
   std::deque<Tree> trees_;

@@ -71,7 +71,7 @@ class Search {
   Instance instance_ =
       testing::random_crowd({.size = 10, .obstacles = 25, .agents = 12, .tasks = 12}, 5);
   Problem problem_{instance_, limits_};
-  AgentStopsStore stops_{instance_, problem_.distances};
+  AgentStopsCache stops_{instance_, problem_.distances};
   NodePool pool_;
   SequenceForest forest_{problem_, pool_, RtspBackend::kAuto, limits_};
   Expander expander_{problem_, stops_, {Techniques(), 0}};
@@ -131,7 +131,7 @@ TEST(Checkpoint, HoldsTreesAndNodesToGoOnFrom) {
   write(directory.path(), whole);
   const Whole found = read(directory.path());
   NodePool pool;
-  AgentStopsStore stops(search().instance(), search().problem().distances);
+  AgentStopsCache stops(search().instance(), search().problem().distances);
   Trees trees(search().problem(), stops, pool);
   std::vector<NodePtr> roots;
   for (const TreeRecord& tree : found.header.trees)

@@ -25,7 +25,7 @@ struct Setting {
   Limits limits;
   Instance instance;
   Problem problem{instance, limits};
-  AgentStopsStore stops{instance, problem.distances};
+  AgentStopsCache stops{instance, problem.distances};
   PrimalSearch primal;
 };
 

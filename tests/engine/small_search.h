@@ -39,7 +39,7 @@ struct SmallSearch {
   Limits limits;
   Instance instance;
   Problem problem{instance, limits};
-  AgentStopsStore stops{instance, problem.distances};
+  AgentStopsCache stops{instance, problem.distances};
   LocalNodes nodes;
   SingleTree forest{problem, stops, nodes.pool, limits};
   NodePtr root;

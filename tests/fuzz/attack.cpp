@@ -340,7 +340,7 @@ void descend(const TinyInstance& tiny, const Instance& instance, std::uint64_t s
   const Limits limits;
   const Problem problem(instance, limits);
   if (const auto reason = evident_infeasibility(problem)) fail(tiny, *reason, techniques, seed);
-  AgentStopsStore stops(instance, problem.distances);
+  AgentStopsCache stops(instance, problem.distances);
   NodePool pool;
   SingleTree forest(problem, stops, pool, limits);
   const auto expander_seed = static_cast<std::uint64_t>(random.below(100));
@@ -382,7 +382,7 @@ void descend(const TinyInstance& tiny, const Instance& instance, std::uint64_t s
       }
       ++counts.expansions;
       if (compare_histories && depth % 4 == 0) {
-        AgentStopsStore fresh_stops(instance, problem.distances);
+        AgentStopsCache fresh_stops(instance, problem.distances);
         Expander fresh(problem, fresh_stops, {techniques, expander_seed});
         Expansion other = fresh.expand(node, cutoff, limits);
         while (other.unfinished) other = fresh.expand(node, cutoff, limits);

@@ -32,7 +32,7 @@ class PlantedInABay : public ::testing::Test {
   const Plan optimum_ = *oracle::solve_jointly(instance_).plan;
   NodePool pool_;
   SequenceForest forest_{problem_, pool_, RtspBackend::kAuto, limits_};
-  AgentStopsStore stops_{instance_, problem_.distances};
+  AgentStopsCache stops_{instance_, problem_.distances};
   Expander expander_{problem_, stops_, {Techniques(), 0}};
   PlantedOptimum planted_{instance_, optimum_};
   const NodePtr root_ = forest_.next_root();

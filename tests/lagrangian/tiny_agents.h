@@ -9,7 +9,7 @@
 
 #include "joint/agent_graph.h"
 #include "model/distance_field.h"
-#include "planning/agent_stops_store.h"
+#include "planning/agent_stops_cache.h"
 #include "tests/fuzz/random_instance.h"
 
 namespace grove::detail::lagrangian_test {
@@ -37,7 +37,7 @@ struct Known {
 
   Instance instance;
   DistanceFields distances;
-  AgentStopsStore stops;
+  AgentStopsCache stops;
 };
 
 }  // namespace grove::detail::lagrangian_test

@@ -33,7 +33,7 @@ struct Setting {
   Instance instance =
       random_crowd({.size = 8, .obstacles = 10, .agents = 4, .tasks = 4, .no_destination = 0}, 1);
   Problem problem{instance, limits};
-  AgentStopsStore stops{instance, problem.distances};
+  AgentStopsCache stops{instance, problem.distances};
   NodePool pool;
   SolveOptions options;
   RunObserver observer;

@@ -71,7 +71,7 @@ class RankWithRoot {
   SolveOptions options_;
   Limits limits_;
   Problem problem_;
-  AgentStopsStore stops_;
+  AgentStopsCache stops_;
   RunObserver observer_;
   testing::Outbox network_{0, 1};
   Rank rank_;

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "planning/agent_stops_store.h"
+#include "planning/agent_stops_cache.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/primal/crowd.h"
 #include "tests/support/fuzz_factor.h"
@@ -60,8 +60,8 @@ std::string difference(const Problem& shared, const Problem& alone) {
   if (shared.distances.has_ports() != alone.distances.has_ports()) return "ports";
   for (TaskIndex task = 0; task < instance.task_count(); ++task)
     if (!same(shared.distances.to_task(task), alone.distances.to_task(task))) return "to a task";
-  AgentStopsStore stops(instance, shared.distances);
-  AgentStopsStore expected(instance, alone.distances);
+  AgentStopsCache stops(instance, shared.distances);
+  AgentStopsCache expected(instance, alone.distances);
   std::mt19937 dice(1);
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
     AgentStops& one = stops.of(agent);
@@ -141,7 +141,7 @@ TEST(SharedProblem, LiesInTheMemoryShared) {
   const Host host(SharedArrays::bytes(layout), SharedArrays::zero_bytes(layout));
   const Part part(host, 0, 1);
   const SharedProblem shared(instance, Limits(), 1, part);
-  AgentStopsStore stops(instance, shared.problem().distances);
+  AgentStopsCache stops(instance, shared.problem().distances);
   for (AgentIndex agent = 0; agent < 2; ++agent)
     ASSERT_TRUE(stops.of(agent).cost_to_go().widen(1, Limits()));
   const SharedArrays arrays(part.bytes(), layout, 0, 1);

@@ -38,7 +38,7 @@ struct Planned {
 
   const Instance instance;
   const Problem problem{instance, Limits()};
-  AgentStopsStore stops{instance, problem.distances};
+  AgentStopsCache stops{instance, problem.distances};
   Router router{problem, stops};
   PathSet paths{instance};
   Random random{1};

@@ -48,7 +48,7 @@ struct Search {
   Limits limits;
   const Instance& instance;
   Problem problem;
-  AgentStopsStore stops;
+  AgentStopsCache stops;
   PrimalSearch primal;
 };
 

@@ -32,7 +32,7 @@ struct Search {
   Problem problem;
   NodePool pool;
   SequenceForest forest;
-  AgentStopsStore stops;
+  AgentStopsCache stops;
   Expander expander;
   NodePtr root;
 };
@@ -107,7 +107,7 @@ TEST(Expander, BoundsAHardNodeInTurnsAsAtOneGo) {
       testing::random_crowd({.size = 20, .obstacles = 30, .agents = 60, .tasks = 120}, 3);
   const Limits limits;
   const Problem problem(instance, limits);
-  AgentStopsStore stops(instance, problem.distances);
+  AgentStopsCache stops(instance, problem.distances);
   NodePool pool;
   SingleTree forest(problem, stops, pool, limits);
   const NodePtr root = forest.next_root();
@@ -153,7 +153,7 @@ TEST(Expander, ServesTwoWorkersAsIfEachHadItsOwn) {
       testing::random_crowd({.size = 10, .obstacles = 25, .agents = 12, .tasks = 14}, 1);
   const Limits limits;
   const Problem problem(instance, limits);
-  AgentStopsStore stops(instance, problem.distances);
+  AgentStopsCache stops(instance, problem.distances);
   NodePool pool;
   SingleTree forest(problem, stops, pool, limits);
   const NodePtr root = forest.next_root();

@@ -50,7 +50,7 @@ struct Process {
   Limits limits;
   Instance instance;
   Problem problem;
-  AgentStopsStore stops;
+  AgentStopsCache stops;
   NodePool pool;
   SingleTree forest;
   NodePtr root;

@@ -44,7 +44,7 @@ struct Begun {
   Limits limits;
   Instance instance;
   Problem problem;
-  AgentStopsStore stops;
+  AgentStopsCache stops;
   NodePool pool;
   SingleTree forest;
   NodePtr root;
@@ -75,7 +75,7 @@ TEST(Findings, WhoeverIsToldExpandsTheSameWithLessWork) {
     const auto findings = findings_about(s.nodes, *s.expander.memory());
     told += static_cast<int>(findings.size());
     for (const NodePtr& node : s.nodes) {
-      AgentStopsStore stops = s.stops;
+      AgentStopsCache stops = s.stops;
       Expander of_told(s.problem, stops, {Techniques::usual(), 0});
       learn(findings, s.nodes, *of_told.memory());
       Expander ignorant(s.problem, stops, {Techniques::usual(), 0});

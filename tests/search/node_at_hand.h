@@ -54,7 +54,7 @@ struct NodeAtHand {
   Limits limits;
   Instance instance;
   Problem problem;
-  AgentStopsStore stops;
+  AgentStopsCache stops;
   NodePool pool;
   SingleTree forest;
   NodePtr root;

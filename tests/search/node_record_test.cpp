@@ -29,7 +29,7 @@ class NodeRecords : public ::testing::Test {
   Instance instance_ =
       testing::random_crowd({.size = 10, .obstacles = 25, .agents = 12, .tasks = 12}, 5);
   Problem problem_{instance_, limits_};
-  AgentStopsStore stops_{instance_, problem_.distances};
+  AgentStopsCache stops_{instance_, problem_.distances};
   NodePool pool_;
   SingleTree forest_{problem_, stops_, pool_, limits_};
   NodePtr root_ = forest_.next_root();

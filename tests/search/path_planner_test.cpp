@@ -67,7 +67,7 @@ class SplitClasses : public ::testing::TestWithParam<bool> {
 
   Instance instance_ = instance(GetParam());
   Problem problem_{instance_, Limits()};
-  AgentStopsStore stops_{instance_, problem_.distances};
+  AgentStopsCache stops_{instance_, problem_.distances};
   PathPlanner planner_{problem_, stops_};
   AgentOrder open_{{}, std::nullopt, PackedPath()};
   Path path_;

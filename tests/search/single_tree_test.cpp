@@ -22,7 +22,7 @@ class SingleTreeTest : public ::testing::Test {
   Limits limits_;
   Instance instance_;
   Problem problem_;
-  AgentStopsStore stops_{instance_, problem_.distances};
+  AgentStopsCache stops_{instance_, problem_.distances};
   NodePool pool_;
 };
 

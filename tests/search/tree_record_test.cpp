@@ -67,7 +67,7 @@ class TreeRecords : public ::testing::Test {
   Limits limits_;
   Instance instance_;
   Problem problem_{instance_, limits_};
-  AgentStopsStore stops_{instance_, problem_.distances};
+  AgentStopsCache stops_{instance_, problem_.distances};
   NodePool pool_;
   SequenceForest forest_{problem_, pool_, RtspBackend::kAuto, limits_};
   SingleTree single_tree_{problem_, stops_, pool_, limits_};

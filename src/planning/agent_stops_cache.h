@@ -12,14 +12,14 @@ namespace grove::detail {
 // Each agent's AgentStops, made when first asked for and kept, with their completions: the tables
 // of many tasks are large, so that the searches of one thread had better share them. For one
 // thread.
-class AgentStopsStore {
+class AgentStopsCache {
  public:
   // `instance` and `distances` must outlive this.
-  AgentStopsStore(const Instance& instance, const DistanceFields& distances)
+  AgentStopsCache(const Instance& instance, const DistanceFields& distances)
       : instance_(instance), distances_(distances), stops_(instance.agent_count()) {}
 
   // The same for another thread: shares what `other` knows by now.
-  AgentStopsStore(const AgentStopsStore& other)
+  AgentStopsCache(const AgentStopsCache& other)
       : instance_(other.instance_), distances_(other.distances_), stops_(other.stops_.size()) {
     for (std::size_t agent = 0; agent < stops_.size(); ++agent)
       if (other.stops_[agent]) {
