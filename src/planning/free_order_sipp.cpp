@@ -58,7 +58,7 @@
 #include "planning/free_order_goals.h"
 #include "planning/late_goals.h"
 #include "planning/safe_interval_search.h"
-#include "planning/visit_check.h"
+#include "planning/single_stop_bound.h"
 
 namespace grove::detail {
 namespace {
@@ -95,7 +95,7 @@ class FreeOrderSipp::Workspace {
   SequenceStages& goals() { return search_.goals().free_goals(); }
 
   Search search_;
-  VisitCheck visit_check_;
+  SingleStopBound visit_check_;
   LateGoals late_goals_;
 
   // Of the call under way.

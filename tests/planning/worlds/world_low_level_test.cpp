@@ -15,7 +15,7 @@
 #include "planning/free_order_sipp.h"
 #include "planning/goal_sequence.h"
 #include "planning/mdd.h"
-#include "planning/visit_check.h"
+#include "planning/single_stop_bound.h"
 #include "sequencing/cost_matrix.h"
 #include "sequencing/cost_to_go.h"
 #include "sequencing/direct_legs.h"
@@ -272,7 +272,7 @@ class Fuzzer {
   FreeOrderSipp free_;
   MddBuilder builder_;
   SafeIntervals intervals_;
-  VisitCheck visit_check_;
+  SingleStopBound visit_check_;
   AgentIndex agent_ = 0;
   SequenceClass work_;
   std::vector<Constraint> constraints_;

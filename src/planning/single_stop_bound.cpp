@@ -3,7 +3,7 @@
 // can do all that a later one can, after waiting; so what is not reached is not reachable, and what
 // is reached is not reachable earlier. In order of the time plus what is still to go at least (A*):
 // distances without intervals, which are consistent.
-#include "planning/visit_check.h"
+#include "planning/single_stop_bound.h"
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@
 
 namespace grove::detail {
 
-Time VisitCheck::least_cost(const AgentStops& stops, Time least, const Limits& limits) {
+Time SingleStopBound::least_cost(const AgentStops& stops, Time least, const Limits& limits) {
   stops_ = &stops;
   least_ = least;
   for (int stop = 0; stop < stops.count() && !limits.stop_requested(); ++stop)
@@ -21,7 +21,7 @@ Time VisitCheck::least_cost(const AgentStops& stops, Time least, const Limits& l
 
 // least_ or, if it is later, the first time at which the agent can rest for ever, having been on
 // the stop `via`; kNever: it cannot at all.
-Time VisitCheck::least_cost_through(int via) {
+Time SingleStopBound::least_cost_through(int via) {
   via_ = via;
   after_via_ = 0;
   if (!stops_->rests_on_last_stop()) {
@@ -49,18 +49,18 @@ Time VisitCheck::least_cost_through(int via) {
 }
 
 // How long it takes from there at least; kNever: it is impossible.
-Time VisitCheck::to_go(State state, bool visited) const {
+Time SingleStopBound::to_go(State state, bool visited) const {
   if (!visited) return std::min(kNever, stops_->distance(state, via_) + after_via_);
   return stops_->rests_on_last_stop() ? 0 : stops_->to_rest(state);
 }
 
-bool VisitCheck::may_rest(int slot) const {
+bool SingleStopBound::may_rest(int slot) const {
   if (!intervals_.may_rest(slot)) return false;
   const State state = intervals_.state_of(slot);
   return stops_->rests_on_last_stop() ? stops_->stop_at(state) >= 0 : stops_->to_rest(state) == 0;
 }
 
-void VisitCheck::reach(int slot, State state, Time time, bool visited) {
+void SingleStopBound::reach(int slot, State state, Time time, bool visited) {
   const int at = stops_->stop_at(state);
   if (at < AgentStops::kNoStop && AgentStops::stop_of_work(at) < 0) return;  // not its own work
   visited = visited || at == via_;

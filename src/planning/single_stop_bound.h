@@ -15,10 +15,11 @@ namespace grove::detail {
 // makes it later: so each stop bounds its cost. Polynomial where the question for all stops
 // together is not: it settles the common hopeless case, a door shut before or behind the agent, for
 // ever or for long.
-class VisitCheck {
+class SingleStopBound {
  public:
   // Both must outlive this.
-  VisitCheck(const World& world, SafeIntervals& intervals) : world_(world), intervals_(intervals) {}
+  SingleStopBound(const World& world, SafeIntervals& intervals)
+      : world_(world), intervals_(intervals) {}
 
   // What a path through all stops costs at least under the intervals, `least` being known; kNever:
   // there is none. Looks at fewer of them if a limit strikes.
