@@ -3,7 +3,7 @@
 // other agents. Each constraint bars a random cell of the path found so far, or the move to it, at
 // the time it is there: the worst that a branch of the constraint tree can pile up.
 //
-// The time shown is the median over the cases of one pass; labels and most_labels are the median
+// The time shown is the median over the cases of one pass; labels and label_limit are the median
 // and the largest number of labels expanded in a call. Maps are made here; with GROVE_MOVINGAI
 // set to a folder of Moving AI maps the real ones are run as well.
 #include <benchmark/benchmark.h>
@@ -215,7 +215,7 @@ void measure(benchmark::State& state, const Grid& grid, Random& random) {
     state.SetIterationTime(median(seconds));
   }
   state.counters["labels"] = median(labels);
-  state.counters["most_labels"] = *std::ranges::max_element(labels);
+  state.counters["label_limit"] = *std::ranges::max_element(labels);
 }
 
 template <class Search>

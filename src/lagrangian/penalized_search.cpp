@@ -25,7 +25,7 @@ PenalizedSearch::PenalizedSearch(const Penalties& penalties)
     : penalties_(penalties), world_(penalties.world()) {}
 
 Price PenalizedSearch::search(SequenceStages& goals, std::span<const Amount> on_finish, Price below,
-                              std::int64_t most_labels, const Limits& limits, Path* path) {
+                              std::int64_t label_limit, const Limits& limits, Path* path) {
   goals_ = &goals;
   on_finish_ = on_finish;
   below_ = std::min({below, kMostPrice, Price{goals.cost_to_go().beyond()} * Penalties::kUnit});
@@ -42,7 +42,7 @@ Price PenalizedSearch::search(SequenceStages& goals, std::span<const Amount> on_
   std::size_t layers = 0;
   while (layer < labels_.size()) {
     const std::size_t end = labels_.size();
-    if (std::ssize(labels_) > most_labels ||
+    if (std::ssize(labels_) > label_limit ||
         (++layers % kLayersPerPoll == 0 && limits.stop_requested())) {
       Price least = below_;
       for (; layer < end; ++layer) {
@@ -62,11 +62,11 @@ Price PenalizedSearch::search(SequenceStages& goals, std::span<const Amount> on_
 
 bool PenalizedSearch::improve(SequenceStages& goals, std::span<const Amount> on_finish,
                               const ReservationTable& others, Time latest, Price price,
-                              std::int64_t most_labels, const Limits& limits, Path& path) {
+                              std::int64_t label_limit, const Limits& limits, Path& path) {
   others_ = &others;
   latest_ = latest;
   Path cheaper;
-  search(goals, on_finish, price, most_labels, limits, &cheaper);
+  search(goals, on_finish, price, label_limit, limits, &cheaper);
   others_ = nullptr;
   latest_ = kNever;
   if (cheaper.empty()) return false;

@@ -35,12 +35,12 @@ class PenalizedSearch {
   // at a time costs, 0 beyond its end. `path`, not null, becomes one of that price if it is less
   // than `below` and the search was not cut short; else it stays as it is.
   Price search(SequenceStages& goals, std::span<const Penalties::Amount> on_finish, Price below,
-               std::int64_t most_labels, const Limits& limits, Path* path);
+               std::int64_t label_limit, const Limits& limits, Path* path);
 
   // Puts in the place of `path`, whose price is `price`, the cheapest one that goes around others,
   // as it does, and finishes by `latest`. False: none is cheaper, or it would take more labels.
   bool improve(SequenceStages& goals, std::span<const Penalties::Amount> on_finish,
-               const ReservationTable& others, Time latest, Price price, std::int64_t most_labels,
+               const ReservationTable& others, Time latest, Price price, std::int64_t label_limit,
                const Limits& limits, Path& path);
 
   // Labels met so far.

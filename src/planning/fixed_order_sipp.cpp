@@ -28,7 +28,7 @@ PathOutcome FixedOrderSipp::find(const GoalSequence& goals, const PathQuery& que
   if (!search.goals().assign(search.world(), goals, search.intervals()))
     return PathOutcome::kInfeasible;
   search.begin(goals.start(), 0, goals.distance(goals.start(), 0), query.others, limits);
-  switch (search.run(search.expanded_after(query.most_labels))) {
+  switch (search.run(search.expanded_after(query.label_limit))) {
     case Workspace::End::kFound:
       if (search.cost() > query.cutoff) return PathOutcome::kAboveCutoff;
       search.write_path(path);

@@ -3,9 +3,10 @@
 
 namespace grove::detail {
 
-bool FreeOrderGoals::assign(SequenceStages& goals, SafeIntervals& intervals, int greed_percent) {
+bool FreeOrderGoals::assign(SequenceStages& goals, SafeIntervals& intervals,
+                            int inflation_percent) {
   goals_ = &goals;
-  greed_percent_ = greed_percent;
+  greed_percent_ = inflation_percent;
   const AgentStops& stops = goals.stops();
   intervals.see(stops.start_place());
   if (stops.destination()) intervals.see(*stops.destination());

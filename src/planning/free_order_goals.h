@@ -44,7 +44,7 @@ class FreeOrderGoals {
   using Progress = SequenceStages::StageId;
 
   // `goals` must outlive the search. False when there is plainly no path.
-  bool assign(SequenceStages& goals, SafeIntervals& intervals, int greed_percent);
+  bool assign(SequenceStages& goals, SafeIntervals& intervals, int inflation_percent);
   // Goes on with the same class over other completions.
   void turn_to(SequenceStages& goals) { goals_ = &goals; }
   SequenceStages& free_goals() const { return *goals_; }

@@ -133,7 +133,7 @@ PathOutcome FreeOrderSipp::Workspace::find(SequenceStages& goals, const PathQuer
   others_ = query.others;
   limits_ = &limits;
   path_ = &path;
-  if (!search_.goals().assign(goals, intervals, query.greed_percent))
+  if (!search_.goals().assign(goals, intervals, query.inflation_percent))
     return PathOutcome::kInfeasible;
   Time rest_by = intervals.latest_rest();
   if (rest_by < kNever) rest_by += goals.stops().longest_finish(intervals.only_rest());
@@ -149,8 +149,8 @@ PathOutcome FreeOrderSipp::Workspace::find(SequenceStages& goals, const PathQuer
 
 void FreeOrderSipp::Workspace::decide_when(const PathQuery& query) {
   // Whoever gives up early around reservations wants no proof.
-  const bool doubts = !query.reservations || query.most_labels == PathQuery::kUnlimited;
-  give_up_at_ = search_.expanded_after(query.most_labels);
+  const bool doubts = !query.reservations || query.label_limit == PathQuery::kUnlimited;
+  give_up_at_ = search_.expanded_after(query.label_limit);
   doubt_at_ = doubts ? search_.expanded_after(kExpansionsBeforeDoubt) : kNotAgain;
   price_at_ = search_.expanded_after(kExpansionsBeforePricing);
 }

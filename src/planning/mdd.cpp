@@ -80,7 +80,7 @@ class MddBuilder::Workspace {
   };
 
   Outcome make_layers(std::size_t most_nodes, Mdd& paths);
-  Outcome go_forward(std::size_t most_labels);
+  Outcome go_forward(std::size_t label_limit);
   void start();
   void expand(LabelId label);
   void reach(LabelId from, std::int32_t slot, StageId stage, Time first);
@@ -188,7 +188,7 @@ MddBuilder::Outcome MddBuilder::Workspace::make_layers(std::size_t most_nodes, M
 }
 
 // All labels that some path may pass, and the moves between them.
-MddBuilder::Outcome MddBuilder::Workspace::go_forward(std::size_t most_labels) {
+MddBuilder::Outcome MddBuilder::Workspace::go_forward(std::size_t label_limit) {
   labels_.clear();
   moves_.clear();
   planes_.begin_search(intervals_.slot_count());
@@ -199,7 +199,7 @@ MddBuilder::Outcome MddBuilder::Workspace::go_forward(std::size_t most_labels) {
   while (queue_.pop(entry) && entry.time < cost_) {
     if (labels_[entry.slot].earliest != entry.time) continue;
     expand(entry.slot);
-    if (labels_.size() > most_labels) return Outcome::kTooLarge;
+    if (labels_.size() > label_limit) return Outcome::kTooLarge;
     if (++expanded % kExpansionsPerPoll == 0 && limits_->stop_requested()) return Outcome::kStopped;
   }
   return planes_.exhausted() ? Outcome::kStopped : Outcome::kBuilt;

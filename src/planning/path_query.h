@@ -28,13 +28,13 @@ struct PathQuery {
   // Among equally cheap ways met, one of few conflicts with these is preferred; null: no matter.
   const ConflictAvoidanceTable* others = nullptr;
   Time cutoff = kNever;                   // dearer paths are of no use; kNever: any will do
-  std::int64_t most_labels = kUnlimited;  // give up after about so many: kStopped
+  std::int64_t label_limit = kUnlimited;  // give up after about so many: kStopped
 
   // Paths to go around, in place of constraints; null: none.
   const ReservationTable* reservations = nullptr;
   // Labels come in order of time + (1 + greed) * cost to go. With any greed the path found may not
   // be of least cost; what is proven stays proven.
-  int greed_percent = 0;
+  int inflation_percent = 0;
   // Make do with the sequences that the completions know, at least one; kStopped if that is why
   // there is no path. The path found may be dearer than one of another sequence.
   bool known_sequences = false;

@@ -100,9 +100,9 @@ bool NeighborhoodSearch::find(AgentIndex agent, Cost cutoff, Way& way, const Lim
       tuning_.replan_labels + tuning_.replan_labels_of_found * way.labels / way.found;
   const PathQuery query{
       .cutoff = static_cast<Time>(cutoff),
-      .most_labels = way.found > 0 ? static_cast<std::int64_t>(of_others) : way.first_labels,
+      .label_limit = way.found > 0 ? static_cast<std::int64_t>(of_others) : way.first_labels,
       .reservations = &paths_.reservations(),
-      .greed_percent = way.greed_percent,
+      .inflation_percent = way.inflation_percent,
       .known_sequences = true};
   const std::int64_t before = router_.expanded();
   if (router_.find(agent, query, limits, path_) != PathOutcome::kFound) {

@@ -44,7 +44,7 @@ class NeighborhoodSearch {
   // How an agent is planned: exactly, greedily, or so that it pays least where prices are known;
   // which does better is found out on the way.
   struct Way {
-    int greed_percent;
+    int inflation_percent;
     bool priced;
     double gain = 0;                     // of late
     double work = 1;                     // of late, in labels

@@ -50,7 +50,7 @@ void PrioritizedPlanning::begin_again() {
   ++attempts_;
 }
 
-std::int64_t PrioritizedPlanning::most_labels() const {
+std::int64_t PrioritizedPlanning::label_limit() const {
   const std::int64_t draws = failures_ / static_cast<std::int64_t>(order_.size());
   return (tuning_.planning_labels + tuning_.planning_labels_of_found * labels_of_found_)
          << std::min<std::int64_t>(draws, 30);
@@ -67,10 +67,10 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
   const AgentIndex agent = order_[next_];
   const std::int64_t before = router_.expanded();
   const std::int64_t most =
-      greedily_ ? most_labels() : std::min(most_labels(), most_exact_labels());
-  const PathQuery query{.most_labels = std::min(patience, most),
+      greedily_ ? label_limit() : std::min(label_limit(), most_exact_labels());
+  const PathQuery query{.label_limit = std::min(patience, most),
                         .reservations = &paths_.reservations(),
-                        .greed_percent = greedily_ ? kGreedPercent : 0,
+                        .inflation_percent = greedily_ ? kGreedPercent : 0,
                         .known_sequences = true};
   const PathOutcome outcome = router_.find(agent, query, limits, path_);
   const std::int64_t labels = router_.expanded() - before;
@@ -84,7 +84,7 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
   }
   if (limits.stop_requested()) return Outcome::kStopped;
   if (patience < most && labels >= patience) return Outcome::kPutOff;
-  if (!greedily_ && most < most_labels() && labels >= most) {
+  if (!greedily_ && most < label_limit() && labels >= most) {
     greedily_ = true;
     return Outcome::kWorking;
   }

@@ -43,7 +43,7 @@ class PrioritizedPlanning {
 
  private:
   void begin_again();
-  std::int64_t most_labels() const;
+  std::int64_t label_limit() const;
   std::int64_t most_exact_labels() const;
   void clear_the_way(AgentIndex agent);
   void begin_with_next();

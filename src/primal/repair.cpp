@@ -57,7 +57,7 @@ class Repair {
 
  private:
   bool plan(AgentIndex agent) {
-    const PathQuery query{.most_labels = kLabels + kLabelsOfOwn * router_.own_cost(agent),
+    const PathQuery query{.label_limit = kLabels + kLabelsOfOwn * router_.own_cost(agent),
                           .reservations = &paths_.reservations(),
                           .known_sequences = true};
     Path path;

@@ -24,7 +24,7 @@ Prices::Outcome Prices::increase(NodeView& view, const AgentConstraint& demand, 
 }
 
 Prices::Outcome Prices::cost(NodeView& view, AgentIndex agent, const Constraint& more, Time cutoff,
-                             std::int64_t most_labels, const Limits& limits, Time& cost) {
+                             std::int64_t label_limit, const Limits& limits, Time& cost) {
   const auto constraints = view.constraints_with(agent, more);
   const Situations::Id id = memory_.id(agent, view.order(agent), constraints);
   Situations::Known known = memory_.known(id);
@@ -32,8 +32,8 @@ Prices::Outcome Prices::cost(NodeView& view, AgentIndex agent, const Constraint&
   if (known.exact || known.at_least > cutoff) {
     ++known_;
   } else {
-    if (known.hard && most_labels < PathQuery::kUnlimited) return Outcome::kTooHard;
-    const PathQuery query{.constraints = constraints, .cutoff = cutoff, .most_labels = most_labels};
+    if (known.hard && label_limit < PathQuery::kUnlimited) return Outcome::kTooHard;
+    const PathQuery query{.constraints = constraints, .cutoff = cutoff, .label_limit = label_limit};
     switch (planner_.find(agent, view.order(agent), query, limits, path_)) {
       case PathOutcome::kFound:
         known = {static_cast<Time>(path_.size()) - 1, true};

@@ -22,9 +22,9 @@ class Prices {
     kStopped,  // a limit struck
   };
 
-  // Both must outlive this. A split whose price takes more than `most_labels` is not considered.
-  Prices(PathPlanner& planner, Memory& memory, std::int64_t most_labels)
-      : planner_(planner), memory_(memory), most_labels_(most_labels) {}
+  // Both must outlive this. A split whose price takes more than `label_limit` is not considered.
+  Prices(PathPlanner& planner, Memory& memory, std::int64_t label_limit)
+      : planner_(planner), memory_(memory), most_labels_(label_limit) {}
 
   // By how much the costs of the agents in scope rise, each alone, when `demand` is made; if by
   // more than `slack`, kInfiniteCost.
@@ -32,9 +32,9 @@ class Prices {
                    Cost& increase);
 
   // What the agent costs under one constraint more; if that is above `cutoff`, anything above it.
-  // kTooHard only if it takes more than `most_labels`.
+  // kTooHard only if it takes more than `label_limit`.
   Outcome cost(NodeView& view, AgentIndex agent, const Constraint& more, Time cutoff,
-               std::int64_t most_labels, const Limits& limits, Time& cost);
+               std::int64_t label_limit, const Limits& limits, Time& cost);
 
   // Calls of cost() so far, and those of them that the memory answered.
   std::int64_t asked() const { return asked_; }

@@ -195,7 +195,7 @@ TEST(FreeLowLevel, StopsAtTheGivenNumberOfLabels) {
   for (const std::int64_t most : {1, 77, 300, 2, 1000}) {
     const std::int64_t before = agent.free.expanded();
     Path path;
-    const PathQuery query{.constraints = problem.constraints, .most_labels = most};
+    const PathQuery query{.constraints = problem.constraints, .label_limit = most};
     EXPECT_EQ(agent.free.find(agent.goals, query, Limits(), path), Outcome::kStopped);
     EXPECT_EQ(agent.free.expanded() - before, most);
   }

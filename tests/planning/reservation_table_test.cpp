@@ -187,7 +187,7 @@ class Crowd {
     ASSERT_EQ(search.find(goals, {.reservations = &reservations}, limits, path), outcome);
     if (outcome != Outcome::kFound) {
       const PathQuery query{
-          .cutoff = below(40), .reservations = &reservations, .greed_percent = below(3) * 50};
+          .cutoff = below(40), .reservations = &reservations, .inflation_percent = below(3) * 50};
       EXPECT_NE(search.find(goals, query, limits, path), Outcome::kFound);
       return;
     }
@@ -196,14 +196,15 @@ class Crowd {
     expect_valid(goals, path, walks);
     const Time cost = static_cast<Time>(expected.size()) - 1;
     for (const int greed : {0, 30, 200}) {
-      PathQuery query{.cutoff = cost - 1, .reservations = &reservations, .greed_percent = greed};
+      PathQuery query{
+          .cutoff = cost - 1, .reservations = &reservations, .inflation_percent = greed};
       EXPECT_EQ(search.find(goals, query, limits, path), Outcome::kAboveCutoff);
       query.cutoff = cost + below(10);
       ASSERT_EQ(search.find(goals, query, limits, path), Outcome::kFound);
       EXPECT_LE(static_cast<Time>(path.size()) - 1, greed == 0 ? cost : query.cutoff);
       expect_valid(goals, path, walks);
     }
-    const PathQuery greedy{.reservations = &reservations, .greed_percent = 200};
+    const PathQuery greedy{.reservations = &reservations, .inflation_percent = 200};
     ASSERT_EQ(search.find(goals, greedy, limits, path), Outcome::kFound);
     expect_valid(goals, path, walks);
   }
@@ -254,10 +255,10 @@ TEST(ReservationTable, AnEffortIsLimited) {
   reservations.add(1, late);
   FreeOrderSipp search(instance.grid());
   Path path;
-  PathQuery query{.most_labels = 500, .reservations = &reservations};
+  PathQuery query{.label_limit = 500, .reservations = &reservations};
   EXPECT_EQ(search.find(goals, query, Limits(), path), Outcome::kStopped);
   EXPECT_LT(search.expanded(), 1000);
-  query.most_labels = PathQuery::kUnlimited;
+  query.label_limit = PathQuery::kUnlimited;
   EXPECT_EQ(search.find(goals, query, Limits(), path), Outcome::kFound);
   EXPECT_GE(path.size(), 300u);
 }

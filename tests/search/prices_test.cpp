@@ -17,9 +17,9 @@ constexpr Time kBarred = 12;
 
 class PricesTest : public ::testing::Test {
  protected:
-  Time cost(Time cutoff, std::int64_t most_labels = PathQuery::kUnlimited) {
+  Time cost(Time cutoff, std::int64_t label_limit = PathQuery::kUnlimited) {
     Time cost = -1;
-    EXPECT_EQ(prices_.cost(node_.view, 0, door_is_barred_, cutoff, most_labels, node_.limits, cost),
+    EXPECT_EQ(prices_.cost(node_.view, 0, door_is_barred_, cutoff, label_limit, node_.limits, cost),
               Outcome::kDone);
     return cost;
   }
