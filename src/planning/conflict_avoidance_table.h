@@ -38,7 +38,7 @@ class ConflictAvoidanceTable {
     return time > first_rest_[place] ? count + rests_before(place, time) : count;
   }
   // The paths that come to a place at a time; until the table is changed.
-  class Comers {
+  class Arrivals {
    public:
     // How many come from this neighbor: the edge conflicts of a move there.
     int from(Place neighbor) const {
@@ -52,8 +52,8 @@ class ConflictAvoidanceTable {
     const Moves* moves_ = nullptr;
     Place place_ = kNoPlace;
   };
-  Comers comers(Place place, Time time) const {
-    Comers comers;
+  Arrivals comers(Place place, Time time) const {
+    Arrivals comers;
     comers.world_ = &world_;
     comers.place_ = place;
     if (const Counts* counts = counts_of(place, time)) comers.moves_ = &counts->moves;

@@ -39,7 +39,7 @@ void FewestConflicts::find(const Mdd& paths, const ConflictAvoidanceTable& other
 }
 
 FewestConflicts::Best FewestConflicts::best_step(const Mdd& paths, NodeId node,
-                                                 ConflictAvoidanceTable::Comers comers) const {
+                                                 ConflictAvoidanceTable::Arrivals comers) const {
   Best best{std::numeric_limits<std::int32_t>::max(), kNoNode};
   for (const NodeId next : paths.successors(node)) {
     const Place to = paths.place(next);
