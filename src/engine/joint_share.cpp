@@ -24,7 +24,7 @@ std::size_t most_bytes(const Limits& limits) {
 JointShare::JointShare(const Instance& instance, const Tuning& tuning, bool wanted)
     : instance_(instance),
       tuning_(tuning),
-      over_(!wanted || instance.agent_count() > JointSearch::kMostAgents) {}
+      over_(!wanted || instance.agent_count() > EpeaStar::kMostAgents) {}
 
 bool JointShare::due() const {
   if (over_ || others_ < tuning_.joint_begins_work) return false;
@@ -33,17 +33,17 @@ bool JointShare::due() const {
 }
 
 Cost JointShare::step(Cost cutoff, const Limits& limits) {
-  if (!search_) search_ = JointSearch::make(instance_, tuning_.joint_bits, most_bytes(limits));
+  if (!search_) search_ = EpeaStar::make(instance_, tuning_.joint_bits, most_bytes(limits));
   over_ = search_ == nullptr;
   if (over_) return 0;
-  auto outcome = JointSearch::Outcome::kWorking;
+  auto outcome = EpeaStar::Outcome::kWorking;
   for (const std::int64_t end = search_->work() + tuning_.joint_step_work;
-       search_->work() < end && outcome == JointSearch::Outcome::kWorking;)
+       search_->work() < end && outcome == EpeaStar::Outcome::kWorking;)
     outcome = search_->run(1, cutoff, limits);
-  over_ = outcome != JointSearch::Outcome::kWorking;
+  over_ = outcome != EpeaStar::Outcome::kWorking;
   states_ = search_->states();
   const Cost proven = search_->lower_bound();
-  if (outcome == JointSearch::Outcome::kTooLarge) search_.reset();  // others need its memory
+  if (outcome == EpeaStar::Outcome::kTooLarge) search_.reset();  // others need its memory
   return proven;
 }
 

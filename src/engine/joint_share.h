@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "joint/joint_search.h"
+#include "joint/epea_star.h"
 #include "model/tuning.h"
 
 namespace grove::detail {
@@ -32,7 +32,7 @@ class JointShare {
   bool over_;
   std::int64_t others_ = 0;
   std::int64_t states_ = 0;
-  std::unique_ptr<JointSearch> search_;  // made when it is first due
+  std::unique_ptr<EpeaStar> search_;  // made when it is first due
 };
 
 }  // namespace grove::detail

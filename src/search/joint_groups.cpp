@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Each agent of the group has a graph of all its ways under the demands of the node that cost up to
 // `most` more than its path there (joint/timed_graphs.h); A* over the joint states of these
-// (joint/joint_search.cpp) finds what the group costs together. *Claim: every plan that obeys the
+// (joint/epea_star.cpp) finds what the group costs together. *Claim: every plan that obeys the
 // node's constraints costs the group at least what is said here.* Its paths in such a plan collide
 // with none of each other. Either all of them are in the graphs, so together they cost no less than
 // the bound of the joint search, however early that ends; or one of them costs over `most` more
@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-#include "joint/joint_search.h"
+#include "joint/epea_star.h"
 #include "model/omega.h"
 
 namespace grove::detail {
@@ -67,18 +67,18 @@ JointGroups::Outcome JointGroups::settle_up_to(Cost most, const NodeView& view,
     if (made == TimedGraphs::Outcome::kStopped) return Outcome::kStopped;
     if (made == TimedGraphs::Outcome::kTooLarge) return Outcome::kGivenUp;
   }
-  JointSearch search(instance_, std::move(graphs), kMostBytes, apart + known.excess);
+  EpeaStar search(instance_, std::move(graphs), kMostBytes, apart + known.excess);
   const Cost cutoff = apart + most + 1;
   const std::int64_t most_work = give_up_at_ - work();
-  auto outcome = JointSearch::Outcome::kWorking;
-  while (outcome == JointSearch::Outcome::kWorking && search.work() < most_work)
+  auto outcome = EpeaStar::Outcome::kWorking;
+  while (outcome == EpeaStar::Outcome::kWorking && search.work() < most_work)
     outcome = search.run(kStatesAtOnce, cutoff, limits);
   states_ += search.states();
   joint_work_ += search.work();
   known.excess = std::max(known.excess, std::min(search.lower_bound(), cutoff) - apart);
   known.exact = search.paths().has_value();
   if (limits.stop_requested()) return Outcome::kStopped;
-  return outcome == JointSearch::Outcome::kEnded ? Outcome::kSettled : Outcome::kGivenUp;
+  return outcome == EpeaStar::Outcome::kEnded ? Outcome::kSettled : Outcome::kGivenUp;
 }
 
 }  // namespace grove::detail

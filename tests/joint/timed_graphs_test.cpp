@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "joint/joint_search.h"
+#include "joint/epea_star.h"
 #include "model/omega.h"
 #include "planning/corridors.h"
 #include "tests/fuzz/random_instance.h"
@@ -150,13 +150,13 @@ TEST(TimedGraphs, LetJointSearchFindTheOptimumUnderDemands) {
     }
     if (ways.size() < 2) continue;
     const auto least = oracle::least_together(fuzzer.instance(), ways);
-    JointSearch search(fuzzer.instance(), std::move(graphs), kMostBytes);
-    auto outcome = JointSearch::Outcome::kWorking;
-    while (outcome == JointSearch::Outcome::kWorking) {
+    EpeaStar search(fuzzer.instance(), std::move(graphs), kMostBytes);
+    auto outcome = EpeaStar::Outcome::kWorking;
+    while (outcome == EpeaStar::Outcome::kWorking) {
       outcome = search.run(3, kInfiniteCost, {});
       ASSERT_LE(search.lower_bound(), least.value_or(kInfiniteCost));
     }
-    ASSERT_EQ(outcome, JointSearch::Outcome::kEnded);
+    ASSERT_EQ(outcome, EpeaStar::Outcome::kEnded);
     ASSERT_EQ(search.lower_bound(), least.value_or(kInfiniteCost));
     ASSERT_EQ(search.paths().has_value(), least.has_value());
     ++(least ? found : none);

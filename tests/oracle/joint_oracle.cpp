@@ -68,9 +68,9 @@ class NodeTable {
   int shift_ = 64;
 };
 
-class JointSearch {
+class EpeaStar {
  public:
-  JointSearch(const Instance& instance, std::size_t state_cap)
+  EpeaStar(const Instance& instance, std::size_t state_cap)
       : instance_(instance), state_cap_(state_cap) {}
 
   Answer run();
@@ -106,7 +106,7 @@ class JointSearch {
 };
 
 // False when the instance does not fit into a key.
-bool JointSearch::prepare() {
+bool EpeaStar::prepare() {
   int bits = 0;
   for (AgentIndex a = 0; a < instance_.agent_count(); ++a) {
     try {
@@ -126,7 +126,7 @@ bool JointSearch::prepare() {
   return true;
 }
 
-Time JointSearch::to_go(Key key) const {
+Time EpeaStar::to_go(Key key) const {
   Time sum = 0;
   for (std::size_t a = 0; a < agents_.size(); ++a) {
     const Time alone = agents_[a].to_go(state(key, a));
@@ -136,7 +136,7 @@ Time JointSearch::to_go(Key key) const {
   return sum;
 }
 
-void JointSearch::reach(Key key, Time cost) {
+void EpeaStar::reach(Key key, Time cost) {
   const Time left = to_go(key);
   if (left == kNever) return;
   const NodeIndex n = table_.find_or_add(key, nodes_);
@@ -148,7 +148,7 @@ void JointSearch::reach(Key key, Time cost) {
   buckets_[bucket].push_back(n);
 }
 
-NodeIndex JointSearch::pop() {
+NodeIndex EpeaStar::pop() {
   while (first_bucket_ < buckets_.size()) {
     auto& bucket = buckets_[first_bucket_];
     if (bucket.empty()) {
@@ -162,7 +162,7 @@ NodeIndex JointSearch::pop() {
   return kNoNode;
 }
 
-bool JointSearch::collides(std::size_t agent, State to) const {
+bool EpeaStar::collides(std::size_t agent, State to) const {
   const auto cell = [&](std::size_t a, State s) { return agents_[a].cell(s); };
   for (std::size_t other = 0; other < agent; ++other) {
     if (cell(other, to_[other]) == cell(agent, to)) return true;
@@ -175,7 +175,7 @@ bool JointSearch::collides(std::size_t agent, State to) const {
 }
 
 // Chooses the moves of `agent` and all after it; those before have chosen.
-void JointSearch::advance(std::size_t agent, Key key, Time cost) {
+void EpeaStar::advance(std::size_t agent, Key key, Time cost) {
   if (agent == agents_.size()) {
     reach(key, cost);
     return;
@@ -187,13 +187,13 @@ void JointSearch::advance(std::size_t agent, Key key, Time cost) {
   }
 }
 
-void JointSearch::expand(NodeIndex node) {
+void EpeaStar::expand(NodeIndex node) {
   parent_ = node;
   for (std::size_t a = 0; a < agents_.size(); ++a) from_[a] = state(nodes_[node].key, a);
   advance(0, 0, nodes_[node].cost);
 }
 
-Answer JointSearch::run() {
+Answer EpeaStar::run() {
   if (!prepare()) return {};
   Key start = 0;
   for (std::size_t a = 0; a < agents_.size(); ++a)
@@ -207,7 +207,7 @@ Answer JointSearch::run() {
   return {Verdict::kInfeasible, std::nullopt, nodes_.size()};
 }
 
-Plan JointSearch::plan(NodeIndex last) const {
+Plan EpeaStar::plan(NodeIndex last) const {
   std::vector<Key> keys;
   for (NodeIndex n = last; n != kNoNode; n = nodes_[n].parent) keys.push_back(nodes_[n].key);
   std::ranges::reverse(keys);
@@ -216,7 +216,7 @@ Plan JointSearch::plan(NodeIndex last) const {
   return plan;
 }
 
-AgentPlan JointSearch::agent_plan(std::size_t agent, const std::vector<Key>& keys) const {
+AgentPlan EpeaStar::agent_plan(std::size_t agent, const std::vector<Key>& keys) const {
   const AgentStates& states = agents_[agent];
   const auto index = static_cast<AgentIndex>(agent);
   const auto& tasks = instance_.agent(index).tasks;
@@ -241,7 +241,7 @@ AgentPlan JointSearch::agent_plan(std::size_t agent, const std::vector<Key>& key
 }
 
 // An agent that comes back to a task to rest there visits it last, if it takes no time.
-void JointSearch::finish_on_last(AgentIndex index, AgentPlan& agent) const {
+void EpeaStar::finish_on_last(AgentIndex index, AgentPlan& agent) const {
   if (!instance_.rests_on_last_stop(index)) return;
   const auto last = std::ranges::find(agent.sequence, instance_.world().place(agent.path.back()),
                                       [&](TaskIndex t) { return instance_.task(t).cell; });
@@ -251,7 +251,7 @@ void JointSearch::finish_on_last(AgentIndex index, AgentPlan& agent) const {
 }  // namespace
 
 Answer solve_jointly(const Instance& instance, std::size_t state_cap) {
-  return JointSearch(instance, state_cap).run();
+  return EpeaStar(instance, state_cap).run();
 }
 
 }  // namespace grove::detail::oracle

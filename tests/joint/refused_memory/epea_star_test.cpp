@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Joint search when memory runs out anywhere: it gives up, and its bound holds.
-#include "joint/joint_search.h"
+#include "joint/epea_star.h"
 
 #include <gtest/gtest.h>
 
@@ -13,17 +13,17 @@ namespace joint_memory_test {
 constexpr std::size_t kMostBytes = std::size_t{1} << 28;
 
 struct End {
-  JointSearch::Outcome outcome = JointSearch::Outcome::kTooLarge;
+  EpeaStar::Outcome outcome = EpeaStar::Outcome::kTooLarge;
   Cost lower_bound = 0;
 };
 
 End run_to_the_end(const Instance& instance) {
-  const auto search = JointSearch::make(instance, 64, kMostBytes);
+  const auto search = EpeaStar::make(instance, 64, kMostBytes);
   if (!search) return {};
-  End end{JointSearch::Outcome::kWorking};
-  while (end.outcome == JointSearch::Outcome::kWorking)
+  End end{EpeaStar::Outcome::kWorking};
+  while (end.outcome == EpeaStar::Outcome::kWorking)
     end.outcome = search->run(100, kInfiniteCost, {});
-  end.lower_bound = search->plan() || end.outcome == JointSearch::Outcome::kTooLarge
+  end.lower_bound = search->plan() || end.outcome == EpeaStar::Outcome::kTooLarge
                         ? search->lower_bound()
                         : kInfiniteCost;
   return end;
@@ -38,7 +38,7 @@ TEST(JointSearchWithoutMemory, GivesUpAndKeepsItsBound) {
     const End end = run_to_the_end(instance);
     testing::allocations_until_failure = -1;
     ASSERT_LE(end.lower_bound, optimum) << "failure " << at;
-    if (end.outcome == JointSearch::Outcome::kEnded) break;
+    if (end.outcome == EpeaStar::Outcome::kEnded) break;
   }
   EXPECT_GT(failures, 20);
 }

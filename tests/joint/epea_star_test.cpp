@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "joint/joint_search.h"
+#include "joint/epea_star.h"
 
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@ namespace joint_search_test {
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 28;
 
-std::unique_ptr<JointSearch> search_of(const Instance& instance) {
-  return JointSearch::make(instance, 64, kMostBytes);
+std::unique_ptr<EpeaStar> search_of(const Instance& instance) {
+  return EpeaStar::make(instance, 64, kMostBytes);
 }
 
 fuzz::TinyInstance tiny_instance(std::uint64_t seed) {
@@ -29,7 +29,7 @@ fuzz::TinyInstance tiny_instance(std::uint64_t seed) {
 
 // Of every instance the bound rises to the oracle's optimum, a few states at a time, and never
 // beyond.
-TEST(JointSearch, AgreesWithTheOracle) {
+TEST(EpeaStar, AgreesWithTheOracle) {
   int solved = 0, infeasible = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(300));
        ++seed) {
@@ -41,12 +41,12 @@ TEST(JointSearch, AgreesWithTheOracle) {
     const auto search = search_of(instance);
     ASSERT_TRUE(search);
     const Cost optimum = truth.plan ? truth.plan->cost : kInfiniteCost;
-    JointSearch::Outcome outcome = JointSearch::Outcome::kWorking;
-    while (outcome == JointSearch::Outcome::kWorking) {
+    EpeaStar::Outcome outcome = EpeaStar::Outcome::kWorking;
+    while (outcome == EpeaStar::Outcome::kWorking) {
       outcome = search->run(7, kInfiniteCost, {});
       ASSERT_LE(search->lower_bound(), optimum);
     }
-    ASSERT_EQ(outcome, JointSearch::Outcome::kEnded);
+    ASSERT_EQ(outcome, EpeaStar::Outcome::kEnded);
     ASSERT_EQ(search->plan().has_value(), truth.plan.has_value());
     ASSERT_EQ(search->lower_bound(), optimum);
     ++(truth.plan ? solved : infeasible);
@@ -62,48 +62,48 @@ TEST(JointSearch, AgreesWithTheOracle) {
 }
 
 // A cutoff hides what costs as much, and nothing else.
-TEST(JointSearch, ProvesTheCutoff) {
+TEST(EpeaStar, ProvesTheCutoff) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     SCOPED_TRACE(seed);
     const Instance instance = tiny_instance(seed).build();
     const oracle::Answer truth = oracle::solve_jointly(instance);
     if (!truth.plan) continue;
     const auto at = search_of(instance);
-    while (at->run(100, truth.plan->cost, {}) == JointSearch::Outcome::kWorking) {
+    while (at->run(100, truth.plan->cost, {}) == EpeaStar::Outcome::kWorking) {
     }
     EXPECT_FALSE(at->plan());
     EXPECT_GE(at->lower_bound(), truth.plan->cost);
     const auto above = search_of(instance);
-    while (above->run(100, truth.plan->cost + 1, {}) == JointSearch::Outcome::kWorking) {
+    while (above->run(100, truth.plan->cost + 1, {}) == EpeaStar::Outcome::kWorking) {
     }
     ASSERT_TRUE(above->plan());
     EXPECT_EQ(above->plan()->cost, truth.plan->cost);
   }
 }
 
-TEST(JointSearch, GivesUpWhereMemoryEnds) {
+TEST(EpeaStar, GivesUpWhereMemoryEnds) {
   const Instance instance = fuzz::random_puzzle(94).build();
-  const auto search = JointSearch::make(instance, 64, 1);
+  const auto search = EpeaStar::make(instance, 64, 1);
   ASSERT_TRUE(search);
-  auto outcome = JointSearch::Outcome::kWorking;
-  while (outcome == JointSearch::Outcome::kWorking) outcome = search->run(1000, kInfiniteCost, {});
-  EXPECT_EQ(outcome, JointSearch::Outcome::kTooLarge);
+  auto outcome = EpeaStar::Outcome::kWorking;
+  while (outcome == EpeaStar::Outcome::kWorking) outcome = search->run(1000, kInfiniteCost, {});
+  EXPECT_EQ(outcome, EpeaStar::Outcome::kTooLarge);
   EXPECT_FALSE(search->plan());
 }
 
-TEST(JointSearch, IsForFewJointStates) {
+TEST(EpeaStar, IsForFewJointStates) {
   const Instance instance = fuzz::random_puzzle(39).build();
-  EXPECT_FALSE(JointSearch::make(instance, 20, kMostBytes));
-  EXPECT_TRUE(JointSearch::make(instance, 40, kMostBytes));
+  EXPECT_FALSE(EpeaStar::make(instance, 20, kMostBytes));
+  EXPECT_TRUE(EpeaStar::make(instance, 40, kMostBytes));
 }
 
 // Long enough for larger tables to be made on the way. The optimum is that of a search without
 // them.
-TEST(JointSearch, GoesOnWithLargerTables) {
+TEST(EpeaStar, GoesOnWithLargerTables) {
   constexpr Cost kOptimum = 78;
   const Instance instance = fuzz::random_puzzle(94).build();
   const auto search = search_of(instance);
-  while (search->run(1000, kInfiniteCost, {}) == JointSearch::Outcome::kWorking)
+  while (search->run(1000, kInfiniteCost, {}) == EpeaStar::Outcome::kWorking)
     ASSERT_LE(search->lower_bound(), kOptimum);
   ASSERT_TRUE(search->plan());
   EXPECT_EQ(search->plan()->cost, kOptimum);

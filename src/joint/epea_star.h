@@ -17,20 +17,20 @@ namespace grove::detail {
 // The whole instance at once, or some of its agents as their graphs have it. Exact: it ends with
 // paths of least cost, or the proof that there are none; and at every moment it knows a lower bound
 // on all. For one thread at a time.
-class JointSearch {
+class EpeaStar {
  public:
   static constexpr int kMostAgents = 16;
 
   // None: not for this method, since there are more agents or more than 2^`most_bits` joint states,
   // blocked cells counted; or there is no memory to begin with.
   // `instance` must outlive it. `most_bytes`: that it may hold.
-  static std::unique_ptr<JointSearch> make(const Instance& instance, double most_bits,
-                                           std::size_t most_bytes);
+  static std::unique_ptr<EpeaStar> make(const Instance& instance, double most_bits,
+                                        std::size_t most_bytes);
   // Of the agents that these graphs are of, at least one and at most kMostAgents. It is known that
   // they cost `least` or more.
-  JointSearch(const Instance& instance, std::vector<AgentGraph> agents, std::size_t most_bytes,
-              Cost least = 0);
-  ~JointSearch();
+  EpeaStar(const Instance& instance, std::vector<AgentGraph> agents, std::size_t most_bytes,
+           Cost least = 0);
+  ~EpeaStar();
 
   enum class Outcome : std::uint8_t {
     kWorking,   // there is more to do
@@ -53,7 +53,7 @@ class JointSearch {
 
  private:
   class Search;
-  explicit JointSearch(std::unique_ptr<Search> search);
+  explicit EpeaStar(std::unique_ptr<Search> search);
   std::unique_ptr<Search> search_;
 };
 

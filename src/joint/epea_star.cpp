@@ -22,7 +22,7 @@
 // Choosing moves agent by agent, the next budget is the least sum above the budget of a beginning
 // without collisions: each can be gone on with without a detour, or else collides and comes again,
 // for nothing, with a greater one.
-#include "joint/joint_search.h"
+#include "joint/epea_star.h"
 
 #include <algorithm>
 #include <array>
@@ -51,7 +51,7 @@ constexpr std::int64_t kMadePerWork = 2;  // joint states; see search/work.h
 
 }  // namespace
 
-class JointSearch::Search {
+class EpeaStar::Search {
  public:
   // `tables`: some guide it. No plan costs less than `least`.
   Search(const Instance& instance, std::vector<AgentGraph> agents, std::size_t most_bytes,
@@ -439,14 +439,14 @@ std::size_t most_nodes_within(double bits) {
 
 }  // namespace
 
-JointSearch::JointSearch(std::unique_ptr<Search> search) : search_(std::move(search)) {}
-JointSearch::JointSearch(const Instance& instance, std::vector<AgentGraph> agents,
-                         std::size_t most_bytes, Cost least)
+EpeaStar::EpeaStar(std::unique_ptr<Search> search) : search_(std::move(search)) {}
+EpeaStar::EpeaStar(const Instance& instance, std::vector<AgentGraph> agents, std::size_t most_bytes,
+                   Cost least)
     : search_(std::make_unique<Search>(instance, std::move(agents), most_bytes, false, least)) {}
-JointSearch::~JointSearch() = default;
+EpeaStar::~EpeaStar() = default;
 
-std::unique_ptr<JointSearch> JointSearch::make(const Instance& instance, double most_bits,
-                                               std::size_t most_bytes) try {
+std::unique_ptr<EpeaStar> EpeaStar::make(const Instance& instance, double most_bits,
+                                         std::size_t most_bytes) try {
   const double states_bits = std::log2(instance.world().state_count());
   if (instance.agent_count() > kMostAgents || instance.agent_count() * states_bits > most_bits)
     return nullptr;
@@ -457,30 +457,30 @@ std::unique_ptr<JointSearch> JointSearch::make(const Instance& instance, double 
     most_bits -= std::log2(std::max<std::size_t>(graph->count(), 1));
     agents.push_back(std::move(*graph));
   }
-  return std::unique_ptr<JointSearch>(
-      new JointSearch(std::make_unique<Search>(instance, std::move(agents), most_bytes, true, 0)));
+  return std::unique_ptr<EpeaStar>(
+      new EpeaStar(std::make_unique<Search>(instance, std::move(agents), most_bytes, true, 0)));
 } catch (const std::bad_alloc&) {
   return nullptr;
 }
 
-JointSearch::Outcome JointSearch::run(std::int64_t states, Cost cutoff, const Limits& limits) try {
+EpeaStar::Outcome EpeaStar::run(std::int64_t states, Cost cutoff, const Limits& limits) try {
   return search_->run(states, cutoff, limits);
 } catch (const std::bad_alloc&) {  // its bound is that of the layer being emptied
   return Outcome::kTooLarge;
 }
-Cost JointSearch::lower_bound() const {
+Cost EpeaStar::lower_bound() const {
   return search_->lower_bound();
 }
-const std::optional<std::vector<Path>>& JointSearch::paths() const {
+const std::optional<std::vector<Path>>& EpeaStar::paths() const {
   return search_->paths();
 }
-std::optional<Plan> JointSearch::plan() const {
+std::optional<Plan> EpeaStar::plan() const {
   return search_->plan();
 }
-std::int64_t JointSearch::states() const {
+std::int64_t EpeaStar::states() const {
   return search_->states();
 }
-std::int64_t JointSearch::work() const {
+std::int64_t EpeaStar::work() const {
   return search_->work();
 }
 
