@@ -32,7 +32,7 @@
 #include <new>
 #include <utility>
 
-#include "joint/group_table.h"
+#include "joint/pattern_database.h"
 #include "model/plan_of_path.h"
 
 namespace grove::detail {
@@ -131,7 +131,7 @@ class EpeaStar::Search {
                              [&](const auto& members) { return work_of(members); });
   }
   void plan_table(std::vector<std::size_t> members) {
-    const std::size_t entries = GroupTable::entries(agents_, members);
+    const std::size_t entries = PatternDatabase::entries(agents_, members);
     if (entries <= kMostEntries && planned_work_ + work_of(members) <= kMostTableWork) {
       planned_work_ += work_of(members);
       tables_to_come_.push_back(std::move(members));
@@ -140,15 +140,15 @@ class EpeaStar::Search {
     }
   }
   std::int64_t work_of(const std::vector<std::size_t>& members) const {
-    return GroupTable::work(agents_, members);
+    return PatternDatabase::work(agents_, members);
   }
   // False: stopped.
   bool add_table(std::deque<std::vector<std::size_t>>& from, const Limits& limits) {
-    auto table = GroupTable::make(instance_, agents_, from.front(), limits);
+    auto table = PatternDatabase::make(instance_, agents_, from.front(), limits);
     if (!table) return false;
     tables_.push_back(std::move(*table));
     table_work_ += work_of(from.front());
-    table_bytes_ += GroupTable::entries(agents_, from.front());
+    table_bytes_ += PatternDatabase::entries(agents_, from.front());
     from.pop_front();
     return true;
   }
@@ -278,7 +278,7 @@ class EpeaStar::Search {
   Cost excess_of(const Node* nodes) {
     for (std::size_t i = 0; i < tables_.size(); ++i) {
       const std::uint8_t excess = tables_[i].excess(nodes);
-      if (excess == GroupTable::kNoWay) return kInfiniteCost;
+      if (excess == PatternDatabase::kNoWay) return kInfiniteCost;
       excess_[i] = excess;
     }
     int best = 0;
@@ -395,7 +395,7 @@ class EpeaStar::Search {
   std::deque<std::vector<std::size_t>> late_tables_;     // the same of larger ones
   std::int64_t planned_work_ = 0;
   std::int32_t alone_ = 0;  // the sum of what the agents cost alone
-  std::vector<GroupTable> tables_;
+  std::vector<PatternDatabase> tables_;
   std::vector<Grouping> groupings_;  // all that no group could be added to
   std::vector<int> excess_;          // of the state being made, by table; one more, of none: 0
   std::vector<Node> nodes_;          // by state, then agent

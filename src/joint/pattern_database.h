@@ -15,16 +15,17 @@
 namespace grove::detail {
 
 // A pattern database (Culberson and Schaeffer 1998) over two or three agents. Immutable.
-class GroupTable {
+class PatternDatabase {
  public:
   using Node = AgentGraph::Node;
   static constexpr std::uint8_t kNoWay = 255;
 
   // `members`, rising, of `agents`. entries() is what it will hold, in bytes; making it takes
   // work(). None: stopped.
-  static std::optional<GroupTable> make(const Instance& instance,
-                                        std::span<const AgentGraph> agents,
-                                        std::vector<std::size_t> members, const Limits& limits);
+  static std::optional<PatternDatabase> make(const Instance& instance,
+                                             std::span<const AgentGraph> agents,
+                                             std::vector<std::size_t> members,
+                                             const Limits& limits);
   static std::size_t entries(std::span<const AgentGraph> agents,
                              std::span<const std::size_t> members);
   static std::int64_t work(std::span<const AgentGraph> agents,
@@ -40,7 +41,7 @@ class GroupTable {
   }
 
  private:
-  explicit GroupTable(std::vector<std::size_t> members)
+  explicit PatternDatabase(std::vector<std::size_t> members)
       : members_(std::move(members)), strides_(members_.size(), 1) {}
 
   std::vector<std::size_t> members_;

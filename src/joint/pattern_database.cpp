@@ -2,7 +2,7 @@
 // Backwards from all states in which everybody is at rest or may be, by Dijkstra's algorithm: a
 // step costs as many as are not at rest. What these agents cost at least is what any plan of more
 // agents pays for them.
-#include "joint/group_table.h"
+#include "joint/pattern_database.h"
 
 #include <algorithm>
 #include <utility>
@@ -139,22 +139,23 @@ Value product(std::span<const std::size_t> members, Value (*of)(const AgentGraph
 
 }  // namespace
 
-std::size_t GroupTable::entries(std::span<const AgentGraph> agents,
-                                std::span<const std::size_t> members) {
+std::size_t PatternDatabase::entries(std::span<const AgentGraph> agents,
+                                     std::span<const std::size_t> members) {
   return product<std::size_t>(
       members, [](const AgentGraph& a) { return a.count(); }, agents);
 }
 
-std::int64_t GroupTable::work(std::span<const AgentGraph> agents,
-                              std::span<const std::size_t> members) {
+std::int64_t PatternDatabase::work(std::span<const AgentGraph> agents,
+                                   std::span<const std::size_t> members) {
   const auto moves = [](const AgentGraph& a) { return static_cast<std::int64_t>(a.move_count()); };
   return product<std::int64_t>(members, moves, agents) / kMovesPerWork;
 }
 
-std::optional<GroupTable> GroupTable::make(const Instance& instance,
-                                           std::span<const AgentGraph> agents,
-                                           std::vector<std::size_t> members, const Limits& limits) {
-  GroupTable table(std::move(members));
+std::optional<PatternDatabase> PatternDatabase::make(const Instance& instance,
+                                                     std::span<const AgentGraph> agents,
+                                                     std::vector<std::size_t> members,
+                                                     const Limits& limits) {
+  PatternDatabase table(std::move(members));
   std::vector<const AgentGraph*> graphs;
   for (const std::size_t member : table.members_) graphs.push_back(&agents[member]);
   for (std::size_t i = graphs.size(); i-- > 1;)
