@@ -48,7 +48,7 @@ class AgentGraph {
 
  private:
   friend class AgentGraphMaker;
-  friend class TimedGraphs;
+  friend class TimeExpandedGraphs;
   AgentIndex agent_ = 0;
   std::vector<Place> places_;
   std::vector<State> states_;

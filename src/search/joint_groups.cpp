@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Each agent of the group has a graph of all its ways under the demands of the node that cost up to
-// `most` more than its path there (joint/timed_graphs.h); A* over the joint states of these
+// `most` more than its path there (joint/time_expanded_graphs.h); A* over the joint states of these
 // (joint/epea_star.cpp) finds what the group costs together. *Claim: every plan that obeys the
 // node's constraints costs the group at least what is said here.* Its paths in such a plan collide
 // with none of each other. Either all of them are in the graphs, so together they cost no less than
@@ -64,8 +64,8 @@ JointGroups::Outcome JointGroups::settle_up_to(Cost most, const NodeView& view,
     const auto made = planner_.timed_graph(
         agent, view.order(agent), view.constraints(agent), static_cast<Time>(most_cost),
         static_cast<std::size_t>(tuning_.joint_group_nodes), limits, graphs[i]);
-    if (made == TimedGraphs::Outcome::kStopped) return Outcome::kStopped;
-    if (made == TimedGraphs::Outcome::kTooLarge) return Outcome::kGivenUp;
+    if (made == TimeExpandedGraphs::Outcome::kStopped) return Outcome::kStopped;
+    if (made == TimeExpandedGraphs::Outcome::kTooLarge) return Outcome::kGivenUp;
   }
   EpeaStar search(instance_, std::move(graphs), kMostBytes, apart + known.excess);
   const Cost cutoff = apart + most + 1;

@@ -43,10 +43,10 @@ MddBuilder::Outcome PathPlanner::optimal_paths(AgentIndex agent, const AgentOrde
                         most_nodes, limits, paths);
 }
 
-TimedGraphs::Outcome PathPlanner::timed_graph(AgentIndex agent, const AgentOrder& order,
-                                              std::span<const Constraint> constraints,
-                                              Time most_cost, std::size_t most_nodes,
-                                              const Limits& limits, AgentGraph& graph) {
+TimeExpandedGraphs::Outcome PathPlanner::timed_graph(AgentIndex agent, const AgentOrder& order,
+                                                     std::span<const Constraint> constraints,
+                                                     Time most_cost, std::size_t most_nodes,
+                                                     const Limits& limits, AgentGraph& graph) {
   return timed_.make(free_goals(agent, order, constraints), on_path(constraints), most_cost,
                      most_nodes, limits, graph);
 }

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "joint/timed_graphs.h"
+#include "joint/time_expanded_graphs.h"
 #include "planning/agent_planner.h"
 #include "planning/agent_stops_cache.h"
 #include "planning/fixed_order_sipp.h"
@@ -37,10 +37,11 @@ class PathPlanner {
                                     std::span<const Constraint> constraints, Time cost,
                                     std::size_t most_nodes, const Limits& limits, Mdd& paths);
 
-  // As TimedGraphs::make.
-  TimedGraphs::Outcome timed_graph(AgentIndex agent, const AgentOrder& order,
-                                   std::span<const Constraint> constraints, Time most_cost,
-                                   std::size_t most_nodes, const Limits& limits, AgentGraph& graph);
+  // As TimeExpandedGraphs::make.
+  TimeExpandedGraphs::Outcome timed_graph(AgentIndex agent, const AgentOrder& order,
+                                          std::span<const Constraint> constraints, Time most_cost,
+                                          std::size_t most_nodes, const Limits& limits,
+                                          AgentGraph& graph);
 
   // A sequence that `path`, which must realize one that the order and the constraints leave, visits
   // its stops in.
@@ -73,7 +74,7 @@ class PathPlanner {
   FixedOrderSipp fixed_;
   std::unique_ptr<AgentPlanner> free_;
   MddBuilder optimal_;
-  TimedGraphs timed_;
+  TimeExpandedGraphs timed_;
   AgentStopsCache& stops_;
   bool repeatable_;
   std::vector<std::vector<std::unique_ptr<SequenceStages>>>

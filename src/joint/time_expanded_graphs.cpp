@@ -12,7 +12,7 @@
 //
 // Backward: the earliest finish from each node, in the order of falling times, since no move leads
 // into its own layer. So what an agent costs alone from a node is exact under its demands.
-#include "joint/timed_graphs.h"
+#include "joint/time_expanded_graphs.h"
 
 #include <algorithm>
 #include <limits>
@@ -25,12 +25,12 @@ constexpr std::size_t kMostNumbers = std::numeric_limits<AgentGraph::Node>::max(
 
 }  // namespace
 
-TimedGraphs::TimedGraphs(const World& world) : world_(world), intervals_(world) {}
+TimeExpandedGraphs::TimeExpandedGraphs(const World& world) : world_(world), intervals_(world) {}
 
-TimedGraphs::Outcome TimedGraphs::make(SequenceStages& goals,
-                                       std::span<const Constraint> constraints, Time most_cost,
-                                       std::size_t most_nodes, const Limits& limits,
-                                       AgentGraph& graph) {
+TimeExpandedGraphs::Outcome TimeExpandedGraphs::make(SequenceStages& goals,
+                                                     std::span<const Constraint> constraints,
+                                                     Time most_cost, std::size_t most_nodes,
+                                                     const Limits& limits, AgentGraph& graph) {
   intervals_.assign(constraints);
   if (world_.states_are_places()) most_cost = std::min(most_cost, intervals_.latest_rest());
   graph = AgentGraph();
@@ -56,7 +56,7 @@ TimedGraphs::Outcome TimedGraphs::make(SequenceStages& goals,
 }
 
 // Where the start may count for a stop or not, it is of two stages; it is one node nevertheless.
-void TimedGraphs::start() {
+void TimeExpandedGraphs::start() {
   nodes_.clear();
   moves_.clear();
   next_.clear();
@@ -71,7 +71,7 @@ void TimedGraphs::start() {
   if (!first_stages_.empty()) nodes_.push_back({slot, first, 0});
 }
 
-void TimedGraphs::expand(Index node) {
+void TimeExpandedGraphs::expand(Index node) {
   const Timed from = nodes_[node];  // nodes_ will grow
   if (node == 0 || from.time > nodes_[node - 1].time) next_.clear();
   if (node > 0) {
@@ -82,7 +82,7 @@ void TimedGraphs::expand(Index node) {
   nodes_[node].end_move = static_cast<Index>(moves_.size());
 }
 
-void TimedGraphs::expand(std::int32_t slot, StageId stage, Time time) {
+void TimeExpandedGraphs::expand(std::int32_t slot, StageId stage, Time time) {
   if (time < intervals_.end_of(slot)) reach(slot, stage, time + 1);
   intervals_.for_each_move(slot, time, [&](int next, State state, Time arrival) {
     if (arrival == time + 1)
@@ -90,7 +90,7 @@ void TimedGraphs::expand(std::int32_t slot, StageId stage, Time time) {
   });
 }
 
-void TimedGraphs::reach(std::int32_t slot, StageId stage, Time time) {
+void TimeExpandedGraphs::reach(std::int32_t slot, StageId stage, Time time) {
   const auto key = static_cast<std::uint64_t>(slot) << 32 | static_cast<std::uint32_t>(stage);
   const auto [at, is_new] = next_.try_emplace(key, -1);
   if (is_new && goals_->distance(stage, intervals_.state_of(slot)) <= most_cost_ - time) {
@@ -100,7 +100,7 @@ void TimedGraphs::reach(std::int32_t slot, StageId stage, Time time) {
   if (at->second >= 0) moves_.push_back(at->second);
 }
 
-bool TimedGraphs::may_rest(Index node) const {
+bool TimeExpandedGraphs::may_rest(Index node) const {
   const Timed& n = nodes_[node];
   if (!intervals_.may_rest(n.slot)) return false;
   const auto rests = [&](StageId stage) {
@@ -109,7 +109,7 @@ bool TimedGraphs::may_rest(Index node) const {
   return node > 0 ? rests(n.stage) : std::ranges::any_of(first_stages_, rests);
 }
 
-void TimedGraphs::find_finishes() {
+void TimeExpandedGraphs::find_finishes() {
   for (auto node = static_cast<Index>(nodes_.size()); node-- > 0;) {
     Timed& from = nodes_[node];
     if (may_rest(node)) from.finish = from.time;
@@ -119,7 +119,7 @@ void TimedGraphs::find_finishes() {
 }
 
 // Without the nodes that lead nowhere. The start, if it stays, stays 0. Those at rest come last.
-void TimedGraphs::write(AgentGraph& graph) const {
+void TimeExpandedGraphs::write(AgentGraph& graph) const {
   using NodeId = AgentGraph::Node;
   if (nodes_.empty() || nodes_.front().finish == kNever) return;
   std::vector<NodeId> number(nodes_.size());

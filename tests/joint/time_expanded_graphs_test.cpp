@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "joint/timed_graphs.h"
+#include "joint/time_expanded_graphs.h"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ class Fuzzer {
     SequenceStages goals(stops, SequenceClass());
     AgentGraph graph;
     EXPECT_EQ(graphs_.make(goals, demands, most, kPlenty, Limits(), graph),
-              TimedGraphs::Outcome::kMade);
+              TimeExpandedGraphs::Outcome::kMade);
     return graph;
   }
 
@@ -84,7 +84,7 @@ class Fuzzer {
   const Instance instance_;
   const DistanceFields distances_;
   const Corridors chains_;
-  TimedGraphs graphs_;
+  TimeExpandedGraphs graphs_;
 };
 
 // An agent, what is asked of it, and all its ways up to some cost, of which there are some.
@@ -112,7 +112,7 @@ std::optional<Member> member(Fuzzer& fuzzer, AgentIndex agent, Time detour) {
 }
 
 // What an agent costs alone under its demands is what the cheapest of all its ways costs.
-TEST(TimedGraphs, KnowTheLeastCostUnderDemands) {
+TEST(TimeExpandedGraphs, KnowTheLeastCostUnderDemands) {
   int some = 0, none = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(300));
        ++seed) {
@@ -134,7 +134,7 @@ TEST(TimedGraphs, KnowTheLeastCostUnderDemands) {
 
 // Joint search of some agents under demands finds what trying all their ways finds, and its bound
 // is never above that.
-TEST(TimedGraphs, LetJointSearchFindTheOptimumUnderDemands) {
+TEST(TimeExpandedGraphs, LetJointSearchFindTheOptimumUnderDemands) {
   int found = 0, none = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(500));
        ++seed) {
@@ -169,15 +169,15 @@ TEST(TimedGraphs, LetJointSearchFindTheOptimumUnderDemands) {
   EXPECT_GT(none, 10);
 }
 
-TEST(TimedGraphs, AreNotMadeTooLarge) {
+TEST(TimeExpandedGraphs, AreNotMadeTooLarge) {
   Fuzzer fuzzer(2);
   const DistanceFields distances(fuzzer.instance());
   AgentStops stops(fuzzer.instance(), distances, 0);
   SequenceStages goals(stops, SequenceClass());
   AgentGraph graph;
-  TimedGraphs graphs(fuzzer.instance().world());
+  TimeExpandedGraphs graphs(fuzzer.instance().world());
   EXPECT_EQ(graphs.make(goals, Demands(), 40, 10, Limits(), graph),
-            TimedGraphs::Outcome::kTooLarge);
+            TimeExpandedGraphs::Outcome::kTooLarge);
   EXPECT_EQ(graph.count(), 0u);
 }
 

@@ -17,7 +17,7 @@ namespace grove::detail {
 
 // Makes agent graphs whose nodes have their times, but for those at rest. The essay is at the head
 // of timed_graphs.cpp. Holds the workspace of one thread: reuse it, do not share it.
-class TimedGraphs {
+class TimeExpandedGraphs {
  public:
   enum class Outcome : std::uint8_t {
     kMade,
@@ -26,7 +26,7 @@ class TimedGraphs {
   };
 
   // `world` must outlive this.
-  explicit TimedGraphs(const World& world);
+  explicit TimeExpandedGraphs(const World& world);
 
   // The ways that realize a sequence of the class of `goals`, obey `constraints`, none of them
   // about the sequence, and cost `most_cost` at most; without a node if there are none. Widens the
