@@ -278,7 +278,7 @@ class EpeaStar::Search {
   Cost excess_of(const Node* nodes) {
     for (std::size_t i = 0; i < tables_.size(); ++i) {
       const std::uint8_t excess = tables_[i].excess(nodes);
-      if (excess == PatternDatabase::kNoWay) return kInfiniteCost;
+      if (excess == PatternDatabase::kUnreachable) return kInfiniteCost;
       excess_[i] = excess;
     }
     int best = 0;

@@ -168,7 +168,7 @@ std::optional<PatternDatabase> PatternDatabase::make(const Instance& instance,
     for (std::size_t i = 0, rest = entry; i < graphs.size(); rest %= table.strides_[i++])
       alone += graphs[i]->to_go(static_cast<Node>(rest / table.strides_[i]));
     table.excess_[entry] = costs[entry] == kNever
-                               ? kNoWay
+                               ? kUnreachable
                                : static_cast<std::uint8_t>(std::min(costs[entry] - alone, 254));
   }
   return table;

@@ -18,7 +18,7 @@ namespace grove::detail {
 class PatternDatabase {
  public:
   using Node = AgentGraph::Node;
-  static constexpr std::uint8_t kNoWay = 255;
+  static constexpr std::uint8_t kUnreachable = 255;
 
   // `members`, rising, of `agents`. entries() is what it will hold, in bytes; making it takes
   // work(). None: stopped.
@@ -32,8 +32,8 @@ class PatternDatabase {
                            std::span<const std::size_t> members);
 
   const std::vector<std::size_t>& members() const { return members_; }
-  // By the nodes of all agents: at least so much more, 254 at most; kNoWay: from there they do not
-  // all come to rest.
+  // By the nodes of all agents: at least so much more, 254 at most; kUnreachable: from there they
+  // do not all come to rest.
   std::uint8_t excess(const Node* nodes) const {
     std::size_t entry = 0;
     for (std::size_t i = 0; i < members_.size(); ++i) entry += nodes[members_[i]] * strides_[i];

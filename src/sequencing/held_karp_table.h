@@ -21,7 +21,7 @@ inline constexpr int kMostTableStops = 26;  // 3.5 GB; a table beyond is nobody'
 
 // Twice this value still fits, so that no sum overflows; every true cost is below it.
 template <class Entry>
-inline constexpr Entry kNoWay = std::numeric_limits<Entry>::max() / 2;
+inline constexpr Entry kUnreachable = std::numeric_limits<Entry>::max() / 2;
 
 // No finite cost of a sequence exceeds this: every row of the matrix has one leg in it.
 inline std::int64_t most_expensive(const CostMatrix& matrix) {
@@ -37,7 +37,7 @@ inline std::int64_t most_expensive(const CostMatrix& matrix) {
 
 // May the table have 16-bit entries?
 inline bool fits_narrow_table(const CostMatrix& matrix) {
-  return most_expensive(matrix) < kNoWay<std::int16_t>;
+  return most_expensive(matrix) < kUnreachable<std::int16_t>;
 }
 
 // h[left][port], once built; ports of a stop, see CostMatrix. Immutable then; any thread may read
@@ -80,7 +80,7 @@ class HeldKarpTable {
   // The least cost from a port through all of `left` to the end; kNever when there is no way.
   Time cost_to_go(StopSet left, int port) const {
     const Entry cost = table_[left * static_cast<StopSet>(stops_ * ports_) + port];
-    return cost == kNoWay<Entry> ? kNever : Time{cost};
+    return cost == kUnreachable<Entry> ? kNever : Time{cost};
   }
 
  private:
@@ -116,7 +116,7 @@ class HeldKarpTable {
     for (std::uint32_t set = 1; set < std::uint32_t{1} << stops_; ++set) {
       if (set % kPollInterval == 0 && limits.stop_requested()) return false;
       Entry row[kWidth];
-      std::fill_n(row, kWidth, kNoWay<Entry>);
+      std::fill_n(row, kWidth, kUnreachable<Entry>);
       for_each_stop(set, [&](int stop) {
         for (int u = stop * kPorts; u < (stop + 1) * kPorts; ++u) {
           const Entry rest = table[(set & ~bit(stop)) * n + u];
@@ -133,14 +133,14 @@ class HeldKarpTable {
   // The cost matrix by columns: entry u * width + v is the leg from v to u.
   static std::vector<Entry> columns(const CostMatrix& matrix, int width) {
     const int n = matrix.stops() * matrix.ports;
-    std::vector<Entry> into(static_cast<std::size_t>(n) * width, kNoWay<Entry>);
+    std::vector<Entry> into(static_cast<std::size_t>(n) * width, kUnreachable<Entry>);
     for (int u = 0; u < n; ++u)
       for (int v = 0; v < n; ++v) into[u * width + v] = entry(matrix.between(v, u));
     return into;
   }
 
   static Entry entry(Time cost) {
-    return cost >= kNever ? kNoWay<Entry> : static_cast<Entry>(cost);
+    return cost >= kNever ? kUnreachable<Entry> : static_cast<Entry>(cost);
   }
 
   int stops_ = 0;
