@@ -126,11 +126,11 @@ class AgentGraphMaker {
       const std::size_t first = graph.moves_.size();
       for (const std::uint32_t to : moves_[node]) {
         if (to_go_[to] == kNever) continue;
-        const Time detour = (nodes_[to].rests ? 0 : 1) + to_go_[to] - to_go_[node];
-        graph.moves_.push_back({static_cast<AgentGraph::Node>(number[to]), detour});
+        const Time delta_f = (nodes_[to].rests ? 0 : 1) + to_go_[to] - to_go_[node];
+        graph.moves_.push_back({static_cast<AgentGraph::Node>(number[to]), delta_f});
       }
       std::sort(graph.moves_.begin() + static_cast<std::ptrdiff_t>(first), graph.moves_.end(),
-                [](const auto& a, const auto& b) { return a.detour < b.detour; });
+                [](const auto& a, const auto& b) { return a.delta_f < b.delta_f; });
       graph.first_move_.push_back(static_cast<std::uint32_t>(graph.moves_.size()));
     }
     return graph;

@@ -24,7 +24,7 @@ class AgentGraph {
 
   struct Move {
     Node to;
-    Time detour;  // what it costs more than the best way from here, alone
+    Time delta_f;  // what it costs more than the best way from here, alone
   };
 
   // None: it can come to more than `most_nodes` nodes.

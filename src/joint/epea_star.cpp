@@ -303,7 +303,7 @@ class EpeaStar::Search {
     next_budget_ = kNever;
     most_.assign(size() + 1, 0);
     for (std::size_t i = size(); i-- > 0;)
-      most_[i] = most_[i + 1] + agents_[i].moves(from_[i]).back().detour;
+      most_[i] = most_[i + 1] + agents_[i].moves(from_[i]).back().delta_f;
     for (std::size_t i = 0; i < size(); ++i)
       from_on_[place(i, from_)] = static_cast<std::int8_t>(i);
     choose(0, 0, 0, 0);
@@ -339,7 +339,7 @@ class EpeaStar::Search {
   }
 
   // The moves of `agent` and all after it; those before have chosen and pay `cost`.
-  void choose(std::size_t agent, Time detour, std::int32_t cost, std::int32_t alone) {
+  void choose(std::size_t agent, Time delta_f, std::int32_t cost, std::int32_t alone) {
     if (agent == size()) {
       next_nodes_.insert(next_nodes_.end(), to_.begin(), to_.end());
       next_.push_back({hash_of(to_.data()), records_[parent_].cost + cost, alone});
@@ -348,7 +348,7 @@ class EpeaStar::Search {
     const AgentGraph& graph = agents_[agent];
     const std::size_t here = place(agent, from_);
     for (const AgentGraph::Move& move : graph.moves(from_[agent])) {
-      const Time sum = detour + move.detour;
+      const Time sum = delta_f + move.delta_f;
       if (sum + most_[agent + 1] <= looked_at_) continue;
       const auto there = static_cast<std::size_t>(graph.place(move.to));
       if (collides(agent, here, there)) continue;

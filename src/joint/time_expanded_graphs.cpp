@@ -149,7 +149,7 @@ void TimeExpandedGraphs::write(AgentGraph& graph) const {
       if (const Timed& to = nodes_[moves_[move]]; to.finish < kNever)
         graph.moves_.push_back({number[moves_[move]], to.finish - from.finish});
     std::ranges::sort(graph.moves_.begin() + first, graph.moves_.end(), {},
-                      &AgentGraph::Move::detour);
+                      &AgentGraph::Move::delta_f);
     graph.first_move_.push_back(static_cast<std::uint32_t>(graph.moves_.size()));
   }
   for (const auto& [state, node] : rests) {

@@ -95,7 +95,7 @@ struct Member {
   std::vector<Way> ways;
 };
 
-std::optional<Member> member(Fuzzer& fuzzer, AgentIndex agent, Time detour) {
+std::optional<Member> member(Fuzzer& fuzzer, AgentIndex agent, Time delta_f) {
   Member m{.agent = agent, .demands = {}, .most = 0, .ways = {}};
   for (Time most = 0; m.ways.empty(); ++most) {
     const auto ways = oracle::ways_within(fuzzer.instance(), agent, m.demands, most, kMostWays);
@@ -104,7 +104,7 @@ std::optional<Member> member(Fuzzer& fuzzer, AgentIndex agent, Time detour) {
   }
   for (int n = fuzzer.below(5); n > 0; --n)
     m.demands.push_back(fuzzer.demand(m.ways[fuzzer.below(static_cast<int>(m.ways.size()))]));
-  m.most = static_cast<Time>(m.ways.front().size()) - 1 + detour;
+  m.most = static_cast<Time>(m.ways.front().size()) - 1 + delta_f;
   const auto ways = oracle::ways_within(fuzzer.instance(), agent, m.demands, m.most, kMostWays);
   if (!ways) return std::nullopt;
   m.ways = *ways;
