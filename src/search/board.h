@@ -72,7 +72,7 @@ class Board {
   std::vector<Place> places_;
   std::vector<BoardNode> parents_;  // kNone of the root
   std::vector<int> depths_;
-  Rows neighbors_;
+  CsrArray neighbors_;
   std::vector<Block> blocks_;
   std::vector<std::int32_t> block_of_;  // -1 of the root
   std::vector<BoardNode> regions_;
