@@ -7,7 +7,7 @@
 #include <memory>
 #include <unordered_map>
 
-#include "search/path_sets.h"
+#include "search/mdd_cache.h"
 
 namespace grove::detail {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "search/excesses.h"
+#include "search/mdd_cache.h"
 #include "search/path_planner.h"
-#include "search/path_sets.h"
 #include "search/situations.h"
 
 namespace grove::detail {

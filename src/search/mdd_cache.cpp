@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "search/path_sets.h"
+#include "search/mdd_cache.h"
 
 #include <utility>
 
