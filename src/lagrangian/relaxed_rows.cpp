@@ -90,7 +90,7 @@ double RelaxedRows::turn(std::span<const Path> paths, const Encounters& encounte
   count_uses(paths, encounters);
   double squares = 0;
   for (Course& row : courses_) {
-    const bool is_at_rest = row.multiplier <= 0;  // and cannot go down
+    const bool is_at_rest = row.exact_multiplier <= 0;  // and cannot go down
     double direction = row.used - 1;
     if (is_at_rest) direction = std::max(direction, 0.0);
     direction += memory * row.direction;
@@ -140,8 +140,9 @@ void RelaxedRows::go(double step) {
   for (RowId id = 0; id < courses_.size(); ++id) {
     Course& row = courses_[id];
     if (row.direction == 0) continue;
-    row.multiplier = std::clamp(row.multiplier + step * row.direction, 0.0, kGreatestMultiplier);
-    tariff_.set_charge(id, static_cast<Tariff::Amount>(std::lround(row.multiplier)));
+    row.exact_multiplier =
+        std::clamp(row.exact_multiplier + step * row.direction, 0.0, kGreatestMultiplier);
+    tariff_.set_charge(id, static_cast<Tariff::Amount>(std::lround(row.exact_multiplier)));
   }
 }
 

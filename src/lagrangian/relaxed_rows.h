@@ -40,7 +40,7 @@ class RelaxedRows {
   using Kind = RelaxedRow::Kind;
   struct Course {
     std::int32_t used = 0;
-    double multiplier = 0;
+    double exact_multiplier = 0;
     double direction = 0;
   };
 
