@@ -68,7 +68,7 @@ void serialize(Archive& archive, RelaxedRow& row) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, TariffNews& news) {
+void serialize(Archive& archive, MultiplierUpdate& news) {
   archive(news.rows, news.charges);
 }
 

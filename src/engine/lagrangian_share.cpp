@@ -87,7 +87,7 @@ void LagrangianShare::perform(LagrangianBound::Job& job, Pricer& pricer, Cost cu
 }
 
 Pricer LagrangianShare::pricer(const AgentStopsCache& stops) const {
-  return {helps_ ? help_->tariff() : bound_->tariff(), stops};
+  return {helps_ ? help_->multipliers() : bound_->multipliers(), stops};
 }
 
 Cost LagrangianShare::commit(LagrangianBound::Job job) {

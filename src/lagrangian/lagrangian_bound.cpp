@@ -135,7 +135,7 @@ void LagrangianBound::do_perform(Job& job, Pricer& pricer, Cost cutoff, Cost kno
 
 // Of the path that it has, under the multipliers of this round.
 Price LagrangianBound::known_price(AgentIndex agent) const {
-  return paths_[agent].empty() ? kNoPrice : tariff().price(agent, paths_[agent]);
+  return paths_[agent].empty() ? kNoPrice : multipliers().price(agent, paths_[agent]);
 }
 
 void LagrangianBound::commit(Job job) {
@@ -172,15 +172,16 @@ void LagrangianBound::end_pricing_if_done() {
   ++rounds_;
   work_between_ = 0;
   const Price bound =
-      std::accumulate(prices_.begin(), prices_.end(), Price{0}) - tariff().sum_of_charges();
+      std::accumulate(prices_.begin(), prices_.end(), Price{0}) - multipliers().sum();
   if (bound > best_ && keeps_reasons_) note_reasons();
   best_ = std::max(best_, bound);
 }
 
 void LagrangianBound::note_reasons() {
   reasons_.clear();
-  for (Tariff::RowId id = 0; id < tariff().count(); ++id)
-    if (tariff().charge(id) > 0) reasons_.push_back({tariff().row(id), tariff().charge(id)});
+  for (Multipliers::RowId id = 0; id < multipliers().count(); ++id)
+    if (multipliers().charge(id) > 0)
+      reasons_.push_back({multipliers().row(id), multipliers().charge(id)});
 }
 
 // The round cannot end meanwhile, for nobody has these agents yet; so the tariff stays as it is.
@@ -194,7 +195,7 @@ std::vector<LagrangianBound::Asked> LagrangianBound::share_out() {
     share.first = cut.first;
     for (AgentIndex agent = cut.first; agent < cut.end; ++agent)
       share.known.push_back(known_[agent] = known_price(agent));
-    share.news = tariff().news_for(helper.charges);
+    share.news = multipliers().update_for(helper.charges);
     helper.owes = true;
     shares.push_back({cut.helper, cut.work, std::move(share)});
   }
@@ -237,7 +238,8 @@ std::int64_t LagrangianBound::work_left() const {
 int LagrangianBound::accept(int helper, PriceAnswer answer) {
   helpers_.at(static_cast<std::size_t>(helper)).owes = false;
   const std::lock_guard lock(mutex_);
-  if (phase_ != Phase::kPricing || answer.round != rounds_ || answer.digest != tariff().digest())
+  if (phase_ != Phase::kPricing || answer.round != rounds_ ||
+      answer.digest != multipliers().digest())
     return 0;
   const auto agents = static_cast<AgentIndex>(answer.prices.size());
   if (agents == 0 || answer.paths.size() != answer.prices.size() || answer.first < asked_ ||
@@ -295,12 +297,12 @@ void LagrangianBound::make_list(Price bound) {
     if (rounds_ < next_list_ || bound < best_) return;
     next_list_ = rounds_ + std::max(1, rounds_ / kRoundsPerList);
   }
-  new_list_ = std::make_shared<const PriceList>(PriceList{tariff(), prices_, paths_});
+  new_list_ = std::make_shared<const PriceList>(PriceList{multipliers(), prices_, paths_});
 }
 
 void LagrangianBound::move_multipliers(Cost cutoff, Cost known) {
   const Price bound =
-      std::accumulate(prices_.begin(), prices_.end(), Price{0}) - tariff().sum_of_charges();
+      std::accumulate(prices_.begin(), prices_.end(), Price{0}) - multipliers().sum();
   make_list(bound);
   const double squares = rows_.turn(paths_, encounters_, tuning_.lagrangian_memory);
   const double most = static_cast<double>(cutoff) * Penalties::kUnit;

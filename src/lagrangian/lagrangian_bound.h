@@ -59,14 +59,14 @@ class LagrangianBound {
   // From now on, remembers by which charges it has the bound that it has.
   void keep_reasons() { keeps_reasons_ = true; }
   // Once no job is in hand.
-  const std::vector<ChargedRow>& reasons() const { return reasons_; }
+  const std::vector<RowMultiplier>& reasons() const { return reasons_; }
 
   // Nothing is to be gained any more.
   bool ended() const;
   // Proven: no plan costs less.
   Cost lower_bound() const;
   int rounds() const;
-  const Tariff& tariff() const { return rows_.tariff(); }
+  const Multipliers& multipliers() const { return rows_.multipliers(); }
   // Of a round with the best bound so far, a new one now and then; null: none yet. It appears when
   // a job is committed.
   std::shared_ptr<const PriceList> price_list() const;
@@ -83,8 +83,8 @@ class LagrangianBound {
     std::int64_t work;  // expected
   };
   struct Helper {
-    std::vector<Tariff::Amount> charges;  // that it knows
-    bool owes = false;                    // an answer
+    std::vector<Multipliers::Amount> charges;  // that it knows
+    bool owes = false;                         // an answer
   };
 
   void begin_pricing();
@@ -124,7 +124,7 @@ class LagrangianBound {
   int in_hand_ = 0;  // jobs
   int rounds_ = 0;
   Price best_ = 0;
-  std::vector<ChargedRow> reasons_;  // for it, if they are kept
+  std::vector<RowMultiplier> reasons_;  // for it, if they are kept
   std::shared_ptr<const PriceList> list_;
   // Agents are priced here from the first one on, and helpers are asked for the last ones; when
   // there are no others left, also for those not yet answered, from the last one back.

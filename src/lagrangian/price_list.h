@@ -5,8 +5,8 @@
 #include <numeric>
 #include <vector>
 
+#include "lagrangian/multipliers.h"
 #include "lagrangian/penalized_search.h"
-#include "lagrangian/tariff.h"
 
 namespace grove::detail {
 
@@ -14,11 +14,9 @@ namespace grove::detail {
 // leaves unused of the tariff, make together what it costs above the bound. A value.
 struct PriceList {
   // Proven: no plan costs less.
-  Price bound() const {
-    return std::accumulate(prices.begin(), prices.end(), -tariff.sum_of_charges());
-  }
+  Price bound() const { return std::accumulate(prices.begin(), prices.end(), -multipliers.sum()); }
 
-  Tariff tariff;
+  Multipliers multipliers;
   std::vector<Price> prices;  // by agent
   std::vector<Path> paths;    // of those prices; empty where none is known
 };

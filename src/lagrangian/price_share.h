@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lagrangian/tariff.h"
+#include "lagrangian/multipliers.h"
 
 namespace grove::detail {
 
@@ -13,7 +13,7 @@ struct PriceShare {
   std::int64_t round = 0;
   std::int32_t first = 0;    // agent
   std::vector<Price> known;  // as in PriceJob, by agent from the first one on
-  TariffNews news;           // of the round's tariff, since this one was asked last
+  MultiplierUpdate news;     // of the round's tariff, since this one was asked last
 };
 
 struct PriceAnswer {

@@ -49,7 +49,7 @@ Price Pricer::price_below(Price below, AgentIndex agent, const Limits& limits, P
   CostToGo& cost_to_go = goals.cost_to_go();
   if (Price{cost_to_go.beyond()} * Penalties::kUnit < below)
     cost_to_go.widen(static_cast<Time>(below / Penalties::kUnit), limits);
-  return search_.search(goals, tariff_.on_finish(agent), below, kMostLabels, limits, &path);
+  return search_.search(goals, multipliers_.on_finish(agent), below, kMostLabels, limits, &path);
 }
 
 }  // namespace grove::detail

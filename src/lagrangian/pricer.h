@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "lagrangian/multipliers.h"
 #include "lagrangian/penalized_search.h"
-#include "lagrangian/tariff.h"
 #include "model/limits.h"
 #include "planning/agent_stops_cache.h"
 #include "planning/sequence_stages.h"
@@ -31,8 +31,8 @@ struct PriceJob {
 class Pricer {
  public:
   // `tariff` must outlive this, and may change between jobs.
-  Pricer(const Tariff& tariff, const AgentStopsCache& stops)
-      : tariff_(tariff), stops_(stops), search_(tariff.penalties()) {}
+  Pricer(const Multipliers& multipliers, const AgentStopsCache& stops)
+      : multipliers_(multipliers), stops_(stops), search_(multipliers.penalties()) {}
 
   // Proven: under the tariff no path of an agent costs less than its price.
   void perform(PriceJob& job, const Limits& limits);
@@ -42,7 +42,7 @@ class Pricer {
   Price first_price(AgentIndex agent, const Limits& limits, Path& path);
   Price price_below(Price below, AgentIndex agent, const Limits& limits, Path& path);
 
-  const Tariff& tariff_;
+  const Multipliers& multipliers_;
   AgentStopsCache stops_;
   PenalizedSearch search_;
   std::vector<std::unique_ptr<SequenceStages>> goals_;  // by agent

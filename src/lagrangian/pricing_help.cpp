@@ -11,16 +11,16 @@
 namespace grove::detail {
 
 PricingHelp::PricingHelp(const Instance& instance)
-    : instance_(instance), tariff_(instance.world(), instance.agent_count()) {}
+    : instance_(instance), multipliers_(instance.world(), instance.agent_count()) {}
 
 void PricingHelp::accept(PriceShare share) {
   const std::lock_guard lock(mutex_);
   const auto agents = static_cast<std::int64_t>(share.known.size());
   if (share_ || agents == 0 || share.first < 0 || share.first + agents > instance_.agent_count())
     throw std::invalid_argument("prices are asked for that cannot be wanted");
-  tariff_.learn(share.news);
+  multipliers_.learn(share.news);
   answer_.round = share.round;
-  answer_.digest = tariff_.digest();
+  answer_.digest = multipliers_.digest();
   answer_.first = share.first;
   answer_.prices.assign(share.known.size(), 0);
   answer_.paths.assign(share.known.size(), {});

@@ -29,11 +29,11 @@ class PricingHelp {
   // All that was asked for, once, when it is done.
   std::optional<PriceAnswer> take_answer();
 
-  const Tariff& tariff() const { return tariff_; }
+  const Multipliers& multipliers() const { return multipliers_; }
 
  private:
   const Instance& instance_;
-  Tariff tariff_;  // changes only when no job is in hand
+  Multipliers multipliers_;  // changes only when no job is in hand
   mutable std::mutex mutex_;
   std::optional<PriceShare> share_;  // not answered yet; under mutex_, as is the rest
   PriceAnswer answer_;

@@ -22,7 +22,7 @@ struct RelaxedRow {
 };
 
 // With what its use costs: of 1024, that make a step.
-struct ChargedRow {
+struct RowMultiplier {
   RelaxedRow row;
   std::int32_t charge = 0;
 };

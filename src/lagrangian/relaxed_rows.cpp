@@ -34,7 +34,7 @@ std::uint64_t pair_key(const FinishPair& pair) {
 
 RelaxedRows::RelaxedRows(const World& world, int agents)
     : world_(world),
-      tariff_(world, agents),
+      multipliers_(world, agents),
       has_edge_rows_(static_cast<std::size_t>(world.place_count())) {}
 
 std::uint64_t RelaxedRows::place_key(Place place, Time time) const {
@@ -44,13 +44,13 @@ std::uint64_t RelaxedRows::place_key(Place place, Time time) const {
 
 // An edge is its arc from the lesser place.
 std::uint64_t RelaxedRows::edge_key(Place from, Place to, Time arrival) const {
-  const auto arc = tariff_.penalties().arc(std::min(from, to), std::max(from, to));
+  const auto arc = multipliers_.penalties().arc(std::min(from, to), std::max(from, to));
   return static_cast<std::uint64_t>(arrival) << 32 | static_cast<std::uint32_t>(arc);
 }
 
 RelaxedRows::RowId RelaxedRows::add_row(const RelaxedRow& row) {
   const auto id = static_cast<RowId>(courses_.size());
-  tariff_.add(row);
+  multipliers_.add(row);
   courses_.emplace_back();
   return id;
 }
@@ -81,7 +81,7 @@ void RelaxedRows::add(const FinishPair& pair) {
 bool RelaxedRows::has(const FinishPair& pair) const {
   const auto rows = finish_rows_.find(pair_key(pair));
   return rows != finish_rows_.end() && std::ranges::any_of(rows->second, [&](RowId id) {
-           const RelaxedRow& row = tariff_.row(id);
+           const RelaxedRow& row = multipliers_.row(id);
            return row.time >= pair.finish_a && row.time_b >= pair.finish_b;
          });
 }
@@ -105,7 +105,7 @@ void RelaxedRows::count_uses(std::span<const Path> paths, const Encounters& enco
     return !paths[agent].empty() && static_cast<Time>(paths[agent].size()) - 1 <= time ? 1 : 0;
   };
   for (RowId id = 0; id < courses_.size(); ++id) {
-    const RelaxedRow& row = tariff_.row(id);
+    const RelaxedRow& row = multipliers_.row(id);
     std::int32_t& used = courses_[id].used;
     used = 0;
     if (row.kind == Kind::kPlace) used = encounters.at(row.a, row.time);
@@ -113,7 +113,8 @@ void RelaxedRows::count_uses(std::span<const Path> paths, const Encounters& enco
       used = finishes_by(row.a, row.time) + finishes_by(row.b, row.time_b);
   }
   for (const Path& path : paths)
-    if (!path.empty()) count_moves(path, std::max(encounters.end(), tariff_.penalties().end()));
+    if (!path.empty())
+      count_moves(path, std::max(encounters.end(), multipliers_.penalties().end()));
 }
 
 void RelaxedRows::count_moves(const Path& path, Time end) {
@@ -142,7 +143,8 @@ void RelaxedRows::go(double step) {
     if (row.direction == 0) continue;
     row.exact_multiplier =
         std::clamp(row.exact_multiplier + step * row.direction, 0.0, kGreatestMultiplier);
-    tariff_.set_charge(id, static_cast<Tariff::Amount>(std::lround(row.exact_multiplier)));
+    multipliers_.set_multiplier(
+        id, static_cast<Multipliers::Amount>(std::lround(row.exact_multiplier)));
   }
 }
 

@@ -9,7 +9,7 @@
 
 #include "lagrangian/encounters.h"
 #include "lagrangian/finish_pairs.h"
-#include "lagrangian/tariff.h"
+#include "lagrangian/multipliers.h"
 
 namespace grove::detail {
 
@@ -21,7 +21,7 @@ class RelaxedRows {
   // `world` must outlive this.
   RelaxedRows(const World& world, int agents);
 
-  const Tariff& tariff() const { return tariff_; }
+  const Multipliers& multipliers() const { return multipliers_; }
 
   // New rows have multiplier 0. Those that there are already stay.
   void add(const Collision& collision);
@@ -36,7 +36,7 @@ class RelaxedRows {
   void go(double step);
 
  private:
-  using RowId = Tariff::RowId;
+  using RowId = Multipliers::RowId;
   using Kind = RelaxedRow::Kind;
   struct Course {
     std::int32_t used = 0;
@@ -55,7 +55,7 @@ class RelaxedRows {
   void use_edge(Place from, Place to, Time arrival);
 
   const World& world_;
-  Tariff tariff_;
+  Multipliers multipliers_;
   std::vector<Course> courses_;  // by row
   std::unordered_map<std::uint64_t, RowId> place_rows_;
   std::unordered_map<std::uint64_t, RowId> edge_rows_;

@@ -129,7 +129,7 @@ void Neighborhoods::look_at_prices() {
     if (seen_editions_[agent] == paths_.edition(agent)) continue;
     seen_editions_[agent] = paths_.edition(agent);
     overpaid_[agent] =
-        std::max<Price>(0, list.tariff.price(agent, paths_.path(agent)) - list.prices[agent]);
+        std::max<Price>(0, list.multipliers.price(agent, paths_.path(agent)) - list.prices[agent]);
   }
 }
 

@@ -66,14 +66,14 @@ void Router::use(std::shared_ptr<const PriceList> prices) {
   if (priced_) labels_before_ += priced_->labels();
   prices_ = std::move(prices);
   ++price_changes_;
-  priced_.emplace(prices_->tariff.penalties());
+  priced_.emplace(prices_->multipliers.penalties());
 }
 
 void Router::improve(AgentIndex agent, const ReservationTable& others, Time latest,
                      const Limits& limits, Path& path) {
-  const Tariff& tariff = prices_->tariff;
-  priced_->improve(goals(agent), tariff.on_finish(agent), others, latest, tariff.price(agent, path),
-                   kMostPricedLabels, limits, path);
+  const Multipliers& multipliers = prices_->multipliers;
+  priced_->improve(goals(agent), multipliers.on_finish(agent), others, latest,
+                   multipliers.price(agent, path), kMostPricedLabels, limits, path);
 }
 
 Plan Router::plan(const std::vector<Path>& paths) {

@@ -130,7 +130,7 @@ class Making {
 
   void write_prices(CertificateOutput& output) const {
     output.line("prices");
-    for (const ChargedRow& row : written_.priced_rows) output.line(proof_text(row));
+    for (const RowMultiplier& row : written_.priced_rows) output.line(proof_text(row));
     output.line("end");
   }
 

@@ -26,7 +26,7 @@ class LemmaWriter : public ProofLog {
   void split(const ProofSplit& /*split*/) override {}
   void bound(ProofKey /*node*/, Cost /*cost*/, Cost /*bound*/,
              std::span<const ProofExcess> /*excesses*/) override {}
-  void prices(Cost /*bound*/, std::span<const ChargedRow> /*rows*/) override {}
+  void prices(Cost /*bound*/, std::span<const RowMultiplier> /*rows*/) override {}
   void joint(Cost /*bound*/) override {}
 
   std::int64_t number(ProofKey key) const { return numbers_.at(key); }

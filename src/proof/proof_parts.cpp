@@ -95,7 +95,7 @@ class Taking {
     }
     return tree;
   }
-  ChargedRow row() {
+  RowMultiplier row() {
     RelaxedRow row;
     const std::int64_t kind = number();
     if (kind < 0 || kind > static_cast<std::int64_t>(RelaxedRow::Kind::kFinish)) refuse();
@@ -133,7 +133,7 @@ void tell(std::int64_t kind, Taking taking, ProofLog& log) {
   if (kind == kTree) return log.tree(taking.tree());
   if (kind == kPrices) {
     const Cost bound = taking.number();
-    std::vector<ChargedRow> rows;
+    std::vector<RowMultiplier> rows;
     while (!taking.is_over()) rows.push_back(taking.row());
     return log.prices(bound, rows);
   }
@@ -240,7 +240,7 @@ void ProofRecorder::lemma(const ProofLemma& lemma, ProofKey root,
   stream_->add(kLemma, numbers);
 }
 
-void ProofRecorder::prices(Cost bound, std::span<const ChargedRow> rows) {
+void ProofRecorder::prices(Cost bound, std::span<const RowMultiplier> rows) {
   Numbers numbers{bound};
   for (const auto& [row, charge] : rows)
     numbers.insert(numbers.end(), {static_cast<std::int64_t>(row.kind), row.a, row.b, row.time,

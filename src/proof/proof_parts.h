@@ -24,7 +24,7 @@ class ProofRecorder : public ProofLog {
   void split(const ProofSplit& split) override;
   void bound(ProofKey node, Cost cost, Cost bound, std::span<const ProofExcess> excesses) override;
   void lemma(const ProofLemma& lemma, ProofKey root, std::span<const ProofSplit> splits) override;
-  void prices(Cost bound, std::span<const ChargedRow> rows) override;
+  void prices(Cost bound, std::span<const RowMultiplier> rows) override;
   void joint(Cost bound) override;
 
   // All that was said so far is in the file then. Returns why it is not: empty if it is.

@@ -45,7 +45,7 @@ std::string proof_text(const Split& split, const Instance& instance) {
                      proof_text(split[1], instance));
 }
 
-std::string proof_text(const ChargedRow& charged) {
+std::string proof_text(const RowMultiplier& charged) {
   const auto& [row, charge] = charged;
   switch (row.kind) {
     case RelaxedRow::Kind::kPlace:

@@ -17,7 +17,7 @@ std::string proof_text(const AgentConstraint& demand, const Instance& instance);
 // "split 3 bar 17 4 4 | 5 bar 17 4 4"
 std::string proof_text(const Split& split, const Instance& instance);
 // "place 17 4 512"
-std::string proof_text(const ChargedRow& row);
+std::string proof_text(const RowMultiplier& row);
 // A number, or "inf".
 std::string proof_text(Cost cost);
 

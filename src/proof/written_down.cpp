@@ -29,7 +29,7 @@ void WrittenDown::lemma(const ProofLemma& lemma, ProofKey /*root*/,
   lemmas.insert(lemma.key());
 }
 
-void WrittenDown::prices(Cost bound, std::span<const ChargedRow> rows) {
+void WrittenDown::prices(Cost bound, std::span<const RowMultiplier> rows) {
   if (bound <= priced) return;
   priced = bound;
   priced_rows.assign(rows.begin(), rows.end());

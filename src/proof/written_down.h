@@ -29,14 +29,14 @@ class WrittenDown : public ProofLog {
   std::unordered_set<ProofKey> lemmas;
   std::vector<ProofTree> trees;
   Cost priced = 0;  // what prices say, and joint search
-  std::vector<ChargedRow> priced_rows;
+  std::vector<RowMultiplier> priced_rows;
   Cost joined = 0;
 
   void tree(const ProofTree& tree) override;
   void split(const ProofSplit& split) override;
   void bound(ProofKey node, Cost cost, Cost bound, std::span<const ProofExcess> excesses) override;
   void lemma(const ProofLemma& lemma, ProofKey root, std::span<const ProofSplit> splits) override;
-  void prices(Cost bound, std::span<const ChargedRow> rows) override;
+  void prices(Cost bound, std::span<const RowMultiplier> rows) override;
   void joint(Cost bound) override;
 
   // Takes out what names lemmas that are not there: a process was killed over them.

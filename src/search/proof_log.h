@@ -86,7 +86,7 @@ class ProofLog {
   virtual void lemma(const ProofLemma& lemma, ProofKey root,
                      std::span<const ProofSplit> splits) = 0;
   // With these rows the prices of all agents say that no plan costs less (docs/proof.md, "prices").
-  virtual void prices(Cost bound, std::span<const ChargedRow> rows) = 0;
+  virtual void prices(Cost bound, std::span<const RowMultiplier> rows) = 0;
   // Joint search of all agents says so.
   virtual void joint(Cost bound) = 0;
 };

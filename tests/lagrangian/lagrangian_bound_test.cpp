@@ -31,7 +31,7 @@ class LagrangianBoundTest : public ::testing::Test {
   static Cost bound_of(Known& known, const Tuning& tuning, int rounds, Cost optimum) {
     const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
     if (!bound) return 0;
-    Pricer pricer(bound->tariff(), known.stops);
+    Pricer pricer(bound->multipliers(), known.stops);
     while (!bound->ended() && bound->rounds() < rounds) {
       auto job = bound->next();
       if (!job) {
@@ -86,7 +86,7 @@ TEST_F(LagrangianBoundTest, TellsThePricesOfItsBestRounds) {
   Tuning tuning;
   tuning.first_price_list = 3;
   const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
-  Pricer pricer(bound->tariff(), known.stops);
+  Pricer pricer(bound->multipliers(), known.stops);
   std::shared_ptr<const PriceList> last;
   int lists = 0;
   while (!bound->ended() && bound->rounds() < 100) {
@@ -101,10 +101,10 @@ TEST_F(LagrangianBoundTest, TellsThePricesOfItsBestRounds) {
     last = list;
     ++lists;
     EXPECT_GE(bound->rounds(), 3);
-    Price sum = -list->tariff.sum_of_charges();
+    Price sum = -list->multipliers.sum();
     for (AgentIndex agent = 0; agent < known.instance.agent_count(); ++agent) {
       sum += list->prices[agent];
-      EXPECT_EQ(list->tariff.price(agent, list->paths[agent]), list->prices[agent]);
+      EXPECT_EQ(list->multipliers.price(agent, list->paths[agent]), list->prices[agent]);
     }
     EXPECT_EQ((sum + Penalties::kUnit - 1) / Penalties::kUnit, proven);
   }

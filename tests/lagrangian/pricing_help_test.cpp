@@ -32,7 +32,7 @@ Tuning restless(fuzz::Random& random) {
 // One process that helps, and its answers that are still under way.
 struct HelpingProcess {
   explicit HelpingProcess(Known& known)
-      : help(known.instance), pricer(help.tariff(), known.stops) {}
+      : help(known.instance), pricer(help.multipliers(), known.stops) {}
 
   bool work() {
     if (auto job = help.next()) {
@@ -55,7 +55,7 @@ class Ascent {
  public:
   Ascent(Known& known, const Tuning& tuning, int helpers, fuzz::Random& random)
       : bound(LagrangianBound::make(known.instance, known.stops, tuning)),
-        pricer(bound->tariff(), known.stops),
+        pricer(bound->multipliers(), known.stops),
         random_(random) {
     bound->set_helpers(helpers);
     for (int i = 0; i < helpers; ++i) processes.emplace_back(known);
@@ -154,7 +154,7 @@ class OneHelper : public ::testing::Test {
   }();
   std::unique_ptr<LagrangianBound> bound =
       LagrangianBound::make(known.instance, known.stops, tuning);
-  Pricer pricer{bound->tariff(), known.stops};
+  Pricer pricer{bound->multipliers(), known.stops};
   HelpingProcess process{known};
 };
 

@@ -94,9 +94,9 @@ TEST(Neighborhoods, PlanThoseAnewWhoOverpay) {
     return times;
   };
   const int before = times_chosen();
-  PriceList list{Tariff(instance.world(), instance.agent_count()), {}, {}};
+  PriceList list{Multipliers(instance.world(), instance.agent_count()), {}, {}};
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
-    list.prices.push_back(list.tariff.price(agent, planned.paths.path(agent)));
+    list.prices.push_back(list.multipliers.price(agent, planned.paths.path(agent)));
     list.paths.push_back(planned.router.own_path(agent));
   }
   list.prices[kOverpays] -= 10 * Penalties::kUnit;

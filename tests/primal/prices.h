@@ -16,7 +16,7 @@ inline std::shared_ptr<const PriceList> prices_of(const Instance& instance,
   const Tuning tuning;
   const auto bound = LagrangianBound::make(instance, stops, tuning);
   if (!bound) return nullptr;
-  Pricer pricer(bound->tariff(), stops);
+  Pricer pricer(bound->multipliers(), stops);
   while (!bound->ended() && bound->rounds() < rounds) {
     auto job = bound->next();
     bound->perform(*job, pricer, kAnyCost, 0, {});

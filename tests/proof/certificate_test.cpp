@@ -146,9 +146,9 @@ TEST_F(Certificates, GoDownToTreesStopByStop) {
 TEST_F(Certificates, TakePricesWhereTheyProveMore) {
   recorder_.tree(tree_);
   using Kind = RelaxedRow::Kind;
-  recorder_.prices(5, std::array{ChargedRow{{Kind::kPlace, 1, 0, 2, 0}, 700},
-                                 ChargedRow{{Kind::kEdge, 0, 1, 1, 0}, 3},
-                                 ChargedRow{{Kind::kFinish, 0, 1, 4, 5}, 9}});
+  recorder_.prices(5, std::array{RowMultiplier{{Kind::kPlace, 1, 0, 2, 0}, 700},
+                                 RowMultiplier{{Kind::kEdge, 0, 1, 1, 0}, 3},
+                                 RowMultiplier{{Kind::kFinish, 0, 1, 4, 5}, 9}});
   EXPECT_THAT(made(5), ElementsAre("theorem 5", "prices", "place 1 2 700", "edge 0 1 1 3",
                                    "finish 0 4 1 5 9", "end", "end"));
   EXPECT_THAT(made(4), ElementsAre("theorem 4", "leaf", "end"));

@@ -21,7 +21,7 @@ struct End {
 End run(Known& known, int refuse_at) {
   const Tuning tuning;
   const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
-  Pricer pricer(bound->tariff(), known.stops);
+  Pricer pricer(bound->multipliers(), known.stops);
   End end;
   while (!bound->ended() && bound->rounds() < kRounds) {
     auto job = bound->next();

@@ -2,7 +2,7 @@
 // The digest is the sum, modulo 2^64, of each charge times a number drawn from what its row is. So
 // it follows every change of a charge, in whatever order changes come, and does not ask how rows
 // are numbered.
-#include "lagrangian/tariff.h"
+#include "lagrangian/multipliers.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -55,10 +55,10 @@ std::int32_t unfolded(std::uint32_t number) {
 
 }  // namespace
 
-Tariff::Tariff(const World& world, int agents)
+Multipliers::Multipliers(const World& world, int agents)
     : world_(world), penalties_(world), on_finish_(static_cast<std::size_t>(agents)) {}
 
-Price Tariff::price(AgentIndex agent, const Path& path) const {
+Price Multipliers::price(AgentIndex agent, const Path& path) const {
   const auto finish = path.size() - 1;
   Price price = static_cast<Price>(finish) * Penalties::kUnit;
   if (finish < on_finish_[agent].size()) price += on_finish_[agent][finish];
@@ -73,21 +73,21 @@ Price Tariff::price(AgentIndex agent, const Path& path) const {
   return price;
 }
 
-void Tariff::add(const RelaxedRow& row) {
+void Multipliers::add(const RelaxedRow& row) {
   rows_.push_back(row);
-  charges_.push_back(0);
+  multipliers_.push_back(0);
 }
 
-void Tariff::set_charge(RowId id, Amount amount) {
-  const Amount more = amount - charges_[id];
+void Multipliers::set_multiplier(RowId id, Amount amount) {
+  const Amount more = amount - multipliers_[id];
   if (more == 0) return;
   put_on_path(rows_[id], more);
-  charges_[id] = amount;
+  multipliers_[id] = amount;
   sum_ += more;
   digest_ += number_of(rows_[id]) * static_cast<std::uint64_t>(std::int64_t{more});
 }
 
-void Tariff::put_on_path(const RelaxedRow& row, Amount more) {
+void Multipliers::put_on_path(const RelaxedRow& row, Amount more) {
   switch (row.kind) {
     case RelaxedRow::Kind::kPlace:
       for (const auto arc : penalties_.arcs_to(row.a)) penalties_.add(row.time, arc, more);
@@ -103,31 +103,31 @@ void Tariff::put_on_path(const RelaxedRow& row, Amount more) {
   }
 }
 
-void Tariff::put_on_finish(AgentIndex agent, Time by, Amount more) {
+void Multipliers::put_on_finish(AgentIndex agent, Time by, Amount more) {
   std::vector<Amount>& on_finish = on_finish_[agent];
   if (std::ssize(on_finish) <= by) on_finish.resize(static_cast<std::size_t>(by) + 1);
   for (Time time = 0; time <= by; ++time) on_finish[time] += more;
 }
 
-TariffNews Tariff::news_for(std::vector<Amount>& known) const {
-  TariffNews news;
+MultiplierUpdate Multipliers::update_for(std::vector<Amount>& known) const {
+  MultiplierUpdate news;
   news.rows.assign(rows_.begin() + std::ssize(known), rows_.end());
   known.resize(rows_.size());
   std::uint32_t passed = 0;
   for (RowId id = 0; id < rows_.size(); ++id) {
-    if (known[id] == charges_[id]) {
+    if (known[id] == multipliers_[id]) {
       ++passed;
       continue;
     }
     write(news.charges, passed);
-    write(news.charges, folded(charges_[id] - known[id]));
+    write(news.charges, folded(multipliers_[id] - known[id]));
     passed = 0;
   }
-  known = charges_;
+  known = multipliers_;
   return news;
 }
 
-void Tariff::learn(const TariffNews& news) {
+void Multipliers::learn(const MultiplierUpdate& news) {
   for (const RelaxedRow& row : news.rows) {
     if (!is_possible(row)) throw std::invalid_argument("a row of a tariff for another instance");
     add(row);
@@ -137,14 +137,14 @@ void Tariff::learn(const TariffNews& news) {
     id += read(news.charges, at);
     const std::int64_t more = unfolded(read(news.charges, at));
     if (id >= rows_.size()) throw std::invalid_argument("a charge for a row that is not known");
-    const std::int64_t charge = charges_[id] + more;
+    const std::int64_t charge = multipliers_[id] + more;
     if (charge < 0 || charge > PenalizedSearch::kMostPrice)
       throw std::invalid_argument("a charge that nobody makes");
-    set_charge(static_cast<RowId>(id), static_cast<Amount>(charge));
+    set_multiplier(static_cast<RowId>(id), static_cast<Amount>(charge));
   }
 }
 
-bool Tariff::is_possible(const RelaxedRow& row) const {
+bool Multipliers::is_possible(const RelaxedRow& row) const {
   const auto is_agent = [&](std::int32_t agent) {
     return agent >= 0 && agent < std::ssize(on_finish_);
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lagrangian/tariff.h"
+#include "lagrangian/multipliers.h"
 
 #include <gtest/gtest.h>
 
@@ -36,64 +36,64 @@ RelaxedRow random_row(const World& world, int agents, fuzz::Random& random) {
 }
 
 // Whoever was told everything, at whatever times, charges the same.
-TEST(Tariff, IsTheSameForWhoWasToldOfIt) {
+TEST(Multipliers, IsTheSameForWhoWasToldOfIt) {
   std::int64_t changes = 0;
   for (std::uint64_t seed = 2; seed < 60; seed += 2) {
     SCOPED_TRACE(seed);
     const Instance instance = tiny_instance(seed);
     fuzz::Random random(seed);
-    Tariff tariff(instance.world(), instance.agent_count());
-    Tariff copy(instance.world(), instance.agent_count());
-    std::vector<Tariff::Amount> known;
+    Multipliers multipliers(instance.world(), instance.agent_count());
+    Multipliers copy(instance.world(), instance.agent_count());
+    std::vector<Multipliers::Amount> known;
     for (int telling = 0; telling < 20; ++telling) {
       for (int i = random.below(6); i > 0; --i)
-        tariff.add(random_row(instance.world(), instance.agent_count(), random));
-      for (int i = random.below(20); i > 0 && tariff.count() > 0; --i, ++changes)
-        tariff.set_charge(
-            static_cast<Tariff::RowId>(random.below(static_cast<int>(tariff.count()))),
+        multipliers.add(random_row(instance.world(), instance.agent_count(), random));
+      for (int i = random.below(20); i > 0 && multipliers.count() > 0; --i, ++changes)
+        multipliers.set_multiplier(
+            static_cast<Multipliers::RowId>(random.below(static_cast<int>(multipliers.count()))),
             random.pick<int>({0, 1, 63, 64, 8191, 8192, 1 << 16}));
       if (random.percent(30)) continue;
-      copy.learn(tariff.news_for(known));
-      ASSERT_EQ(copy.count(), tariff.count());
-      ASSERT_EQ(copy.digest(), tariff.digest());
-      ASSERT_EQ(copy.sum_of_charges(), tariff.sum_of_charges());
-      for (Tariff::RowId id = 0; id < tariff.count(); ++id) {
-        ASSERT_EQ(copy.row(id), tariff.row(id));
-        ASSERT_EQ(copy.charge(id), tariff.charge(id));
+      copy.learn(multipliers.update_for(known));
+      ASSERT_EQ(copy.count(), multipliers.count());
+      ASSERT_EQ(copy.digest(), multipliers.digest());
+      ASSERT_EQ(copy.sum(), multipliers.sum());
+      for (Multipliers::RowId id = 0; id < multipliers.count(); ++id) {
+        ASSERT_EQ(copy.row(id), multipliers.row(id));
+        ASSERT_EQ(copy.charge(id), multipliers.charge(id));
       }
       for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
         const Path path(static_cast<std::size_t>(random.between(1, 9)),
                         instance.agent(agent).start);
-        ASSERT_EQ(copy.price(agent, path), tariff.price(agent, path));
+        ASSERT_EQ(copy.price(agent, path), multipliers.price(agent, path));
       }
-      const TariffNews nothing = tariff.news_for(known);
+      const MultiplierUpdate nothing = multipliers.update_for(known);
       EXPECT_TRUE(nothing.rows.empty() && nothing.charges.empty());
     }
   }
   EXPECT_GT(changes, 3000);
 }
 
-TEST(Tariff, HasAnotherDigestWhenAnythingIsCharged) {
+TEST(Multipliers, HasAnotherDigestWhenAnythingIsCharged) {
   const Instance instance = tiny_instance(2);
-  Tariff tariff(instance.world(), instance.agent_count());
-  tariff.add({.kind = Kind::kPlace, .a = 0, .time = 1});
-  tariff.add({.kind = Kind::kPlace, .a = 0, .time = 2});
-  const auto none = tariff.digest();
-  tariff.set_charge(0, 5);
-  const auto first = tariff.digest();
-  tariff.set_charge(0, 0);
-  EXPECT_EQ(tariff.digest(), none);
-  tariff.set_charge(1, 5);
-  EXPECT_NE(tariff.digest(), first);
-  EXPECT_NE(tariff.digest(), none);
+  Multipliers multipliers(instance.world(), instance.agent_count());
+  multipliers.add({.kind = Kind::kPlace, .a = 0, .time = 1});
+  multipliers.add({.kind = Kind::kPlace, .a = 0, .time = 2});
+  const auto none = multipliers.digest();
+  multipliers.set_multiplier(0, 5);
+  const auto first = multipliers.digest();
+  multipliers.set_multiplier(0, 0);
+  EXPECT_EQ(multipliers.digest(), none);
+  multipliers.set_multiplier(1, 5);
+  EXPECT_NE(multipliers.digest(), first);
+  EXPECT_NE(multipliers.digest(), none);
   EXPECT_NE(first, none);
 }
 
-TEST(Tariff, RefusesWhatItCannotBeTold) {
+TEST(Multipliers, RefusesWhatItCannotBeTold) {
   const Instance instance = tiny_instance(2);
-  const auto refuses = [&](TariffNews news) {
-    Tariff tariff(instance.world(), instance.agent_count());
-    EXPECT_THROW(tariff.learn(news), std::invalid_argument);
+  const auto refuses = [&](MultiplierUpdate news) {
+    Multipliers multipliers(instance.world(), instance.agent_count());
+    EXPECT_THROW(multipliers.learn(news), std::invalid_argument);
   };
   refuses({{{.kind = Kind::kPlace, .a = -1}}, ""});
   refuses({{{.kind = Kind::kPlace, .a = instance.world().place_count()}}, ""});
