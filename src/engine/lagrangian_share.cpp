@@ -67,7 +67,7 @@ LagrangianBound* LagrangianShare::bound() const {
   return bound_.get();
 }
 
-std::shared_ptr<const PriceList> LagrangianShare::price_list() const {
+std::shared_ptr<const DualSolution> LagrangianShare::price_list() const {
   const LagrangianBound* const bound = this->bound();
   return bound == nullptr ? nullptr : bound->price_list();
 }

@@ -46,7 +46,7 @@ class LagrangianShare {
   // After the search: why the bound holds.
   void write_down(ProofLog& proof) const;
   // For the search for plans; null: none yet, or the bound is another rank's.
-  std::shared_ptr<const PriceList> price_list() const;
+  std::shared_ptr<const DualSolution> price_list() const;
 
   // On rank 0, before the search: so many ranks share it.
   void set_ranks(int ranks) {

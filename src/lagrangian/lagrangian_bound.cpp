@@ -297,7 +297,7 @@ void LagrangianBound::make_list(Price bound) {
     if (rounds_ < next_list_ || bound < best_) return;
     next_list_ = rounds_ + std::max(1, rounds_ / kRoundsPerList);
   }
-  new_list_ = std::make_shared<const PriceList>(PriceList{multipliers(), prices_, paths_});
+  new_list_ = std::make_shared<const DualSolution>(DualSolution{multipliers(), prices_, paths_});
 }
 
 void LagrangianBound::move_multipliers(Cost cutoff, Cost known) {
@@ -316,7 +316,7 @@ void LagrangianBound::move_multipliers(Cost cutoff, Cost known) {
   begin_pricing();
 }
 
-std::shared_ptr<const PriceList> LagrangianBound::price_list() const {
+std::shared_ptr<const DualSolution> LagrangianBound::price_list() const {
   const std::lock_guard lock(mutex_);
   return list_;
 }

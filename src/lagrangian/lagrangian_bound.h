@@ -8,10 +8,10 @@
 #include <optional>
 #include <vector>
 
+#include "lagrangian/dual_solution.h"
 #include "lagrangian/encounters.h"
 #include "lagrangian/finish_pairs.h"
 #include "lagrangian/level_ascent.h"
-#include "lagrangian/price_list.h"
 #include "lagrangian/price_share.h"
 #include "lagrangian/pricer.h"
 #include "lagrangian/relaxed_rows.h"
@@ -69,7 +69,7 @@ class LagrangianBound {
   const Multipliers& multipliers() const { return rows_.multipliers(); }
   // Of a round with the best bound so far, a new one now and then; null: none yet. It appears when
   // a job is committed.
-  std::shared_ptr<const PriceList> price_list() const;
+  std::shared_ptr<const DualSolution> price_list() const;
 
  private:
   enum class Phase : std::uint8_t { kPricing, kBetween, kEnded };
@@ -115,7 +115,7 @@ class LagrangianBound {
   std::vector<FinishPair> colliding_;  // still to be looked at in this round
   bool is_counted_ = false;            // of this round
   std::int64_t next_list_;             // in rounds: not before
-  std::shared_ptr<const PriceList> new_list_;
+  std::shared_ptr<const DualSolution> new_list_;
   std::vector<Helper> helpers_;  // of the one thread that asks them
   bool keeps_reasons_ = false;
 
@@ -125,7 +125,7 @@ class LagrangianBound {
   int rounds_ = 0;
   Price best_ = 0;
   std::vector<RowMultiplier> reasons_;  // for it, if they are kept
-  std::shared_ptr<const PriceList> list_;
+  std::shared_ptr<const DualSolution> list_;
   // Agents are priced here from the first one on, and helpers are asked for the last ones; when
   // there are no others left, also for those not yet answered, from the last one back.
   AgentIndex next_agent_ = 0;

@@ -118,7 +118,7 @@ void Neighborhoods::add_overpaying() {
 }
 
 void Neighborhoods::look_at_prices() {
-  const PriceList& list = *router_.prices();
+  const DualSolution& list = *router_.prices();
   const auto agents = paths_.paths().size();
   if (seen_prices_ != router_.price_changes()) {
     seen_prices_ = router_.price_changes();

@@ -88,7 +88,7 @@ class PrimalSearch::Impl {
 
   std::optional<Plan> step(const Limits& limits);
   void adopt(const Plan& plan);
-  void use(std::shared_ptr<const PriceList> prices) {
+  void use(std::shared_ptr<const DualSolution> prices) {
     if (prices && prices.get() != router_.prices() && is_near(prices->bound()))
       router_.use(std::move(prices));
   }
@@ -423,7 +423,7 @@ PlanSource PrimalSearch::source() const {
 void PrimalSearch::adopt(const Plan& plan) {
   impl_->adopt(plan);
 }
-void PrimalSearch::use(std::shared_ptr<const PriceList> prices) {
+void PrimalSearch::use(std::shared_ptr<const DualSolution> prices) {
   impl_->use(std::move(prices));
 }
 std::optional<Cost> PrimalSearch::best_cost() const {

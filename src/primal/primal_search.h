@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "lagrangian/price_list.h"
+#include "lagrangian/dual_solution.h"
 #include "model/limits.h"
 #include "model/plan.h"
 #include "model/tuning.h"
@@ -50,7 +50,7 @@ class PrimalSearch {
 
   // From now on knows what is dear where and when. Null, or the same as before: nothing new.
   // Not heeded while the best plan costs much more than those who made them have proven.
-  void use(std::shared_ptr<const PriceList> prices);
+  void use(std::shared_ptr<const DualSolution> prices);
 
   // The cheapest plan returned or adopted, or about to be returned.
   std::optional<Cost> best_cost() const;

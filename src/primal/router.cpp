@@ -62,7 +62,7 @@ PathOutcome Router::find(AgentIndex agent, const PathQuery& query, const Limits&
   return low_level_.find(goals(agent), query, limits, path);
 }
 
-void Router::use(std::shared_ptr<const PriceList> prices) {
+void Router::use(std::shared_ptr<const DualSolution> prices) {
   if (priced_) labels_before_ += priced_->labels();
   prices_ = std::move(prices);
   ++price_changes_;

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "lagrangian/price_list.h"
+#include "lagrangian/dual_solution.h"
 #include "lagrangian/pricer.h"
 #include "planning/agent_stops_cache.h"
 #include "planning/free_order_sipp.h"
@@ -31,9 +31,9 @@ class Router {
   PathOutcome find(AgentIndex agent, const PathQuery& query, const Limits& limits, Path& path);
 
   // From now on it is known what is dear.
-  void use(std::shared_ptr<const PriceList> prices);
+  void use(std::shared_ptr<const DualSolution> prices);
   // Null: nothing is known.
-  const PriceList* prices() const { return prices_.get(); }
+  const DualSolution* prices() const { return prices_.get(); }
   // How often that has changed.
   int price_changes() const { return price_changes_; }
   // Puts in the place of a path around others the one that is cheapest by the prices, if that
@@ -73,7 +73,7 @@ class Router {
   std::vector<std::unique_ptr<SequenceStages>> goals_;
   std::vector<Path> own_paths_;  // by AgentIndex
   std::int64_t calls_ = 0;
-  std::shared_ptr<const PriceList> prices_;
+  std::shared_ptr<const DualSolution> prices_;
   int price_changes_ = 0;
   std::optional<PenalizedSearch> priced_;  // by them
   std::int64_t labels_before_ = 0;         // by those before

@@ -87,7 +87,7 @@ TEST_F(LagrangianBoundTest, TellsThePricesOfItsBestRounds) {
   tuning.first_price_list = 3;
   const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
   Pricer pricer(bound->multipliers(), known.stops);
-  std::shared_ptr<const PriceList> last;
+  std::shared_ptr<const DualSolution> last;
   int lists = 0;
   while (!bound->ended() && bound->rounds() < 100) {
     auto job = bound->next();

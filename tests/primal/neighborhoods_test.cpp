@@ -94,13 +94,13 @@ TEST(Neighborhoods, PlanThoseAnewWhoOverpay) {
     return times;
   };
   const int before = times_chosen();
-  PriceList list{Multipliers(instance.world(), instance.agent_count()), {}, {}};
+  DualSolution list{Multipliers(instance.world(), instance.agent_count()), {}, {}};
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
     list.prices.push_back(list.multipliers.price(agent, planned.paths.path(agent)));
     list.paths.push_back(planned.router.own_path(agent));
   }
   list.prices[kOverpays] -= 10 * Penalties::kUnit;
-  planned.router.use(std::make_shared<const PriceList>(std::move(list)));
+  planned.router.use(std::make_shared<const DualSolution>(std::move(list)));
   EXPECT_GT(times_chosen(), before + 80);
 }
 

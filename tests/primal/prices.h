@@ -10,8 +10,8 @@
 namespace grove::detail::testing {
 
 // Of a Lagrangian bound after so many rounds at most; null: it came to nothing.
-inline std::shared_ptr<const PriceList> prices_of(const Instance& instance,
-                                                  const AgentStopsCache& stops, int rounds) {
+inline std::shared_ptr<const DualSolution> prices_of(const Instance& instance,
+                                                     const AgentStopsCache& stops, int rounds) {
   constexpr Cost kAnyCost = 1'000'000;
   const Tuning tuning;
   const auto bound = LagrangianBound::make(instance, stops, tuning);

@@ -12,7 +12,7 @@ namespace grove::detail {
 
 // A tariff, and what each agent pays under it at least. What a plan pays above that, and what it
 // leaves unused of the tariff, make together what it costs above the bound. A value.
-struct PriceList {
+struct DualSolution {
   // Proven: no plan costs less.
   Price bound() const { return std::accumulate(prices.begin(), prices.end(), -multipliers.sum()); }
 
