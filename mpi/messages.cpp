@@ -73,12 +73,12 @@ void serialize(Archive& archive, MultiplierUpdate& news) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, PriceShare& share) {
+void serialize(Archive& archive, PricingRequest& share) {
   archive(share.round, share.first, share.known, share.news);
 }
 
 template <class Archive>
-void serialize(Archive& archive, PriceAnswer& answer) {
+void serialize(Archive& archive, PricingReply& answer) {
   archive(answer.round, answer.digest, answer.first, answer.prices, answer.paths, answer.work);
 }
 

@@ -15,7 +15,7 @@
 #include "engine/proven_by.h"
 #include "engine/serialise.h"
 #include "engine/survey.h"
-#include "lagrangian/price_share.h"
+#include "lagrangian/pricing_messages.h"
 #include "model/limits.h"
 #include "primal/plan_source.h"
 #include "search/facts.h"
@@ -77,12 +77,12 @@ struct Status {
 
 // Rank 0 to a rank that has answered all that it was asked before: find these prices, at once.
 struct AskPrices {
-  PriceShare share;
+  PricingRequest share;
 };
 
 // A rank to rank 0: it has.
 struct Prices {
-  PriceAnswer answer;
+  PricingReply answer;
 };
 
 // To the superior: a plan, to be checked.

@@ -115,8 +115,8 @@ Cost LagrangianShare::heard_of_bound() {
 
 // Rank 0 is no helper. What is asked for counts from now on: while others do it there is time for
 // other work here.
-std::vector<std::pair<int, PriceShare>> LagrangianShare::share_out() {
-  std::vector<std::pair<int, PriceShare>> shares;
+std::vector<std::pair<int, PricingRequest>> LagrangianShare::share_out() {
+  std::vector<std::pair<int, PricingRequest>> shares;
   LagrangianBound* const bound = is_over_ ? nullptr : this->bound();
   if (bound == nullptr) return shares;
   for (auto& [helper, work, share] : bound->share_out()) {
@@ -126,7 +126,7 @@ std::vector<std::pair<int, PriceShare>> LagrangianShare::share_out() {
   return shares;
 }
 
-Cost LagrangianShare::accept(int rank, PriceAnswer answer) {
+Cost LagrangianShare::accept(int rank, PricingReply answer) {
   LagrangianBound* const bound = this->bound();
   if (bound == nullptr || rank < 1 || rank >= ranks_)
     throw std::invalid_argument("prices of a rank that was not asked");
@@ -135,14 +135,14 @@ Cost LagrangianShare::accept(int rank, PriceAnswer answer) {
   return heard_of_bound();
 }
 
-void LagrangianShare::help(const Instance& instance, PriceShare share) {
+void LagrangianShare::help(const Instance& instance, PricingRequest share) {
   const std::lock_guard lock(making_);
   if (!help_) help_ = std::make_unique<PricingHelp>(instance);
   help_->accept(std::move(share));
   helps_ = true;
 }
 
-std::optional<PriceAnswer> LagrangianShare::take_answer() {
+std::optional<PricingReply> LagrangianShare::take_answer() {
   return helps_ ? help_->take_answer() : std::nullopt;
 }
 

@@ -54,15 +54,15 @@ class LagrangianShare {
     asked_of_.resize(static_cast<std::size_t>(ranks));
   }
   // Which ranks to ask for prices now, and for which.
-  std::vector<std::pair<int, PriceShare>> share_out();
+  std::vector<std::pair<int, PricingRequest>> share_out();
   // What that rank has found. Proven by now: no plan costs less.
-  Cost accept(int rank, PriceAnswer answer);
+  Cost accept(int rank, PricingReply answer);
   std::int64_t prices_of_ranks() const { return prices_of_ranks_; }
 
   // On another rank: what it is asked for; all other work can wait. Throws as
   // PricingHelp::accept().
-  void help(const Instance& instance, PriceShare share);
-  std::optional<PriceAnswer> take_answer();
+  void help(const Instance& instance, PricingRequest share);
+  std::optional<PricingReply> take_answer();
 
  private:
   void make();

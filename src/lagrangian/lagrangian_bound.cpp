@@ -190,7 +190,7 @@ std::vector<LagrangianBound::Asked> LagrangianBound::share_out() {
   std::vector<Asked> shares;
   for (const Cut& cut : cuts) {
     Helper& helper = helpers_[static_cast<std::size_t>(cut.helper)];
-    PriceShare share;
+    PricingRequest share;
     share.round = rounds_;
     share.first = cut.first;
     for (AgentIndex agent = cut.first; agent < cut.end; ++agent)
@@ -235,7 +235,7 @@ std::int64_t LagrangianBound::work_left() const {
          kLabelsPerWork;
 }
 
-int LagrangianBound::accept(int helper, PriceAnswer answer) {
+int LagrangianBound::accept(int helper, PricingReply answer) {
   helpers_.at(static_cast<std::size_t>(helper)).owes = false;
   const std::lock_guard lock(mutex_);
   if (phase_ != Phase::kPricing || answer.round != rounds_ ||

@@ -12,8 +12,8 @@
 #include "lagrangian/encounters.h"
 #include "lagrangian/finish_pairs.h"
 #include "lagrangian/level_ascent.h"
-#include "lagrangian/price_share.h"
 #include "lagrangian/pricer.h"
+#include "lagrangian/pricing_messages.h"
 #include "lagrangian/relaxed_rows.h"
 #include "model/tuning.h"
 #include "planning/agent_stops_cache.h"
@@ -33,7 +33,7 @@ class LagrangianBound {
 
   // What is done at one go: the prices of some agents, or, if of none, a part of what follows in a
   // round.
-  using Job = PriceJob;
+  using Job = PricingJob;
   // The next one; none: all are in hand, or it has ended. Whoever takes one performs it and commits
   // it.
   std::optional<Job> next();
@@ -49,12 +49,12 @@ class LagrangianBound {
   struct Asked {
     int helper;
     std::int64_t work;  // that it will probably take
-    PriceShare share;
+    PricingRequest share;
   };
   std::vector<Asked> share_out();
   // What this one was asked for. Counts if the round is still that one and nobody else has found
   // those prices. Returns how many did.
-  int accept(int helper, PriceAnswer answer);
+  int accept(int helper, PricingReply answer);
 
   // From now on, remembers by which charges it has the bound that it has.
   void keep_reasons() { keeps_reasons_ = true; }

@@ -13,7 +13,7 @@ constexpr std::int64_t kMostLabels = std::int64_t{1} << 23;
 
 }  // namespace
 
-void Pricer::perform(PriceJob& job, const Limits& limits) {
+void Pricer::perform(PricingJob& job, const Limits& limits) {
   for (AgentIndex agent = job.first; agent < job.end; ++agent) {
     const Price known = job.known[static_cast<std::size_t>(agent - job.first)];
     const std::int64_t labels = search_.labels();

@@ -17,7 +17,7 @@ namespace grove::detail {
 constexpr std::int64_t kLabelsPerWork = 2;  // see search/work.h
 
 // Agents in a row, and what became of them.
-struct PriceJob {
+struct PricingJob {
   AgentIndex first = 0;
   AgentIndex end = 0;
   std::vector<Price> known;  // of a path each has, at least its price; kNoPrice: it has none
@@ -35,7 +35,7 @@ class Pricer {
       : multipliers_(multipliers), stops_(stops), search_(multipliers.penalties()) {}
 
   // Proven: under the tariff no path of an agent costs less than its price.
-  void perform(PriceJob& job, const Limits& limits);
+  void perform(PricingJob& job, const Limits& limits);
 
  private:
   SequenceStages& goals(AgentIndex agent);

@@ -13,7 +13,7 @@ namespace grove::detail {
 PricingHelp::PricingHelp(const Instance& instance)
     : instance_(instance), multipliers_(instance.world(), instance.agent_count()) {}
 
-void PricingHelp::accept(PriceShare share) {
+void PricingHelp::accept(PricingRequest share) {
   const std::lock_guard lock(mutex_);
   const auto agents = static_cast<std::int64_t>(share.known.size());
   if (share_ || agents == 0 || share.first < 0 || share.first + agents > instance_.agent_count())
@@ -29,10 +29,10 @@ void PricingHelp::accept(PriceShare share) {
   share_ = std::move(share);
 }
 
-std::optional<PriceJob> PricingHelp::next() {
+std::optional<PricingJob> PricingHelp::next() {
   const std::lock_guard lock(mutex_);
   if (!share_ || next_ == share_->known.size()) return std::nullopt;
-  PriceJob job;
+  PricingJob job;
   job.first = share_->first + static_cast<AgentIndex>(next_);
   job.end = job.first + 1;
   job.known = {share_->known[next_++]};
@@ -44,7 +44,7 @@ bool PricingHelp::has_jobs() const {
   return share_ && next_ < share_->known.size();
 }
 
-void PricingHelp::commit(PriceJob job) {
+void PricingHelp::commit(PricingJob job) {
   const std::lock_guard lock(mutex_);
   const auto at = static_cast<std::size_t>(job.first - answer_.first);
   std::ranges::copy(job.prices, answer_.prices.begin() + static_cast<std::ptrdiff_t>(at));
@@ -53,7 +53,7 @@ void PricingHelp::commit(PriceJob job) {
   done_ += job.prices.size();
 }
 
-std::optional<PriceAnswer> PricingHelp::take_answer() {
+std::optional<PricingReply> PricingHelp::take_answer() {
   const std::lock_guard lock(mutex_);
   if (!share_ || done_ < share_->known.size()) return std::nullopt;
   share_.reset();

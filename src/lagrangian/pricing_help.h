@@ -6,8 +6,8 @@
 #include <mutex>
 #include <optional>
 
-#include "lagrangian/price_share.h"
 #include "lagrangian/pricer.h"
+#include "lagrangian/pricing_messages.h"
 #include "model/instance.h"
 
 namespace grove::detail {
@@ -21,13 +21,13 @@ class PricingHelp {
 
   // The next share, when the last one was answered. Throws std::invalid_argument for what cannot be
   // asked for.
-  void accept(PriceShare share);
+  void accept(PricingRequest share);
   // The next job; none: all are in hand. Whoever takes one performs and commits it.
-  std::optional<PriceJob> next();
+  std::optional<PricingJob> next();
   bool has_jobs() const;
-  void commit(PriceJob job);
+  void commit(PricingJob job);
   // All that was asked for, once, when it is done.
-  std::optional<PriceAnswer> take_answer();
+  std::optional<PricingReply> take_answer();
 
   const Multipliers& multipliers() const { return multipliers_; }
 
@@ -35,8 +35,8 @@ class PricingHelp {
   const Instance& instance_;
   Multipliers multipliers_;  // changes only when no job is in hand
   mutable std::mutex mutex_;
-  std::optional<PriceShare> share_;  // not answered yet; under mutex_, as is the rest
-  PriceAnswer answer_;
+  std::optional<PricingRequest> share_;  // not answered yet; under mutex_, as is the rest
+  PricingReply answer_;
   std::size_t next_ = 0;  // of the share
   std::size_t done_ = 0;
 };

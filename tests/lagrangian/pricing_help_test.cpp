@@ -47,7 +47,7 @@ struct HelpingProcess {
 
   PricingHelp help;
   Pricer pricer;
-  std::deque<PriceAnswer> answers;
+  std::deque<PricingReply> answers;
 };
 
 // All of them, in one thread and random order.
@@ -127,7 +127,7 @@ class OneHelper : public ::testing::Test {
     }
   }
   // To where prices are asked for.
-  std::optional<PriceShare> ask() {
+  std::optional<PricingRequest> ask() {
     for (int i = 0; i < 100; ++i) {
       auto asked = bound->share_out();
       if (!asked.empty()) return std::move(asked.front().share);
@@ -138,11 +138,11 @@ class OneHelper : public ::testing::Test {
     }
     return std::nullopt;
   }
-  PriceAnswer answer_to(PriceShare share) {
+  PricingReply answer_to(PricingRequest share) {
     process.help.accept(std::move(share));
     while (process.work()) {
     }
-    PriceAnswer answer = std::move(process.answers.back());
+    PricingReply answer = std::move(process.answers.back());
     process.answers.pop_back();
     return answer;
   }
@@ -169,7 +169,7 @@ TEST_F(OneHelper, IsNotCountedInAnotherRoundWhateverItSays) {
   work_alone_until_round(5);
   auto share = ask();
   ASSERT_TRUE(share);
-  PriceAnswer late = answer_to(std::move(*share));
+  PricingReply late = answer_to(std::move(*share));
   const auto round = bound->rounds();
   work_alone_until_round(round + 1);  // nobody waits for it
   EXPECT_FALSE(ask()) << "it owes an answer";
@@ -186,7 +186,7 @@ TEST_F(OneHelper, IsNotCountedInAnotherRoundWhateverItSays) {
 TEST_F(OneHelper, IsNotCountedAfterTheOthersHaveDoneItsPart) {
   auto share = ask();
   ASSERT_TRUE(share);
-  PriceAnswer late = answer_to(std::move(*share));
+  PricingReply late = answer_to(std::move(*share));
   work_alone_until_round(1);
   EXPECT_EQ(bound->accept(0, std::move(late)), 0);
 }
@@ -194,7 +194,7 @@ TEST_F(OneHelper, IsNotCountedAfterTheOthersHaveDoneItsPart) {
 TEST_F(OneHelper, RefusesWhatCannotBeAskedFor) {
   auto share = ask();
   ASSERT_TRUE(share);
-  PriceShare other = *share;
+  PricingRequest other = *share;
   other.first = 2;
   EXPECT_THROW(process.help.accept(other), std::invalid_argument);
   other.first = 0;

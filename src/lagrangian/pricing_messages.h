@@ -9,14 +9,14 @@
 
 namespace grove::detail {
 
-struct PriceShare {
+struct PricingRequest {
   std::int64_t round = 0;
   std::int32_t first = 0;    // agent
-  std::vector<Price> known;  // as in PriceJob, by agent from the first one on
+  std::vector<Price> known;  // as in PricingJob, by agent from the first one on
   MultiplierUpdate news;     // of the round's tariff, since this one was asked last
 };
 
-struct PriceAnswer {
+struct PricingReply {
   std::int64_t round = 0;    // that was asked for
   std::uint64_t digest = 0;  // of the tariff under which all were found
   std::int32_t first = 0;
