@@ -264,7 +264,7 @@ void Rank::speak(double now) {
 }
 
 void Rank::speak_of_prices() {
-  for (auto& [rank, share] : search_.lagrangian().share_out())
+  for (auto& [rank, share] : search_.lagrangian().dispatch_pricing())
     tell(rank, message::AskPrices{std::move(share)});
   if (auto answer = search_.lagrangian().take_answer())
     tell(0, message::Prices{std::move(*answer)});

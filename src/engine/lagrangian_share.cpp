@@ -115,11 +115,11 @@ Cost LagrangianShare::heard_of_bound() {
 
 // Rank 0 is no helper. What is asked for counts from now on: while others do it there is time for
 // other work here.
-std::vector<std::pair<int, PricingRequest>> LagrangianShare::share_out() {
+std::vector<std::pair<int, PricingRequest>> LagrangianShare::dispatch_pricing() {
   std::vector<std::pair<int, PricingRequest>> shares;
   LagrangianBound* const bound = is_over_ ? nullptr : this->bound();
   if (bound == nullptr) return shares;
-  for (auto& [helper, work, share] : bound->share_out()) {
+  for (auto& [helper, work, share] : bound->dispatch_pricing()) {
     own_ += asked_of_[static_cast<std::size_t>(helper + 1)] = work;
     shares.emplace_back(helper + 1, std::move(share));
   }
@@ -137,7 +137,7 @@ Cost LagrangianShare::accept(int rank, PricingReply answer) {
 
 void LagrangianShare::help(const Instance& instance, PricingRequest share) {
   const std::lock_guard lock(making_);
-  if (!help_) help_ = std::make_unique<PricingHelp>(instance);
+  if (!help_) help_ = std::make_unique<RemotePricing>(instance);
   help_->accept(std::move(share));
   helps_ = true;
 }

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "lagrangian/lagrangian_bound.h"
-#include "lagrangian/pricing_help.h"
+#include "lagrangian/remote_pricing.h"
 #include "search/proof_log.h"
 
 namespace grove::detail {
@@ -54,13 +54,13 @@ class LagrangianShare {
     asked_of_.resize(static_cast<std::size_t>(ranks));
   }
   // Which ranks to ask for prices now, and for which.
-  std::vector<std::pair<int, PricingRequest>> share_out();
+  std::vector<std::pair<int, PricingRequest>> dispatch_pricing();
   // What that rank has found. Proven by now: no plan costs less.
   Cost accept(int rank, PricingReply answer);
   std::int64_t prices_of_ranks() const { return prices_of_ranks_; }
 
   // On another rank: what it is asked for; all other work can wait. Throws as
-  // PricingHelp::accept().
+  // RemotePricing::accept().
   void help(const Instance& instance, PricingRequest share);
   std::optional<PricingReply> take_answer();
 
@@ -84,7 +84,7 @@ class LagrangianShare {
   std::vector<std::int64_t> asked_of_;      // by rank: the work that its answer should take
   mutable std::mutex making_;               // guards the making of what follows:
   std::unique_ptr<LagrangianBound> bound_;  // when it is first due
-  std::unique_ptr<PricingHelp> help_;       // when help is first asked for; then there is no bound_
+  std::unique_ptr<RemotePricing> help_;     // when help is first asked for; then there is no bound_
 };
 
 }  // namespace grove::detail

@@ -185,7 +185,7 @@ void LagrangianBound::note_reasons() {
 }
 
 // The round cannot end meanwhile, for nobody has these agents yet; so the tariff stays as it is.
-std::vector<LagrangianBound::Asked> LagrangianBound::share_out() {
+std::vector<LagrangianBound::Asked> LagrangianBound::dispatch_pricing() {
   const std::vector<Cut> cuts = cut();
   std::vector<Asked> shares;
   for (const Cut& cut : cuts) {

@@ -51,7 +51,7 @@ class LagrangianBound {
     std::int64_t work;  // that it will probably take
     PricingRequest share;
   };
-  std::vector<Asked> share_out();
+  std::vector<Asked> dispatch_pricing();
   // What this one was asked for. Counts if the round is still that one and nobody else has found
   // those prices. Returns how many did.
   int accept(int helper, PricingReply answer);

@@ -14,10 +14,10 @@ namespace grove::detail {
 
 // A copy of the tariff there, and a share of the agents: one after the other, each a job for any
 // thread. Methods may be called from any thread.
-class PricingHelp {
+class RemotePricing {
  public:
   // `instance` must outlive this.
-  explicit PricingHelp(const Instance& instance);
+  explicit RemotePricing(const Instance& instance);
 
   // The next share, when the last one was answered. Throws std::invalid_argument for what cannot be
   // asked for.

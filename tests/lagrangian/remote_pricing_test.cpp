@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A Lagrangian bound and those who find prices for it, with all that can happen to what they say.
-#include "lagrangian/pricing_help.h"
+#include "lagrangian/remote_pricing.h"
 
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ struct HelpingProcess {
     return answer.has_value();
   }
 
-  PricingHelp help;
+  RemotePricing help;
   Pricer pricer;
   std::deque<PricingReply> answers;
 };
@@ -66,7 +66,7 @@ class Ascent {
     const int helper = random_.below(static_cast<int>(processes.size()));
     HelpingProcess& process = processes[static_cast<std::size_t>(helper)];
     if (random_.percent(30)) {
-      for (auto& asked : bound->share_out())
+      for (auto& asked : bound->dispatch_pricing())
         processes[static_cast<std::size_t>(asked.helper)].help.accept(std::move(asked.share));
     } else if (random_.percent(50)) {
       process.work();
@@ -88,7 +88,7 @@ class Ascent {
   fuzz::Random& random_;
 };
 
-TEST(PricingHelp, NeverRaisesTheBoundAboveTheOptimum) {
+TEST(RemotePricing, NeverRaisesTheBoundAboveTheOptimum) {
   int tried = 0, accepted = 0, rounds = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(200));
        ++seed) {
@@ -129,7 +129,7 @@ class OneHelper : public ::testing::Test {
   // To where prices are asked for.
   std::optional<PricingRequest> ask() {
     for (int i = 0; i < 100; ++i) {
-      auto asked = bound->share_out();
+      auto asked = bound->dispatch_pricing();
       if (!asked.empty()) return std::move(asked.front().share);
       auto job = bound->next();
       if (!job) break;

@@ -2,7 +2,7 @@
 // There is no second share before the first is answered, and it is answered when the last of its
 // jobs has come back: so no job ever sees two tariffs, and the digest, taken when the share came,
 // is that of all its prices.
-#include "lagrangian/pricing_help.h"
+#include "lagrangian/remote_pricing.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -10,10 +10,10 @@
 
 namespace grove::detail {
 
-PricingHelp::PricingHelp(const Instance& instance)
+RemotePricing::RemotePricing(const Instance& instance)
     : instance_(instance), multipliers_(instance.world(), instance.agent_count()) {}
 
-void PricingHelp::accept(PricingRequest share) {
+void RemotePricing::accept(PricingRequest share) {
   const std::lock_guard lock(mutex_);
   const auto agents = static_cast<std::int64_t>(share.known.size());
   if (share_ || agents == 0 || share.first < 0 || share.first + agents > instance_.agent_count())
@@ -29,7 +29,7 @@ void PricingHelp::accept(PricingRequest share) {
   share_ = std::move(share);
 }
 
-std::optional<PricingJob> PricingHelp::next() {
+std::optional<PricingJob> RemotePricing::next() {
   const std::lock_guard lock(mutex_);
   if (!share_ || next_ == share_->known.size()) return std::nullopt;
   PricingJob job;
@@ -39,12 +39,12 @@ std::optional<PricingJob> PricingHelp::next() {
   return job;
 }
 
-bool PricingHelp::has_jobs() const {
+bool RemotePricing::has_jobs() const {
   const std::lock_guard lock(mutex_);
   return share_ && next_ < share_->known.size();
 }
 
-void PricingHelp::commit(PricingJob job) {
+void RemotePricing::commit(PricingJob job) {
   const std::lock_guard lock(mutex_);
   const auto at = static_cast<std::size_t>(job.first - answer_.first);
   std::ranges::copy(job.prices, answer_.prices.begin() + static_cast<std::ptrdiff_t>(at));
@@ -53,7 +53,7 @@ void PricingHelp::commit(PricingJob job) {
   done_ += job.prices.size();
 }
 
-std::optional<PricingReply> PricingHelp::take_answer() {
+std::optional<PricingReply> RemotePricing::take_answer() {
   const std::lock_guard lock(mutex_);
   if (!share_ || done_ < share_->known.size()) return std::nullopt;
   share_.reset();
