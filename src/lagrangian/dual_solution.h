@@ -14,11 +14,13 @@ namespace grove::detail {
 // leaves unused of the tariff, make together what it costs above the bound. A value.
 struct DualSolution {
   // Proven: no plan costs less.
-  Price bound() const { return std::accumulate(prices.begin(), prices.end(), -multipliers.sum()); }
+  ScaledCost bound() const {
+    return std::accumulate(prices.begin(), prices.end(), -multipliers.sum());
+  }
 
   Multipliers multipliers;
-  std::vector<Price> prices;  // by agent
-  std::vector<Path> paths;    // of those prices; empty where none is known
+  std::vector<ScaledCost> prices;  // by agent
+  std::vector<Path> paths;         // of those prices; empty where none is known
 };
 
 }  // namespace grove::detail

@@ -134,8 +134,8 @@ void LagrangianBound::do_perform(Job& job, Pricer& pricer, Cost cutoff, Cost kno
 }
 
 // Of the path that it has, under the multipliers of this round.
-Price LagrangianBound::known_price(AgentIndex agent) const {
-  return paths_[agent].empty() ? kNoPrice : multipliers().price(agent, paths_[agent]);
+ScaledCost LagrangianBound::known_price(AgentIndex agent) const {
+  return paths_[agent].empty() ? kNoCost : multipliers().price(agent, paths_[agent]);
 }
 
 void LagrangianBound::commit(Job job) {
@@ -157,7 +157,7 @@ void LagrangianBound::commit(Job job) {
 }
 
 // If it is the first one: of helpers and of those here who did not wait for them.
-bool LagrangianBound::take_price(AgentIndex agent, Price price, Path path) {
+bool LagrangianBound::take_price(AgentIndex agent, ScaledCost price, Path path) {
   if (is_priced_[agent]) return false;
   is_priced_[agent] = 1;
   --unpriced_;
@@ -171,8 +171,8 @@ void LagrangianBound::end_pricing_if_done() {
   phase_ = Phase::kBetween;
   ++rounds_;
   work_between_ = 0;
-  const Price bound =
-      std::accumulate(prices_.begin(), prices_.end(), Price{0}) - multipliers().sum();
+  const ScaledCost bound =
+      std::accumulate(prices_.begin(), prices_.end(), ScaledCost{0}) - multipliers().sum();
   if (bound > best_ && keeps_reasons_) note_reasons();
   best_ = std::max(best_, bound);
 }
@@ -291,7 +291,7 @@ void LagrangianBound::look_at_pairs(Job& job, const Limits& limits) {
 }
 
 // Better ones come ever more slowly.
-void LagrangianBound::make_list(Price bound) {
+void LagrangianBound::make_list(ScaledCost bound) {
   {
     const std::lock_guard lock(mutex_);
     if (rounds_ < next_list_ || bound < best_) return;
@@ -301,8 +301,8 @@ void LagrangianBound::make_list(Price bound) {
 }
 
 void LagrangianBound::move_multipliers(Cost cutoff, Cost known) {
-  const Price bound =
-      std::accumulate(prices_.begin(), prices_.end(), Price{0}) - multipliers().sum();
+  const ScaledCost bound =
+      std::accumulate(prices_.begin(), prices_.end(), ScaledCost{0}) - multipliers().sum();
   make_list(bound);
   const double squares = rows_.turn(paths_, encounters_, tuning_.lagrangian_memory);
   const double most = static_cast<double>(cutoff) * Penalties::kUnit;

@@ -89,17 +89,17 @@ class LagrangianBound {
 
   void begin_pricing();
   std::optional<Job> next_price();
-  Price known_price(AgentIndex agent) const;
+  ScaledCost known_price(AgentIndex agent) const;
   std::vector<Cut> cut();
   std::int64_t work_left() const;
-  bool take_price(AgentIndex agent, Price price, Path path);
+  bool take_price(AgentIndex agent, ScaledCost price, Path path);
   void end_pricing_if_done();
   void note_reasons();
   void do_perform(Job& job, Pricer& pricer, Cost cutoff, Cost known, const Limits& limits);
   void end_round(Job& job, Cost cutoff, Cost known, const Limits& limits);
   void look_at_collisions();
   void look_at_pairs(Job& job, const Limits& limits);
-  void make_list(Price bound);
+  void make_list(ScaledCost bound);
   void move_multipliers(Cost cutoff, Cost known);
 
   const Instance& instance_;
@@ -110,7 +110,7 @@ class LagrangianBound {
   FinishPairs pairs_;
   LevelAscent ascent_;
   std::vector<Path> paths_;            // by agent: of its price in this round
-  std::vector<Price> prices_;          // by agent
+  std::vector<ScaledCost> prices_;     // by agent
   std::vector<std::int64_t> labels_;   // by agent: that its price took last
   std::vector<FinishPair> colliding_;  // still to be looked at in this round
   bool is_counted_ = false;            // of this round
@@ -123,7 +123,7 @@ class LagrangianBound {
   Phase phase_ = Phase::kPricing;
   int in_hand_ = 0;  // jobs
   int rounds_ = 0;
-  Price best_ = 0;
+  ScaledCost best_ = 0;
   std::vector<RowMultiplier> reasons_;  // for it, if they are kept
   std::shared_ptr<const DualSolution> list_;
   // Agents are priced here from the first one on, and helpers are asked for the last ones; when
@@ -133,7 +133,7 @@ class LagrangianBound {
   AgentIndex asked_ = 0;                 // and were
   AgentIndex taken_over_ = 0;            // from here on
   std::vector<std::uint8_t> is_priced_;  // by agent
-  std::vector<Price> known_;             // by agent: what helpers were told
+  std::vector<ScaledCost> known_;        // by agent: what helpers were told
   int unpriced_ = 0;
   std::int64_t work_between_ = 0;  // when the multipliers were moved last
 };

@@ -58,9 +58,9 @@ std::int32_t unfolded(std::uint32_t number) {
 Multipliers::Multipliers(const World& world, int agents)
     : world_(world), penalties_(world), on_finish_(static_cast<std::size_t>(agents)) {}
 
-Price Multipliers::price(AgentIndex agent, const Path& path) const {
+ScaledCost Multipliers::price(AgentIndex agent, const Path& path) const {
   const auto finish = path.size() - 1;
-  Price price = static_cast<Price>(finish) * Penalties::kUnit;
+  ScaledCost price = static_cast<ScaledCost>(finish) * Penalties::kUnit;
   if (finish < on_finish_[agent].size()) price += on_finish_[agent][finish];
   Place from = world_.place(path[0]);
   for (Time time = 1; time < static_cast<Time>(path.size()); ++time) {

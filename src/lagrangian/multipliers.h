@@ -36,8 +36,8 @@ class Multipliers {
   // What an agent pays for finishing at a time; 0 beyond the end.
   std::span<const Amount> on_finish(AgentIndex agent) const { return on_finish_[agent]; }
   // What a path costs with all of that.
-  Price price(AgentIndex agent, const Path& path) const;
-  Price sum() const { return sum_; }
+  ScaledCost price(AgentIndex agent, const Path& path) const;
+  ScaledCost sum() const { return sum_; }
   // Names the charges: those of two tariffs are the same if this is, but for a chance of 2^-64.
   std::uint64_t digest() const { return digest_; }
 
@@ -65,7 +65,7 @@ class Multipliers {
   std::vector<std::vector<Amount>> on_finish_;  // by agent
   std::vector<RelaxedRow> rows_;
   std::vector<Amount> multipliers_;  // by row
-  Price sum_ = 0;
+  ScaledCost sum_ = 0;
   std::uint64_t digest_ = 0;
 };
 

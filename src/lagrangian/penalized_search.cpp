@@ -24,11 +24,13 @@ constexpr std::size_t kLayersPerPoll = 16;
 PenalizedSearch::PenalizedSearch(const Penalties& penalties)
     : penalties_(penalties), world_(penalties.world()) {}
 
-Price PenalizedSearch::search(SequenceStages& goals, std::span<const Amount> on_finish, Price below,
-                              std::int64_t label_limit, const Limits& limits, Path* path) {
+ScaledCost PenalizedSearch::search(SequenceStages& goals, std::span<const Amount> on_finish,
+                                   ScaledCost below, std::int64_t label_limit, const Limits& limits,
+                                   Path* path) {
   goals_ = &goals;
   on_finish_ = on_finish;
-  below_ = std::min({below, kMostPrice, Price{goals.cost_to_go().beyond()} * Penalties::kUnit});
+  below_ =
+      std::min({below, kMostPrice, ScaledCost{goals.cost_to_go().beyond()} * Penalties::kUnit});
   best_.reset();
   labels_.clear();
   rests_.clear();
@@ -44,7 +46,7 @@ Price PenalizedSearch::search(SequenceStages& goals, std::span<const Amount> on_
     const std::size_t end = labels_.size();
     if (std::ssize(labels_) > label_limit ||
         (++layers % kLayersPerPoll == 0 && limits.stop_requested())) {
-      Price least = below_;
+      ScaledCost least = below_;
       for (; layer < end; ++layer) {
         const Label& label = labels_[layer];
         least = std::min(least, label.paid + to_pay(label.distance, time_));
@@ -61,7 +63,7 @@ Price PenalizedSearch::search(SequenceStages& goals, std::span<const Amount> on_
 }
 
 bool PenalizedSearch::improve(SequenceStages& goals, std::span<const Amount> on_finish,
-                              const ReservationTable& others, Time latest, Price price,
+                              const ReservationTable& others, Time latest, ScaledCost price,
                               std::int64_t label_limit, const Limits& limits, Path& path) {
   others_ = &others;
   latest_ = latest;
@@ -146,7 +148,7 @@ Time PenalizedSearch::reach(std::uint32_t from, State state, StageId stage, Amou
 void PenalizedSearch::come_to_rest(const Label& label) {
   if (!goals_->is_rest(goals_->stage(label.stage), label.state)) return;
   if (others_ != nullptr && !others_->lets_rest(world_.place(label.state), time_)) return;
-  Price price = label.paid;
+  ScaledCost price = label.paid;
   if (static_cast<std::size_t>(time_) < on_finish_.size()) price += on_finish_[time_];
   if (price >= below_) return;
   price += rest_from(world_.place(label.state), time_);

@@ -18,15 +18,15 @@
 namespace grove::detail {
 
 // In Penalties::kUnit.
-using Price = std::int64_t;
-constexpr Price kNoPrice = -1;  // where none is known
+using ScaledCost = std::int64_t;
+constexpr ScaledCost kNoCost = -1;  // where none is known
 
 // The cheapest path of one agent alone, all orders of its stops considered. Its price is its cost,
 // the penalties of its steps and of its rest for ever, and one on the time at which it finishes.
 // Holds the workspace of one thread: reuse it, do not share it.
 class PenalizedSearch {
  public:
-  static constexpr Price kMostPrice = Price{1} << 30;
+  static constexpr ScaledCost kMostPrice = ScaledCost{1} << 30;
 
   // `penalties` must outlive this, and may change between searches.
   explicit PenalizedSearch(const Penalties& penalties);
@@ -34,14 +34,14 @@ class PenalizedSearch {
   // Proven: a path costs at least the price, which is at most `below`. `on_finish`: what finishing
   // at a time costs, 0 beyond its end. `path`, not null, becomes one of that price if it is less
   // than `below` and the search was not cut short; else it stays as it is.
-  Price search(SequenceStages& goals, std::span<const Penalties::Amount> on_finish, Price below,
-               std::int64_t label_limit, const Limits& limits, Path* path);
+  ScaledCost search(SequenceStages& goals, std::span<const Penalties::Amount> on_finish,
+                    ScaledCost below, std::int64_t label_limit, const Limits& limits, Path* path);
 
   // Puts in the place of `path`, whose price is `price`, the cheapest one that goes around others,
   // as it does, and finishes by `latest`. False: none is cheaper, or it would take more labels.
   bool improve(SequenceStages& goals, std::span<const Penalties::Amount> on_finish,
-               const ReservationTable& others, Time latest, Price price, std::int64_t label_limit,
-               const Limits& limits, Path& path);
+               const ReservationTable& others, Time latest, ScaledCost price,
+               std::int64_t label_limit, const Limits& limits, Path& path);
 
   // Labels met so far.
   std::int64_t labels() const { return labels_met_; }
@@ -71,9 +71,9 @@ class PenalizedSearch {
   void look_at_ends();
   void start();
   // From so far away, at a time.
-  Price to_pay(Time distance, Time time) const {
+  ScaledCost to_pay(Time distance, Time time) const {
     const auto end = static_cast<std::size_t>(time) + static_cast<std::size_t>(distance);
-    return Price{distance} * Penalties::kUnit + ends_[std::min(end, ends_.size() - 1)];
+    return ScaledCost{distance} * Penalties::kUnit + ends_[std::min(end, ends_.size() - 1)];
   }
   void expand(std::uint32_t label);
   void arrive(std::uint32_t from, State state, StageId stage, Amount paid);
@@ -96,7 +96,7 @@ class PenalizedSearch {
   std::span<const Amount> on_finish_;
   Time time_ = 0;           // of the labels that are being made
   Penalties::Layer layer_;  // then
-  Price below_ = 0;
+  ScaledCost below_ = 0;
   std::optional<Label> best_;
   const ReservationTable* others_ = nullptr;  // null: nobody else is there
   Time latest_ = kNever;

@@ -15,11 +15,11 @@ constexpr std::int64_t kMostLabels = std::int64_t{1} << 23;
 
 void Pricer::perform(PricingJob& job, const Limits& limits) {
   for (AgentIndex agent = job.first; agent < job.end; ++agent) {
-    const Price known = job.known[static_cast<std::size_t>(agent - job.first)];
+    const ScaledCost known = job.known[static_cast<std::size_t>(agent - job.first)];
     const std::int64_t labels = search_.labels();
     Path path;
-    job.prices.push_back(known == kNoPrice ? first_price(agent, limits, path)
-                                           : price_below(known, agent, limits, path));
+    job.prices.push_back(known == kNoCost ? first_price(agent, limits, path)
+                                          : price_below(known, agent, limits, path));
     job.paths.push_back(std::move(path));
     job.work += (search_.labels() - labels) / kLabelsPerWork + 1;
   }
@@ -33,21 +33,22 @@ SequenceStages& Pricer::goals(AgentIndex agent) {
 }
 
 // No path is known that would say where to stop, but hardly any costs more than the least.
-Price Pricer::first_price(AgentIndex agent, const Limits& limits, Path& path) {
-  const Price least = Price{least_cost(goals(agent), limits)} * Penalties::kUnit;
-  Price price = 0;
-  for (Price more = Penalties::kUnit; path.empty(); more *= 4) {
-    const Price below = std::min(least + more, PenalizedSearch::kMostPrice);
+ScaledCost Pricer::first_price(AgentIndex agent, const Limits& limits, Path& path) {
+  const ScaledCost least = ScaledCost{least_cost(goals(agent), limits)} * Penalties::kUnit;
+  ScaledCost price = 0;
+  for (ScaledCost more = Penalties::kUnit; path.empty(); more *= 4) {
+    const ScaledCost below = std::min(least + more, PenalizedSearch::kMostPrice);
     price = price_below(below, agent, limits, path);
     if (price < below || below == PenalizedSearch::kMostPrice) break;
   }
   return price;
 }
 
-Price Pricer::price_below(Price below, AgentIndex agent, const Limits& limits, Path& path) {
+ScaledCost Pricer::price_below(ScaledCost below, AgentIndex agent, const Limits& limits,
+                               Path& path) {
   SequenceStages& goals = this->goals(agent);
   CostToGo& cost_to_go = goals.cost_to_go();
-  if (Price{cost_to_go.beyond()} * Penalties::kUnit < below)
+  if (ScaledCost{cost_to_go.beyond()} * Penalties::kUnit < below)
     cost_to_go.widen(static_cast<Time>(below / Penalties::kUnit), limits);
   return search_.search(goals, multipliers_.on_finish(agent), below, kMostLabels, limits, &path);
 }

@@ -20,8 +20,8 @@ constexpr std::int64_t kLabelsPerWork = 2;  // see search/work.h
 struct PricingJob {
   AgentIndex first = 0;
   AgentIndex end = 0;
-  std::vector<Price> known;  // of a path each has, at least its price; kNoPrice: it has none
-  std::vector<Price> prices;
+  std::vector<ScaledCost> known;  // of a path each has, at least its price; kNoCost: it has none
+  std::vector<ScaledCost> prices;
   std::vector<Path> paths;  // empty: there is none cheaper
   std::int64_t work = 0;    // in the unit of search/work.h
   bool failed = false;      // memory was refused: nothing of it counts
@@ -39,8 +39,8 @@ class Pricer {
 
  private:
   SequenceStages& goals(AgentIndex agent);
-  Price first_price(AgentIndex agent, const Limits& limits, Path& path);
-  Price price_below(Price below, AgentIndex agent, const Limits& limits, Path& path);
+  ScaledCost first_price(AgentIndex agent, const Limits& limits, Path& path);
+  ScaledCost price_below(ScaledCost below, AgentIndex agent, const Limits& limits, Path& path);
 
   const Multipliers& multipliers_;
   AgentStopsCache stops_;

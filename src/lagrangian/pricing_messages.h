@@ -11,16 +11,16 @@ namespace grove::detail {
 
 struct PricingRequest {
   std::int64_t round = 0;
-  std::int32_t first = 0;    // agent
-  std::vector<Price> known;  // as in PricingJob, by agent from the first one on
-  MultiplierUpdate news;     // of the round's tariff, since this one was asked last
+  std::int32_t first = 0;         // agent
+  std::vector<ScaledCost> known;  // as in PricingJob, by agent from the first one on
+  MultiplierUpdate news;          // of the round's tariff, since this one was asked last
 };
 
 struct PricingReply {
   std::int64_t round = 0;    // that was asked for
   std::uint64_t digest = 0;  // of the tariff under which all were found
   std::int32_t first = 0;
-  std::vector<Price> prices;
+  std::vector<ScaledCost> prices;
   std::vector<Path> paths;  // empty: there is none cheaper than that which is known
   std::int64_t work = 0;
 };

@@ -128,15 +128,15 @@ void Neighborhoods::look_at_prices() {
   for (AgentIndex agent = 0; agent < std::ssize(paths_.paths()); ++agent) {
     if (seen_editions_[agent] == paths_.edition(agent)) continue;
     seen_editions_[agent] = paths_.edition(agent);
-    overpaid_[agent] =
-        std::max<Price>(0, list.multipliers.price(agent, paths_.path(agent)) - list.prices[agent]);
+    overpaid_[agent] = std::max<ScaledCost>(
+        0, list.multipliers.price(agent, paths_.path(agent)) - list.prices[agent]);
   }
 }
 
 AgentIndex Neighborhoods::some_overpaying_agent() {
-  const Price sum = std::accumulate(overpaid_.begin(), overpaid_.end(), Price{0});
+  const ScaledCost sum = std::accumulate(overpaid_.begin(), overpaid_.end(), ScaledCost{0});
   if (sum <= 0) return ReservationTable::kNobody;
-  Price at = random_.below(sum);
+  ScaledCost at = random_.below(sum);
   AgentIndex agent = 0;
   while ((at -= overpaid_[agent]) >= 0) ++agent;
   return agent;

@@ -61,7 +61,7 @@ class Neighborhoods {
   std::int64_t in_vain_ = 0;  // neighbourhoods since one that gained
   std::vector<AgentIndex> chosen_;
   int seen_prices_ = 0;                      // Router::price_changes() then
-  std::vector<Price> overpaid_;              // by agent: above its price
+  std::vector<ScaledCost> overpaid_;         // by agent: above its price
   std::vector<std::int64_t> seen_editions_;  // by agent: of the path of which that is so
   std::vector<Place> queue_;
   std::vector<std::int32_t> seen_at_;  // by place: the search that saw it

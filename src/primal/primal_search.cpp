@@ -123,7 +123,7 @@ class PrimalSearch::Impl {
 
  private:
   // Far from what is proven, prices say little about what will be dear.
-  bool is_near(Price bound) const {
+  bool is_near(ScaledCost bound) const {
     return static_cast<double>(best_) * Penalties::kUnit <=
            (1 + tuning_.priced_gap) * static_cast<double>(bound);
   }

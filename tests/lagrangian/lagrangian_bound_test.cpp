@@ -101,7 +101,7 @@ TEST_F(LagrangianBoundTest, TellsThePricesOfItsBestRounds) {
     last = list;
     ++lists;
     EXPECT_GE(bound->rounds(), 3);
-    Price sum = -list->multipliers.sum();
+    ScaledCost sum = -list->multipliers.sum();
     for (AgentIndex agent = 0; agent < known.instance.agent_count(); ++agent) {
       sum += list->prices[agent];
       EXPECT_EQ(list->multipliers.price(agent, list->paths[agent]), list->prices[agent]);

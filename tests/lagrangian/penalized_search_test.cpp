@@ -44,16 +44,16 @@ class Reference {
       : graph_(graph), penalties_(penalties), finish_(finish) {}
 
   // With these others there.
-  Price price(const ReservationTable& others, Time latest = kHorizon) const {
-    constexpr Price kNo = PenalizedSearch::kMostPrice;
-    std::vector<Price> paid(graph_.count(), kNo);
-    std::vector<Price> moved(graph_.count(), kNo);  // of those who arrived by a move
+  ScaledCost price(const ReservationTable& others, Time latest = kHorizon) const {
+    constexpr ScaledCost kNo = PenalizedSearch::kMostPrice;
+    std::vector<ScaledCost> paid(graph_.count(), kNo);
+    std::vector<ScaledCost> moved(graph_.count(), kNo);  // of those who arrived by a move
     if (graph_.count() == 0) return kNo;
     paid[AgentGraph::start()] = moved[AgentGraph::start()] = 0;
-    Price least = kNo;
+    ScaledCost least = kNo;
     for (Time time = 0; time <= latest; ++time) {
-      std::vector<Price> next(graph_.count(), kNo);
-      std::vector<Price> next_moved(graph_.count(), kNo);
+      std::vector<ScaledCost> next(graph_.count(), kNo);
+      std::vector<ScaledCost> next_moved(graph_.count(), kNo);
       for (AgentGraph::Node node = 0; node < graph_.count(); ++node) {
         if (paid[node] >= kNo) continue;
         for (const AgentGraph::Move& move : graph_.moves(node)) {
@@ -64,7 +64,7 @@ class Reference {
           }
           if (!others.lets_arrive(graph_.place(node), graph_.place(move.to), time + 1)) continue;
           const auto arc = penalties_.arc(graph_.place(node), graph_.place(move.to));
-          const Price price = paid[node] + Penalties::kUnit + penalties_.of(time + 1, arc);
+          const ScaledCost price = paid[node] + Penalties::kUnit + penalties_.of(time + 1, arc);
           next[move.to] = std::min(next[move.to], price);
           if (graph_.state(move.to) != graph_.state(node))
             next_moved[move.to] = std::min(next_moved[move.to], price);
@@ -77,8 +77,8 @@ class Reference {
   }
 
  private:
-  Price rest(AgentGraph::Node node, Time time) const {
-    Price price = static_cast<std::size_t>(time) < finish_.size() ? finish_[time] : 0;
+  ScaledCost rest(AgentGraph::Node node, Time time) const {
+    ScaledCost price = static_cast<std::size_t>(time) < finish_.size() ? finish_[time] : 0;
     for (Time t = time + 1; t < penalties_.end(); ++t)
       price += penalties_.of(t, penalties_.staying(graph_.place(node)));
     return price;
@@ -90,10 +90,11 @@ class Reference {
 };
 
 // What a path pays, read off step by step.
-Price paid_by(const Path& path, const Penalties& penalties, const std::vector<Amount>& on_finish) {
+ScaledCost paid_by(const Path& path, const Penalties& penalties,
+                   const std::vector<Amount>& on_finish) {
   const World& world = penalties.world();
   const auto finish = static_cast<Time>(path.size()) - 1;
-  Price price = Price{finish} * Penalties::kUnit;
+  ScaledCost price = ScaledCost{finish} * Penalties::kUnit;
   if (finish < std::ssize(on_finish)) price += on_finish[finish];
   for (Time time = 1; time < std::max(penalties.end(), finish + 1); ++time)
     price += penalties.of(
@@ -117,7 +118,7 @@ TEST(PenalizedSearch, FindsTheLeastPrice) {
       ASSERT_LE(least_cost(goals, {}), graph->to_go(AgentGraph::start()));
       goals.cost_to_go().widen(kHorizon, {});
       const std::vector<Amount> on_finish = random_on_finish(random);
-      const Price least =
+      const ScaledCost least =
           Reference(*graph, penalties, on_finish).price(ReservationTable(known.instance.world()));
       Path path;
       ASSERT_EQ(search.search(goals, on_finish, PenalizedSearch::kMostPrice, 1 << 20, {}, &path),
@@ -152,7 +153,7 @@ TEST(PenalizedSearch, ImprovesAPathAroundOthers) {
       goals.cost_to_go().widen(kHorizon, {});
       const std::vector<Amount> on_finish = random_on_finish(random);
       const Time latest = random.below(20);
-      const Price least = Reference(*graph, penalties, on_finish).price(others, latest);
+      const ScaledCost least = Reference(*graph, penalties, on_finish).price(others, latest);
       Path path;
       const bool found = search.improve(goals, on_finish, others, latest,
                                         PenalizedSearch::kMostPrice, 1 << 20, {}, path);
@@ -188,13 +189,13 @@ TEST(PenalizedSearch, IsNeverAboveWhereItIsCutShort) {
     for (AgentIndex agent = 0; agent < known.instance.agent_count(); ++agent) {
       SequenceStages goals(known.stops.of(agent), SequenceClass{});
       if (least_cost(goals, {}) >= kNever) continue;
-      const Price least =
+      const ScaledCost least =
           search.search(goals, {}, PenalizedSearch::kMostPrice, 1 << 20, {}, nullptr);
       for (const std::int64_t labels : {1, 5, 20, 100}) {
-        const Price price =
+        const ScaledCost price =
             search.search(goals, {}, PenalizedSearch::kMostPrice, labels, {}, nullptr);
         EXPECT_LE(price, least);
-        EXPECT_GE(price, Price{least_cost(goals, {})} * Penalties::kUnit);
+        EXPECT_GE(price, ScaledCost{least_cost(goals, {})} * Penalties::kUnit);
         cut += price < least;
       }
     }

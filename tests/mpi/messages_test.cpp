@@ -93,7 +93,7 @@ message::AskPrices some_question() {
   message::AskPrices ask;
   ask.share.round = 7;
   ask.share.first = 2;
-  ask.share.known = {4096, kNoPrice};
+  ask.share.known = {4096, kNoCost};
   ask.share.news.rows = {{.kind = RelaxedRow::Kind::kEdge, .a = 3, .b = 4, .time = 9}};
   ask.share.news.charges = std::string("\x00\x05", 2);
   return ask;
