@@ -186,18 +186,18 @@ void LagrangianBound::note_reasons() {
 
 // The round cannot end meanwhile, for nobody has these agents yet; so the tariff stays as it is.
 std::vector<LagrangianBound::Asked> LagrangianBound::dispatch_pricing() {
-  const std::vector<Cut> cuts = cut();
+  const std::vector<AgentRange> cuts = partition_agents();
   std::vector<Asked> shares;
-  for (const Cut& cut : cuts) {
-    Helper& helper = helpers_[static_cast<std::size_t>(cut.helper)];
+  for (const AgentRange& partition_agents : cuts) {
+    Helper& helper = helpers_[static_cast<std::size_t>(partition_agents.helper)];
     PricingRequest share;
     share.round = rounds_;
-    share.first = cut.first;
-    for (AgentIndex agent = cut.first; agent < cut.end; ++agent)
+    share.first = partition_agents.first;
+    for (AgentIndex agent = partition_agents.first; agent < partition_agents.end; ++agent)
       share.known.push_back(known_[agent] = known_price(agent));
     share.news = multipliers().update_for(helper.charges);
     helper.owes = true;
-    shares.push_back({cut.helper, cut.work, std::move(share)});
+    shares.push_back({partition_agents.helper, partition_agents.work, std::move(share)});
   }
   if (cuts.empty()) return shares;
   const std::lock_guard lock(mutex_);
@@ -207,9 +207,9 @@ std::vector<LagrangianBound::Asked> LagrangianBound::dispatch_pricing() {
 
 // So that all have about as much to do, counting what is done here alone between two rounds; and
 // nobody so little that a message is not worth it.
-std::vector<LagrangianBound::Cut> LagrangianBound::cut() {
+std::vector<LagrangianBound::AgentRange> LagrangianBound::partition_agents() {
   const std::lock_guard lock(mutex_);
-  std::vector<Cut> cuts;
+  std::vector<AgentRange> cuts;
   if (phase_ != Phase::kPricing) return cuts;
   const auto idle = std::ranges::count(helpers_, false, &Helper::owes);
   const std::int64_t least = tuning_.lagrangian_share_work;

@@ -76,7 +76,7 @@ class LagrangianBound {
 
   LagrangianBound(const Instance& instance, const AgentStopsCache& stops, const Tuning& tuning);
   // To be asked of a helper: agents in a row.
-  struct Cut {
+  struct AgentRange {
     int helper;
     AgentIndex first;
     AgentIndex end;
@@ -90,7 +90,7 @@ class LagrangianBound {
   void begin_pricing();
   std::optional<Job> next_price();
   ScaledCost known_price(AgentIndex agent) const;
-  std::vector<Cut> cut();
+  std::vector<AgentRange> partition_agents();
   std::int64_t work_left() const;
   bool take_price(AgentIndex agent, ScaledCost price, Path path);
   void end_pricing_if_done();
