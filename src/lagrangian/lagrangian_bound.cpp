@@ -258,17 +258,17 @@ int LagrangianBound::accept(int helper, PricingReply answer) {
 // In parts: pairs are dear.
 void LagrangianBound::end_round(Job& job, Cost cutoff, Cost known, const Limits& limits) {
   if (!is_counted_) {
-    look_at_collisions();
+    separate_conflict_rows();
     is_counted_ = true;
     job.work += encounters_.end() * instance_.agent_count() / kStepsPerWork;
   }
-  look_at_pairs(job, limits);
+  separate_finish_rows(job, limits);
   if (!colliding_.empty()) return;
   move_multipliers(cutoff, known);
   is_counted_ = false;
 }
 
-void LagrangianBound::look_at_collisions() {
+void LagrangianBound::separate_conflict_rows() {
   encounters_.count(paths_);
   for (const Collision& collision : encounters_.collisions()) {
     rows_.add(collision);
@@ -279,7 +279,7 @@ void LagrangianBound::look_at_collisions() {
   }
 }
 
-void LagrangianBound::look_at_pairs(Job& job, const Limits& limits) {
+void LagrangianBound::separate_finish_rows(Job& job, const Limits& limits) {
   const std::int64_t begin = pairs_.work();
   while (!colliding_.empty() && pairs_.work() - begin < tuning_.lagrangian_step_work) {
     const FinishPair pair = colliding_.back();

@@ -97,8 +97,8 @@ class LagrangianBound {
   void note_reasons();
   void do_perform(Job& job, Pricer& pricer, Cost cutoff, Cost known, const Limits& limits);
   void end_round(Job& job, Cost cutoff, Cost known, const Limits& limits);
-  void look_at_collisions();
-  void look_at_pairs(Job& job, const Limits& limits);
+  void separate_conflict_rows();
+  void separate_finish_rows(Job& job, const Limits& limits);
   void make_list(ScaledCost bound);
   void move_multipliers(Cost cutoff, Cost known);
 
