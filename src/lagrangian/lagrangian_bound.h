@@ -11,10 +11,10 @@
 #include "lagrangian/dual_solution.h"
 #include "lagrangian/encounters.h"
 #include "lagrangian/finish_pairs.h"
-#include "lagrangian/level_ascent.h"
 #include "lagrangian/pricer.h"
 #include "lagrangian/pricing_messages.h"
 #include "lagrangian/relaxed_rows.h"
+#include "lagrangian/target_level_step.h"
 #include "model/tuning.h"
 #include "planning/agent_stops_cache.h"
 
@@ -108,7 +108,7 @@ class LagrangianBound {
   RelaxedRows rows_;
   Encounters encounters_;
   FinishPairs pairs_;
-  LevelAscent ascent_;
+  TargetLevelStep ascent_;
   std::vector<Path> paths_;            // by agent: of its price in this round
   std::vector<ScaledCost> prices_;     // by agent
   std::vector<std::int64_t> labels_;   // by agent: that its price took last

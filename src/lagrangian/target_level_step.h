@@ -9,9 +9,9 @@ namespace grove::detail {
 // A subgradient method with a target level (Goffin and Kiwiel 1999): steps are those of Polyak
 // towards a level some way above the best value so far. The way grows shorter when the level proves
 // out of reach. It proves nothing, and whatever it says does no harm. For one thread at a time.
-class LevelAscent {
+class TargetLevelStep {
  public:
-  explicit LevelAscent(const Tuning& tuning) : tuning_(tuning) {}
+  explicit TargetLevelStep(const Tuning& tuning) : tuning_(tuning) {}
 
   // The step from a point of this value along a direction of this squared length (> 0). No value
   // will be above `most`.

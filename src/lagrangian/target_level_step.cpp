@@ -2,7 +2,7 @@
 // Far above what can be reached a level makes steps so long that values fall far below the best;
 // each such value counts for several rounds of waiting. (warehouse-10-20-10-2-1, 300 agents, 12 s,
 // in the median of what was tried: 24,172 instead of 23,971, where all agents alone pay that.)
-#include "lagrangian/level_ascent.h"
+#include "lagrangian/target_level_step.h"
 
 #include <algorithm>
 
@@ -14,14 +14,14 @@ constexpr int kRoundsForFarBelow = 5;
 
 }  // namespace
 
-double LevelAscent::step(double value, double most, double squares) {
+double TargetLevelStep::step(double value, double most, double squares) {
   best_ = std::max(best_, value);
   if (value < best_ - kFarBelow * way_) waited_ += kRoundsForFarBelow;
   choose_level(most);
   return std::max(0.0, best_ + way_ - value) / squares;
 }
 
-void LevelAscent::choose_level(double most) {
+void TargetLevelStep::choose_level(double most) {
   const double room = std::max(0.0, most - best_);
   if (way_ <= 0) {
     way_ = tuning_.lagrangian_level * best_;
