@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "lagrangian/dual_solution.h"
-#include "lagrangian/encounters.h"
 #include "lagrangian/finish_pairs.h"
+#include "lagrangian/occupancy_counts.h"
 #include "lagrangian/pricer.h"
 #include "lagrangian/pricing_messages.h"
 #include "lagrangian/relaxed_rows.h"
@@ -106,7 +106,7 @@ class LagrangianBound {
   const Tuning& tuning_;
   AgentStopsCache stops_;  // of pairs_
   RelaxedRows rows_;
-  Encounters encounters_;
+  OccupancyCounts encounters_;
   FinishPairs pairs_;
   TargetLevelStep ascent_;
   std::vector<Path> paths_;            // by agent: of its price in this round

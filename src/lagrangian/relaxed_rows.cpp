@@ -86,7 +86,8 @@ bool RelaxedRows::has(const FinishPair& pair) const {
          });
 }
 
-double RelaxedRows::turn(std::span<const Path> paths, const Encounters& encounters, double memory) {
+double RelaxedRows::turn(std::span<const Path> paths, const OccupancyCounts& encounters,
+                         double memory) {
   count_uses(paths, encounters);
   double squares = 0;
   for (Course& row : courses_) {
@@ -100,7 +101,7 @@ double RelaxedRows::turn(std::span<const Path> paths, const Encounters& encounte
   return squares;
 }
 
-void RelaxedRows::count_uses(std::span<const Path> paths, const Encounters& encounters) {
+void RelaxedRows::count_uses(std::span<const Path> paths, const OccupancyCounts& encounters) {
   const auto finishes_by = [&](AgentIndex agent, Time time) {
     return !paths[agent].empty() && static_cast<Time>(paths[agent].size()) - 1 <= time ? 1 : 0;
   };

@@ -7,9 +7,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "lagrangian/encounters.h"
 #include "lagrangian/finish_pairs.h"
 #include "lagrangian/multipliers.h"
+#include "lagrangian/occupancy_counts.h"
 
 namespace grove::detail {
 
@@ -31,7 +31,7 @@ class RelaxedRows {
 
   // Sets the direction of each row: what these paths use it beyond once, and so much of the old
   // direction. Returns the squared length of all.
-  double turn(std::span<const Path> paths, const Encounters& encounters, double memory);
+  double turn(std::span<const Path> paths, const OccupancyCounts& encounters, double memory);
   // Multipliers go so far in their directions, but not below 0.
   void go(double step);
 
@@ -49,7 +49,7 @@ class RelaxedRows {
                const RelaxedRow& row);
   std::uint64_t place_key(Place place, Time time) const;
   std::uint64_t edge_key(Place from, Place to, Time arrival) const;
-  void count_uses(std::span<const Path> paths, const Encounters& encounters);
+  void count_uses(std::span<const Path> paths, const OccupancyCounts& encounters);
   void count_moves(const Path& path, Time end);
   void count_move(Place from, Place to, Time arrival);
   void use_edge(Place from, Place to, Time arrival);

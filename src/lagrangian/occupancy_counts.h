@@ -21,10 +21,10 @@ struct Collision {
 
 // Counts agents by place and time, those at rest included, up to the time when all rest. For one
 // thread at a time.
-class Encounters {
+class OccupancyCounts {
  public:
   // `world` must outlive this.
-  explicit Encounters(const World& world) : world_(world) {}
+  explicit OccupancyCounts(const World& world) : world_(world) {}
 
   // Replaces what was counted. `paths` by agent, empty for who has none, must stay as they are.
   void count(std::span<const Path> paths);

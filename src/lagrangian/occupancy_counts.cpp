@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "lagrangian/encounters.h"
+#include "lagrangian/occupancy_counts.h"
 
 #include <algorithm>
 #include <unordered_map>
 
 namespace grove::detail {
 
-void Encounters::count(std::span<const Path> paths) {
+void OccupancyCounts::count(std::span<const Path> paths) {
   paths_ = paths;
   end_ = 1;
   for (const Path& path : paths) end_ = std::max(end_, static_cast<Time>(path.size()));
@@ -18,7 +18,7 @@ void Encounters::count(std::span<const Path> paths) {
   }
 }
 
-std::vector<Collision> Encounters::collisions() const {
+std::vector<Collision> OccupancyCounts::collisions() const {
   std::vector<Collision> found;
   std::unordered_map<std::uint64_t, AgentIndex> met;  // the last one on a crowded place, or a move
   const auto move = [&](Place from, Place to) {
