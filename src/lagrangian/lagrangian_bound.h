@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lagrangian/dual_solution.h"
-#include "lagrangian/finish_pairs.h"
+#include "lagrangian/finish_time_conflicts.h"
 #include "lagrangian/occupancy_counts.h"
 #include "lagrangian/pricer.h"
 #include "lagrangian/pricing_messages.h"
@@ -107,14 +107,14 @@ class LagrangianBound {
   AgentStopsCache stops_;  // of pairs_
   RelaxedRows rows_;
   OccupancyCounts encounters_;
-  FinishPairs pairs_;
+  FinishTimeConflicts pairs_;
   TargetLevelStep ascent_;
-  std::vector<Path> paths_;            // by agent: of its price in this round
-  std::vector<ScaledCost> prices_;     // by agent
-  std::vector<std::int64_t> labels_;   // by agent: that its price took last
-  std::vector<FinishPair> colliding_;  // still to be looked at in this round
-  bool is_counted_ = false;            // of this round
-  std::int64_t next_list_;             // in rounds: not before
+  std::vector<Path> paths_;                    // by agent: of its price in this round
+  std::vector<ScaledCost> prices_;             // by agent
+  std::vector<std::int64_t> labels_;           // by agent: that its price took last
+  std::vector<FinishTimeConflict> colliding_;  // still to be looked at in this round
+  bool is_counted_ = false;                    // of this round
+  std::int64_t next_list_;                     // in rounds: not before
   std::shared_ptr<const DualSolution> new_list_;
   std::vector<Helper> helpers_;  // of the one thread that asks them
   bool keeps_reasons_ = false;

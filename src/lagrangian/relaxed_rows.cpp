@@ -26,7 +26,7 @@ namespace {
 // A unit is a step of one agent; no row was ever seen to be worth more than a few.
 constexpr double kGreatestMultiplier = 64.0 * Penalties::kUnit;
 
-std::uint64_t pair_key(const FinishPair& pair) {
+std::uint64_t pair_key(const FinishTimeConflict& pair) {
   return static_cast<std::uint64_t>(pair.a) << 32 | static_cast<std::uint32_t>(pair.b);
 }
 
@@ -70,7 +70,7 @@ void RelaxedRows::add(const Collision& c) {
           {.kind = Kind::kEdge, .a = a, .b = b, .time = c.time});
 }
 
-void RelaxedRows::add(const FinishPair& pair) {
+void RelaxedRows::add(const FinishTimeConflict& pair) {
   finish_rows_[pair_key(pair)].push_back(add_row({.kind = Kind::kFinish,
                                                   .a = pair.a,
                                                   .b = pair.b,
@@ -78,7 +78,7 @@ void RelaxedRows::add(const FinishPair& pair) {
                                                   .time_b = pair.finish_b}));
 }
 
-bool RelaxedRows::has(const FinishPair& pair) const {
+bool RelaxedRows::has(const FinishTimeConflict& pair) const {
   const auto rows = finish_rows_.find(pair_key(pair));
   return rows != finish_rows_.end() && std::ranges::any_of(rows->second, [&](RowId id) {
            const RelaxedRow& row = multipliers_.row(id);

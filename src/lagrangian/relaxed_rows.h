@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "lagrangian/finish_pairs.h"
+#include "lagrangian/finish_time_conflicts.h"
 #include "lagrangian/multipliers.h"
 #include "lagrangian/occupancy_counts.h"
 
@@ -25,9 +25,9 @@ class RelaxedRows {
 
   // New rows have multiplier 0. Those that there are already stay.
   void add(const Collision& collision);
-  void add(const FinishPair& pair);
+  void add(const FinishTimeConflict& pair);
   // Is there a row that says that these two cannot both finish by these times?
-  bool has(const FinishPair& pair) const;
+  bool has(const FinishTimeConflict& pair) const;
 
   // Sets the direction of each row: what these paths use it beyond once, and so much of the old
   // direction. Returns the squared length of all.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lagrangian/finish_pairs.h"
+#include "lagrangian/finish_time_conflicts.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ bool can_both(const AgentGraph& a, const AgentGraph& b, Time by_a, Time by_b) {
 }
 
 // Whoever is said to exclude each other does; and with no end to effort, all are said who do.
-TEST(FinishPairs, AgreeWithAllPairsOfPaths) {
+TEST(FinishTimeConflicts, AgreeWithAllPairsOfPaths) {
   int excluded = 0, others = 0;
   for (std::uint64_t seed = 1; seed <= 120; ++seed) {
     SCOPED_TRACE(seed);
@@ -51,17 +51,17 @@ TEST(FinishPairs, AgreeWithAllPairsOfPaths) {
     const auto a = AgentGraph::make(known.instance, 0);
     const auto b = AgentGraph::make(known.instance, 1);
     if (!a || !b || a->count() == 0 || b->count() == 0) continue;
-    FinishPairs pairs(known.instance.world(), known.stops,
-                      {.set_nodes = 1 << 20, .compared_pairs = 1 << 20, .bytes = 1 << 28});
+    FinishTimeConflicts pairs(known.instance.world(), known.stops,
+                              {.set_nodes = 1 << 20, .compared_pairs = 1 << 20, .bytes = 1 << 28});
     const Time least_a = a->to_go(AgentGraph::start());
     const Time least_b = b->to_go(AgentGraph::start());
     for (Time by_a = least_a; by_a < least_a + 4; ++by_a)
       for (Time by_b = least_b; by_b < least_b + 4; ++by_b) {
-        const bool said = pairs.exclude_each_other({0, 1, by_a, by_b}, {});
+        const bool said = pairs.are_incompatible({0, 1, by_a, by_b}, {});
         ASSERT_EQ(said, !can_both(*a, *b, by_a, by_b)) << by_a << " " << by_b;
         ++(said ? excluded : others);
         if (!said) continue;
-        const FinishPair later = pairs.extended({0, 1, by_a, by_b}, {});
+        const FinishTimeConflict later = pairs.extended({0, 1, by_a, by_b}, {});
         ASSERT_FALSE(can_both(*a, *b, later.finish_a, later.finish_b));
       }
   }
@@ -71,21 +71,23 @@ TEST(FinishPairs, AgreeWithAllPairsOfPaths) {
 
 // A set that is too large proves nothing, nor does a comparison that is cut short: of pairs that
 // are excluded where the effort has no end.
-TEST(FinishPairs, SayNothingWithoutEffort) {
-  constexpr FinishPairs::Most kEnough{1 << 20, 1 << 20, 1 << 28};
+TEST(FinishTimeConflicts, SayNothingWithoutEffort) {
+  constexpr FinishTimeConflicts::Most kEnough{1 << 20, 1 << 20, 1 << 28};
   int excluded = 0;
   for (std::uint64_t seed = 1; seed <= 120; ++seed) {
     SCOPED_TRACE(seed);
     Known known(tiny_instance(seed));
     if (known.instance.agent_count() < 2) continue;
-    const auto says = [&](FinishPairs::Most most, const FinishPair& pair) {
-      return FinishPairs(known.instance.world(), known.stops, most).exclude_each_other(pair, {});
+    const auto says = [&](FinishTimeConflicts::Most most, const FinishTimeConflict& pair) {
+      return FinishTimeConflicts(known.instance.world(), known.stops, most)
+          .are_incompatible(pair, {});
     };
     const auto a = AgentGraph::make(known.instance, 0);
     const auto b = AgentGraph::make(known.instance, 1);
     if (!a || !b || a->count() == 0 || b->count() == 0) continue;
     // Each has a path that ends then.
-    const FinishPair pair{0, 1, a->to_go(AgentGraph::start()), b->to_go(AgentGraph::start())};
+    const FinishTimeConflict pair{0, 1, a->to_go(AgentGraph::start()),
+                                  b->to_go(AgentGraph::start())};
     if (!says(kEnough, pair)) continue;
     ++excluded;
     EXPECT_FALSE(says({0, kEnough.compared_pairs, kEnough.bytes}, pair));

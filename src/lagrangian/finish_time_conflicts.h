@@ -17,7 +17,7 @@
 namespace grove::detail {
 
 // Which agent by when, and which other.
-struct FinishPair {
+struct FinishTimeConflict {
   AgentIndex a = -1;
   AgentIndex b = -1;
   Time finish_a = 0;
@@ -26,7 +26,7 @@ struct FinishPair {
 
 // Compares the sets of all paths of two agents that cost so much. Remembers what it found. For one
 // thread at a time.
-class FinishPairs {
+class FinishTimeConflicts {
  public:
   // Effort on one set and on one comparison; and what all sets may hold.
   struct Most {
@@ -36,13 +36,13 @@ class FinishPairs {
   };
 
   // All must outlive this.
-  FinishPairs(const World& world, AgentStopsCache& stops, Most most);
-  ~FinishPairs();
+  FinishTimeConflicts(const World& world, AgentStopsCache& stops, Most most);
+  ~FinishTimeConflicts();
 
   // Proven: no two paths without a collision finish by these times. Not found out: false.
-  bool exclude_each_other(const FinishPair& pair, const Limits& limits);
+  bool are_incompatible(const FinishTimeConflict& pair, const Limits& limits);
   // Later times of which that is so, too: none of the two can be a step later.
-  FinishPair extended(FinishPair pair, const Limits& limits);
+  FinishTimeConflict extended(FinishTimeConflict pair, const Limits& limits);
 
   // Nodes of sets and pairs of them looked at so far.
   std::int64_t work() const { return builder_.nodes() + dependency_.pairs(); }
@@ -59,7 +59,7 @@ class FinishPairs {
   static constexpr Time kGrid = 16;  // steps later than the least that are looked at
   using Grid = std::array<Known, kGrid * kGrid>;
 
-  Known compared(const FinishPair& pair, Time later_a, Time later_b, const Limits& limits);
+  Known compared(const FinishTimeConflict& pair, Time later_a, Time later_b, const Limits& limits);
   const Mdd* set(AgentIndex agent, Time later, const Limits& limits);
   OfAgent& of(AgentIndex agent, const Limits& limits);
 

@@ -4,7 +4,7 @@
 // a' <= a and b' <= b, then no two paths of these agents that finish by a and by b go together -
 // and so in no plan at all, whatever the others do. A set that was not made, since it is too large
 // or time ran out, proves nothing.
-#include "lagrangian/finish_pairs.h"
+#include "lagrangian/finish_time_conflicts.h"
 
 #include "lagrangian/least_cost.h"
 
@@ -15,11 +15,11 @@ constexpr std::size_t kBytesOfNode = 24;  // about, with the way to the next
 
 }  // namespace
 
-FinishPairs::FinishPairs(const World& world, AgentStopsCache& stops, Most most)
+FinishTimeConflicts::FinishTimeConflicts(const World& world, AgentStopsCache& stops, Most most)
     : world_(world), stops_(stops), most_(most), builder_(world), dependency_(world) {}
-FinishPairs::~FinishPairs() = default;
+FinishTimeConflicts::~FinishTimeConflicts() = default;
 
-bool FinishPairs::exclude_each_other(const FinishPair& pair, const Limits& limits) {
+bool FinishTimeConflicts::are_incompatible(const FinishTimeConflict& pair, const Limits& limits) {
   const Time later_a = pair.finish_a - of(pair.a, limits).least;
   const Time later_b = pair.finish_b - of(pair.b, limits).least;
   if (later_a >= kGrid || later_b >= kGrid) return false;
@@ -34,13 +34,14 @@ bool FinishPairs::exclude_each_other(const FinishPair& pair, const Limits& limit
   return true;
 }
 
-FinishPair FinishPairs::extended(FinishPair pair, const Limits& limits) {
+FinishTimeConflict FinishTimeConflicts::extended(FinishTimeConflict pair, const Limits& limits) {
   for (bool grows = true; grows;) {
     grows = false;
-    for (Time FinishPair::*finish : {&FinishPair::finish_a, &FinishPair::finish_b}) {
-      FinishPair later = pair;
+    for (Time FinishTimeConflict::*finish :
+         {&FinishTimeConflict::finish_a, &FinishTimeConflict::finish_b}) {
+      FinishTimeConflict later = pair;
       ++(later.*finish);
-      if (!exclude_each_other(later, limits)) continue;
+      if (!are_incompatible(later, limits)) continue;
       pair = later;
       grows = true;
     }
@@ -49,8 +50,9 @@ FinishPair FinishPairs::extended(FinishPair pair, const Limits& limits) {
 }
 
 // Those that finish exactly so much later than they could alone.
-FinishPairs::Known FinishPairs::compared(const FinishPair& pair, Time later_a, Time later_b,
-                                         const Limits& limits) {
+FinishTimeConflicts::Known FinishTimeConflicts::compared(const FinishTimeConflict& pair,
+                                                         Time later_a, Time later_b,
+                                                         const Limits& limits) {
   const Mdd* const a = set(pair.a, later_a, limits);
   const Mdd* const b = a ? set(pair.b, later_b, limits) : nullptr;
   if (b == nullptr) return Known::kNotExcluded;
@@ -60,7 +62,7 @@ FinishPairs::Known FinishPairs::compared(const FinishPair& pair, Time later_a, T
   return is_excluded ? Known::kExcluded : Known::kNotExcluded;
 }
 
-const Mdd* FinishPairs::set(AgentIndex agent, Time later, const Limits& limits) {
+const Mdd* FinishTimeConflicts::set(AgentIndex agent, Time later, const Limits& limits) {
   OfAgent& of_agent = of(agent, limits);
   const auto at = static_cast<std::size_t>(later);
   for (auto& sets = of_agent.sets; sets.size() <= at;) {
@@ -77,7 +79,7 @@ const Mdd* FinishPairs::set(AgentIndex agent, Time later, const Limits& limits) 
   return of_agent.sets[at].get();
 }
 
-FinishPairs::OfAgent& FinishPairs::of(AgentIndex agent, const Limits& limits) {
+FinishTimeConflicts::OfAgent& FinishTimeConflicts::of(AgentIndex agent, const Limits& limits) {
   if (static_cast<std::size_t>(agent) >= agents_.size()) agents_.resize(agent + 1);
   OfAgent& of_agent = agents_[agent];
   if (!of_agent.goals) {
