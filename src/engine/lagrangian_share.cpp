@@ -54,7 +54,7 @@ void LagrangianShare::make() {
   try {
     bound_ = LagrangianBound::make(*instance_, *stops_, tuning_);
     if (bound_) bound_->set_helpers(ranks_ - 1);
-    if (bound_ && keeps_reasons_) bound_->keep_reasons();
+    if (bound_ && keeps_reasons_) bound_->record_best_multipliers();
   } catch (const std::bad_alloc&) {
     bound_.reset();
   }

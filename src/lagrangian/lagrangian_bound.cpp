@@ -173,11 +173,11 @@ void LagrangianBound::end_pricing_if_done() {
   work_between_ = 0;
   const ScaledCost bound =
       std::accumulate(prices_.begin(), prices_.end(), ScaledCost{0}) - multipliers().sum();
-  if (bound > best_ && keeps_reasons_) note_reasons();
+  if (bound > best_ && keeps_reasons_) note_best_multipliers();
   best_ = std::max(best_, bound);
 }
 
-void LagrangianBound::note_reasons() {
+void LagrangianBound::note_best_multipliers() {
   reasons_.clear();
   for (Multipliers::RowId id = 0; id < multipliers().count(); ++id)
     if (multipliers().charge(id) > 0)

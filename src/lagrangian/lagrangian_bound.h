@@ -57,7 +57,7 @@ class LagrangianBound {
   int accept(int helper, PricingReply answer);
 
   // From now on, remembers by which charges it has the bound that it has.
-  void keep_reasons() { keeps_reasons_ = true; }
+  void record_best_multipliers() { keeps_reasons_ = true; }
   // Once no job is in hand.
   const std::vector<RowMultiplier>& reasons() const { return reasons_; }
 
@@ -94,7 +94,7 @@ class LagrangianBound {
   std::int64_t work_left() const;
   bool take_price(AgentIndex agent, ScaledCost price, Path path);
   void end_pricing_if_done();
-  void note_reasons();
+  void note_best_multipliers();
   void do_perform(Job& job, Pricer& pricer, Cost cutoff, Cost known, const Limits& limits);
   void end_round(Job& job, Cost cutoff, Cost known, const Limits& limits);
   void separate_conflict_rows();
