@@ -12,7 +12,7 @@
 // *No plan is lost*: the two are each other's negation, whatever the agents' orders of visits and
 // whether a has a destination or may end on any of its tasks. *Both children differ from the
 // parent*: a's path breaks the first, b's what follows from the second.
-#include "conflicts/reasoning.h"
+#include "conflicts/symmetry_reasoning.h"
 
 namespace grove::detail {
 

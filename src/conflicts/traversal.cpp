@@ -27,7 +27,7 @@
 #include <algorithm>
 #include <array>
 
-#include "conflicts/reasoning.h"
+#include "conflicts/symmetry_reasoning.h"
 
 namespace grove::detail {
 namespace {

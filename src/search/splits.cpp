@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "conflicts/reasoning.h"
+#include "conflicts/symmetry_reasoning.h"
 
 namespace grove::detail {
 namespace {

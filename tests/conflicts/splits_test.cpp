@@ -6,7 +6,7 @@
 #include <array>
 #include <random>
 
-#include "conflicts/reasoning.h"
+#include "conflicts/symmetry_reasoning.h"
 #include "tests/support/instances.h"
 #include "tests/support/satisfies.h"
 
