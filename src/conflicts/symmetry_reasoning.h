@@ -19,7 +19,7 @@ std::optional<Split> target_split(const Conflict& conflict, std::span<const Path
 // If the two agents of the conflict meet while they pass a chain in opposite directions: the split
 // "the one does not leave it at its end at these times | the other does not at its own".
 // traversal.cpp.
-std::optional<Split> traversal_split(const Conflict& conflict, std::span<const Path> paths,
-                                     const World& world, const Corridors& corridors);
+std::optional<Split> corridor_split(const Conflict& conflict, std::span<const Path> paths,
+                                    const World& world, const Corridors& corridors);
 
 }  // namespace grove::detail

@@ -17,7 +17,7 @@ struct Rule {
 
 constexpr std::array kRules = {
     Rule{Technique::kTarget, target_split},
-    Rule{Technique::kTraversal, traversal_split},
+    Rule{Technique::kTraversal, corridor_split},
 };
 
 }  // namespace

@@ -64,7 +64,7 @@ TEST_P(SplitsTest, LoseNoCollisionFreePairAndChangeBothSides) {
     if (conflicts.empty()) apart.push_back(pair);
     for (const Conflict& conflict : conflicts)
       for (const auto& split : {target_split(conflict, pair, grid, corridors),
-                                traversal_split(conflict, pair, grid, corridors)})
+                                corridor_split(conflict, pair, grid, corridors)})
         if (split) {
           const bool target = (*split)[0].constraint.kind == ConstraintKind::kNoRestBy;
           ++(target ? by_target : by_traversal);

@@ -93,8 +93,8 @@ std::optional<Split> split_on(const Conflict& conflict, std::span<const Path> pa
 
 }  // namespace
 
-std::optional<Split> traversal_split(const Conflict& conflict, std::span<const Path> paths,
-                                     const World& world, const Corridors& corridors) {
+std::optional<Split> corridor_split(const Conflict& conflict, std::span<const Path> paths,
+                                    const World& world, const Corridors& corridors) {
   if (conflict.is_following()) return std::nullopt;
   // Where both are, or - when they meet on an end - where one of them comes from.
   const std::array<Place, 4> places{
