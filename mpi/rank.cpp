@@ -16,7 +16,7 @@ constexpr std::size_t kLevels = 4;
 // After an idle rank was given nodes, or at the beginning. (Simulated, 128 ranks: room-32-32-4
 // 22/40 takes 0.178 s without haste, 0.142 with two such nodes and 0.152 with four; random-32-32-20
 // with 50 agents 0.099, 0.090, 0.091.)
-constexpr std::int64_t kHastyNodes = 2;
+constexpr std::int64_t kCachedOnlyNodes = 2;
 constexpr std::size_t kNodesInAPart = 500;
 constexpr double kBytesPerMegabyte = 1e6;
 
@@ -153,8 +153,8 @@ void Rank::give(const message::Order& order) {
 // first ten generations of nodes take most of a short run, with nothing to do for most ranks. They
 // had rather look into those of its descendants, each into its own.
 void Rank::others_wait() {
-  hasty_until_ = nodes_.expanded + kHastyNodes;
-  search_.set_haste(Haste::kOthersWait);
+  cached_only_until_ = nodes_.expanded + kCachedOnlyNodes;
+  search_.set_bounding_effort(BoundingEffort::kCachedOnly);
 }
 
 // Not while a worker is at a node: that may take long, and hardly ever ends without another one.
@@ -254,7 +254,7 @@ bool Rank::is_wanted(Cost bound) const {
 // the node any more is made before plans are looked for, and sent after them.
 void Rank::speak(double now) {
   if (ended_) return;
-  if (nodes_.expanded >= hasty_until_) search_.set_haste(Haste::kNone);
+  if (nodes_.expanded >= cached_only_until_) search_.set_bounding_effort(BoundingEffort::kFull);
   speak_of_prices();
   speak_of_facts(now);
   message::Status status = this->status();

@@ -116,8 +116,8 @@ class Rank {
     std::map<std::int64_t, std::vector<NodePtr>> custody;  // by the number of the batch
   };
   std::map<int, Peer> peers_;
-  std::int64_t in_custody_ = 0;   // nodes
-  std::int64_t hasty_until_ = 0;  // that so many nodes have been expanded here
+  std::int64_t in_custody_ = 0;         // nodes
+  std::int64_t cached_only_until_ = 0;  // that so many nodes have been expanded here
   std::int64_t nodes_sent_ = 0;
   std::int64_t facts_sent_ = 0;
 

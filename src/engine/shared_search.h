@@ -45,8 +45,8 @@ class SharedSearch {
   // A node, perhaps in other hands, that came back unfinished last; null if it has been finished.
   NodePtr unfinished() const;
   // Do others wait for nodes to expand, so that nodes are to be expanded in haste? Others say so.
-  Haste haste() const { return haste_; }
-  void set_haste(Haste haste) { haste_ = haste; }
+  BoundingEffort bounding_effort() const { return bounding_effort_; }
+  void set_bounding_effort(BoundingEffort bounding_effort) { bounding_effort_ = bounding_effort; }
   // Is there something for an idle worker to take, or to find out?
   bool may_take() const {
     return frontier_.open() > 0 || frontier_.live() == 0 || lagrangian_.has_jobs();
@@ -90,7 +90,7 @@ class SharedSearch {
   std::atomic<std::int64_t> nodes_generated_{0};
   std::atomic<std::int64_t> nodes_evicted_{0};
   std::atomic<std::uint32_t> estimates_turn_{0};
-  std::atomic<Haste> haste_{Haste::kNone};
+  std::atomic<BoundingEffort> bounding_effort_{BoundingEffort::kFull};
 
   std::mutex keeping_;  // guards the shares
   const std::unique_ptr<MemoryShares> shares_;

@@ -84,7 +84,7 @@ std::optional<Worker::Turn> Worker::choose() {
   if (has_primal && share_->may_begin() && share_->due(primal())) return one(Job::kPrimal);
   if (NodePtr node = shared_.take()) {
     auto turn = one(Job::kExpand, std::move(node));
-    turn->haste = shared_.haste();
+    turn->bounding_effort = shared_.bounding_effort();
     return turn;
   }
   if (NodePtr node = shared_.unfinished(); node && node != helped_)
@@ -134,7 +134,7 @@ void Worker::perform(Turn& turn, Expander& by) {
 
 void Worker::expand(Turn& turn, Expander& by) const {
   weigh(turn, by, [&] {
-    turn.expansion = by.expand(turn.node, shared_.ledger().cutoff(), limits_, turn.haste);
+    turn.expansion = by.expand(turn.node, shared_.ledger().cutoff(), limits_, turn.bounding_effort);
   });
 }
 

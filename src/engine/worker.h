@@ -35,9 +35,9 @@ class Worker {
         : job(the_job), node(std::move(the_node)) {}
 
     Job job;
-    NodePtr node;                          // to expand or to help with
-    Haste haste = Haste::kNone;            // with which to expand it
-    std::shared_ptr<CommonMemory> memory;  // to do so with
+    NodePtr node;                                            // to expand or to help with
+    BoundingEffort bounding_effort = BoundingEffort::kFull;  // with which to expand it
+    std::shared_ptr<CommonMemory> memory;                    // to do so with
     FoundOut found;
     Expansion expansion;
     std::optional<Plan> plan;

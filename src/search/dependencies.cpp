@@ -70,12 +70,13 @@ Dependencies::Dependencies(const Problem& problem, const SearchOptions& options,
       situation_(static_cast<std::size_t>(agents_)) {}
 
 Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, NodeView& view, Cost cutoff,
-                                               Haste haste, const Limits& limits, Cost& bound) {
+                                               BoundingEffort bounding_effort, const Limits& limits,
+                                               Cost& bound) {
   bound = cutoff;
   const Cost slack = cutoff - node->cost() - 1;
   if (slack < 0) return Outcome::kDone;
   look_at(view);
-  if (haste == Haste::kNone) {
+  if (bounding_effort == BoundingEffort::kFull) {
     const Outcome outcome = find_out(view, slack, limits);
     if (outcome != Outcome::kDone) return outcome;
   }

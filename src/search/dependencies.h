@@ -17,9 +17,9 @@
 namespace grove::detail {
 
 // How much to find out about a node before it is split.
-enum class Haste : std::uint8_t {
+enum class BoundingEffort : std::uint8_t {
   kNone,
-  kOthersWait,  // for its children: nothing new; what is known counts
+  kCachedOnly,  // for its children: nothing new; what is known counts
 };
 
 // The pairwise-dependency heuristic of CBS (WDG: Li et al., IJCAI 2019), with a memory that serves
@@ -44,8 +44,8 @@ class Dependencies {
 
   // A proven lower bound on every plan that obeys the constraints of `node`, which `view` has
   // entered with all agents; or `cutoff`, if none of them is cheaper. Sets `bound` only on kDone.
-  Outcome find_bound(const NodePtr& node, NodeView& view, Cost cutoff, Haste haste,
-                     const Limits& limits, Cost& bound);
+  Outcome find_bound(const NodePtr& node, NodeView& view, Cost cutoff,
+                     BoundingEffort bounding_effort, const Limits& limits, Cost& bound);
 
   // Splits on the costs of two agents that conflict at the node that `view` has entered and are
   // known not to be able to keep both their costs: "the one comes to rest later | the other does".

@@ -62,7 +62,8 @@ void Expander::enter(const NodePtr& node) {
   work_on_nodes_ += node->cost() / work::kStepsSeen + 1;
 }
 
-Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limits, Haste haste) {
+Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limits,
+                           BoundingEffort bounding_effort) {
   const Leaving at_last{*this};
   Expansion expansion;
   expansion.cutoff = cutoff;
@@ -78,7 +79,7 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
   }
   if (techniques_.has(Technique::kDependencies) && !node->is_bounded()) {
     Cost bound = 0;
-    switch (dependencies_.find_bound(node, view_, cutoff, haste, limits, bound)) {
+    switch (dependencies_.find_bound(node, view_, cutoff, bounding_effort, limits, bound)) {
       case Dependencies::Outcome::kStopped:
         return stopped();
       case Dependencies::Outcome::kUnfinished:

@@ -75,7 +75,7 @@ class Expander {
   // `cutoff`: plans that cost so much or more are of no interest (the incumbent's cost;
   // kInfiniteCost: all are). `haste` makes the node's bound weaker, never wrong.
   Expansion expand(const NodePtr& node, Cost cutoff, const Limits& limits,
-                   Haste haste = Haste::kNone);
+                   BoundingEffort bounding_effort = BoundingEffort::kFull);
 
   // Finds out some of what a worker needs that has come back with `node` unfinished, beginning at
   // this `share` in [0, 1) of it; to publish it is all. False: nothing was left to do.

@@ -174,17 +174,17 @@ TEST(RankAlone, IsInHasteAsLongAsOthersWaitForNodes) {
     r.rank.speak(r.now += 10);
   };
   give(20);
-  EXPECT_EQ(search.haste(), Haste::kOthersWait) << "it is the beginning";
+  EXPECT_EQ(search.bounding_effort(), BoundingEffort::kCachedOnly) << "it is the beginning";
   for (int i = 0; i < 5; ++i) expand();
-  EXPECT_EQ(search.haste(), Haste::kNone);
+  EXPECT_EQ(search.bounding_effort(), BoundingEffort::kFull);
   r.rank.handle(0, message::Order{2, 1, false});
-  EXPECT_EQ(search.haste(), Haste::kNone);
+  EXPECT_EQ(search.bounding_effort(), BoundingEffort::kFull);
   r.rank.handle(0, message::Order{2, 1, true});
-  EXPECT_EQ(search.haste(), Haste::kOthersWait);
+  EXPECT_EQ(search.bounding_effort(), BoundingEffort::kCachedOnly);
   expand();
-  EXPECT_EQ(search.haste(), Haste::kOthersWait);
+  EXPECT_EQ(search.bounding_effort(), BoundingEffort::kCachedOnly);
   for (int i = 0; i < 5; ++i) expand();
-  EXPECT_EQ(search.haste(), Haste::kNone);
+  EXPECT_EQ(search.bounding_effort(), BoundingEffort::kFull);
 }
 
 TEST(RankNodes, CoverAllRootsOfANewBeginningUntilARankSaysThatItHasThem) {

@@ -17,9 +17,9 @@ struct Bounded : NodeAtHand {
   using NodeAtHand::NodeAtHand;
 
   // By how much the bound is above the root's cost.
-  Cost excess(Cost cutoff = kInfiniteCost, Haste haste = Haste::kNone) {
+  Cost excess(Cost cutoff = kInfiniteCost, BoundingEffort bounding_effort = BoundingEffort::kFull) {
     Cost bound = -1;
-    EXPECT_EQ(dependencies.find_bound(view.node(), view, cutoff, haste, limits, bound),
+    EXPECT_EQ(dependencies.find_bound(view.node(), view, cutoff, bounding_effort, limits, bound),
               Outcome::kDone);
     return bound - root->cost();
   }
@@ -47,10 +47,10 @@ TEST(Dependencies, KnowWhatAPairCostsMore) {
 
 TEST(Dependencies, InHasteSayOnlyWhatIsKnown) {
   Bounded s(kDoor, kHeadOn);
-  EXPECT_EQ(s.excess(kInfiniteCost, Haste::kOthersWait), 0);
+  EXPECT_EQ(s.excess(kInfiniteCost, BoundingEffort::kCachedOnly), 0);
   EXPECT_EQ(s.dependencies.expansions(), 0);
   EXPECT_EQ(s.excess(), 3) << "it was left for later";
-  EXPECT_EQ(s.excess(kInfiniteCost, Haste::kOthersWait), 3);
+  EXPECT_EQ(s.excess(kInfiniteCost, BoundingEffort::kCachedOnly), 3);
 }
 
 TEST(Dependencies, SayNothingOfAgentsThatGoRoundEachOther) {
@@ -138,7 +138,8 @@ TEST(Dependencies, StopAtALimit) {
   Bounded s(kDoor, kHeadOn);
   s.limits.set_deadline(testing::kPast);
   Cost bound = -1;
-  EXPECT_EQ(s.dependencies.find_bound(s.root, s.view, kInfiniteCost, Haste::kNone, s.limits, bound),
+  EXPECT_EQ(s.dependencies.find_bound(s.root, s.view, kInfiniteCost, BoundingEffort::kFull,
+                                      s.limits, bound),
             Outcome::kStopped);
 }
 
