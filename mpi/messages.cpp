@@ -14,7 +14,7 @@ void serialize(Archive& archive, Finding& finding) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, AgentSituation& s) {
+void serialize(Archive& archive, SubproblemRecord& s) {
   archive(s.tree, s.agent, s.constraints.bytes);
 }
 

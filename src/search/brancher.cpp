@@ -203,7 +203,7 @@ bool Brancher::replan_one(const Task& task, AgentIndex agent, const Constraint& 
     found = cost <= cutoff;
     if (!found) return true;
     const auto constraints = task.view.constraints_with(agent, more);
-    const Situations::Id id = memory_.id(agent, order, constraints);
+    const SubproblemTable::Id id = memory_.id(agent, order, constraints);
     const Mdd* paths = memory_.paths(id, agent, order, constraints, cost, task.limits);
     if (!paths) return false;
     if (!paths->empty()) {

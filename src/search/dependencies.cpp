@@ -124,7 +124,7 @@ void Dependencies::look_at(NodeView& view) {
 // What a pair or group costs more is more than its agents' paths at the node where that was found
 // out; it counts at others because they cost the same there.
 bool Dependencies::may_cost(AgentIndex agent, Time cost) const {
-  const Situations::Known known = memory_.known(situation_[agent]);
+  const SubproblemTable::Known known = memory_.known(situation_[agent]);
   return known.exact ? cost == known.at_least : cost >= known.at_least;
 }
 
@@ -214,8 +214,8 @@ std::vector<std::vector<AgentIndex>> Dependencies::groups_in_conflict(const Node
   return groups;
 }
 
-std::vector<Situations::Id> Dependencies::key(std::span<const AgentIndex> group) const {
-  std::vector<Situations::Id> ids;
+std::vector<SubproblemTable::Id> Dependencies::key(std::span<const AgentIndex> group) const {
+  std::vector<SubproblemTable::Id> ids;
   for (AgentIndex agent : group) ids.push_back(situation_[agent]);
   return ids;
 }

@@ -88,7 +88,7 @@ class Dependencies {
   const Mdd* optimal_paths(NodeView& view, AgentIndex agent, const Limits& limits);
   Outcome solve_groups(NodeView& view, Cost slack, const Limits& limits);
   std::vector<std::vector<AgentIndex>> groups_in_conflict(const NodeView& view) const;
-  std::vector<Situations::Id> key(std::span<const AgentIndex> group) const;
+  std::vector<SubproblemTable::Id> key(std::span<const AgentIndex> group) const;
   bool solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
              std::int64_t most_expansions, const Limits& limits, Known& known);
   bool solve_by_splits(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
@@ -111,8 +111,8 @@ class Dependencies {
   Brancher pair_brancher_;
   JointMddSearch pair_dependency_;
   JointGroups joint_groups_;
-  std::vector<Situations::Id> situation_;  // by AgentIndex, at the node
-  std::vector<Open> open_;                 // a heap: least cost first
+  std::vector<SubproblemTable::Id> situation_;  // by AgentIndex, at the node
+  std::vector<Open> open_;                      // a heap: least cost first
   std::vector<NodePtr> children_;
   std::vector<ProofSplit> written_;  // of the group under way, if there is a proof to be written
   std::vector<Excesses::Partner> partners_;

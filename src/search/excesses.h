@@ -12,7 +12,7 @@
 
 #include "search/hash_index.h"
 #include "search/sharded.h"
-#include "search/situations.h"
+#include "search/subproblem_table.h"
 
 namespace grove::detail {
 
@@ -24,7 +24,7 @@ namespace grove::detail {
 // stands the next rarest, for most groups that are not at a node differ from it in that already.
 class Excesses {
  public:
-  using Id = Situations::Id;
+  using Id = SubproblemTable::Id;
 
   struct Known {
     Cost excess = 0;              // at least so much
@@ -57,7 +57,7 @@ class Excesses {
   }
 
   // Of situations with these numbers, which must outlive this.
-  explicit Excesses(const Situations& situations) : situations_(situations) {}
+  explicit Excesses(const SubproblemTable& situations) : situations_(situations) {}
 
   Known of_pair(Id first, Id second) const;
   // The agent is the second one. True, here and below: it was news.
@@ -145,7 +145,7 @@ class Excesses {
   // newest.
   std::array<std::size_t, 2> rarest_two(const std::vector<Id>& situations) const;
 
-  const Situations& situations_;
+  const SubproblemTable& situations_;
   Sharded<Part> parts_;  // by the situation that a pair or group is listed under
   std::atomic<std::size_t> bytes_{0};
 };

@@ -26,7 +26,7 @@ constexpr double kWorthOfExcess = 4;
 
 std::size_t bytes_of_constraints(const Fact& fact) {
   std::size_t sum = 0;
-  for (const AgentSituation& s : fact.agents) sum += s.constraints.bytes.size();
+  for (const SubproblemRecord& s : fact.agents) sum += s.constraints.bytes.size();
   return sum;
 }
 
@@ -35,10 +35,11 @@ class Facts {
  public:
   Facts(const CommonMemory& memory, const TreesOfFacts& trees) : memory_(memory), trees_(trees) {}
 
-  void add(std::span<const Situations::Id> ids, Situations::Known cost, Excesses::Known excess) {
+  void add(std::span<const SubproblemTable::Id> ids, SubproblemTable::Known cost,
+           Excesses::Known excess) {
     Fact fact{{}, cost, excess};
-    for (const Situations::Id id : ids) {
-      Situation situation = memory_.situations.situation(id);
+    for (const SubproblemTable::Id id : ids) {
+      AgentSubproblem situation = memory_.situations.situation(id);
       const Tree* tree = trees_.of(*situation.order);
       if (tree == nullptr) return;
       fact.agents.push_back({tree->number, situation.agent, std::move(situation.constraints)});
@@ -62,7 +63,7 @@ void require(bool possible) {
 void require_order(const Fact& fact) {
   const auto& agents = fact.agents;
   require(!agents.empty() && fact.excess.excess >= 0 && fact.cost.at_least >= 0 &&
-          std::ranges::adjacent_find(agents, std::greater_equal<>(), &AgentSituation::agent) ==
+          std::ranges::adjacent_find(agents, std::greater_equal<>(), &SubproblemRecord::agent) ==
               agents.end());
 }
 
@@ -100,7 +101,7 @@ std::vector<Fact> facts_of(const News& news, const CommonMemory& memory,
 
 void learn(Fact fact, const TreesOfFacts& trees, CommonMemory& memory) {
   require_order(fact);
-  std::vector<Situations::Id> ids;
+  std::vector<SubproblemTable::Id> ids;
   std::vector<AgentIndex> agents;
   for (auto& [number, agent, constraints] : fact.agents) {
     const Tree* tree = trees.numbered(number);

@@ -11,24 +11,24 @@
 #include "search/memory.h"
 #include "search/node.h"
 #include "search/packed_constraints.h"
-#include "search/situations.h"
+#include "search/subproblem_table.h"
 
 namespace grove::detail {
 
 // An agent with the order of visits that it has in a tree, under constraints.
-struct AgentSituation {
+struct SubproblemRecord {
   std::uint32_t tree = 0;
   AgentIndex agent = -1;
   PackedConstraints constraints;  // in canonical order
 
-  friend bool operator==(const AgentSituation&, const AgentSituation&) = default;
+  friend bool operator==(const SubproblemRecord&, const SubproblemRecord&) = default;
 };
 
 // What one agent costs, or by how much several cost more together than each alone.
 struct Fact {
-  std::vector<AgentSituation> agents;  // one or more, in ascending order of agents
-  Situations::Known cost;              // of one agent,
-  Excesses::Known excess;              // of several
+  std::vector<SubproblemRecord> agents;  // one or more, in ascending order of agents
+  SubproblemTable::Known cost;           // of one agent,
+  Excesses::Known excess;                // of several
 
   // How much there is to gain by telling it: what took long to find out, raises a bound, and comes
   // up again, as few constraints do more often than many.

@@ -18,7 +18,7 @@
 namespace grove::detail {
 namespace {
 
-using Id = Situations::Id;
+using Id = SubproblemTable::Id;
 using Known = Excesses::Known;
 
 bool says_something(const Known& known) {

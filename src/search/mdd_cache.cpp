@@ -14,7 +14,7 @@ std::size_t bytes_of(const MddCache::Set& set) {
 
 }  // namespace
 
-MddCache::Set MddCache::find(Situations::Id id) const {
+MddCache::Set MddCache::find(SubproblemTable::Id id) const {
   return parts_.with(parts_.part_of(id), [&](const Part& part) {
     for (const Sets* sets : {&part.young, &part.old})
       if (const auto found = sets->find(id); found != sets->end()) return found->second;
@@ -22,7 +22,7 @@ MddCache::Set MddCache::find(Situations::Id id) const {
   });
 }
 
-void MddCache::add(Situations::Id id, const Set& set) {
+void MddCache::add(SubproblemTable::Id id, const Set& set) {
   parts_.with(parts_.part_of(id), [&](Part& part) {
     if (!part.young.try_emplace(id, set).second) return;
     const std::size_t bytes = bytes_of(set);

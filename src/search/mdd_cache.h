@@ -10,7 +10,7 @@
 
 #include "search/path_planner.h"
 #include "search/sharded.h"
-#include "search/situations.h"
+#include "search/subproblem_table.h"
 
 namespace grove::detail {
 
@@ -28,9 +28,9 @@ class MddCache {
       : most_young_bytes_(most_young_bytes) {}
 
   // Null: not known.
-  Set find(Situations::Id id) const;
+  Set find(SubproblemTable::Id id) const;
   // The set of a situation, which was asked for: from now on it is young.
-  void add(Situations::Id id, const Set& set);
+  void add(SubproblemTable::Id id, const Set& set);
 
   // Makes the set of the situation that the arguments are, of least cost `cost`. Empty if it takes
   // more than `most_nodes`; null if a limit struck. `planner` is the calling thread's.
@@ -45,7 +45,7 @@ class MddCache {
   std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
 
  private:
-  using Sets = std::unordered_map<Situations::Id, Set>;
+  using Sets = std::unordered_map<SubproblemTable::Id, Set>;
   struct Part {
     Sets young;
     Sets old;

@@ -40,7 +40,7 @@ void Memory::turn_to(std::shared_ptr<CommonMemory> common) {
   common_ = std::move(common);
 }
 
-Situations::Known Memory::known(Id id) const {
+SubproblemTable::Known Memory::known(Id id) const {
   const auto found = found_.costs.find(id);
   return found == found_.costs.end() ? common_->situations.known(id) : found->second;
 }

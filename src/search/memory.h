@@ -14,21 +14,21 @@
 #include "search/excesses.h"
 #include "search/mdd_cache.h"
 #include "search/path_planner.h"
-#include "search/situations.h"
+#include "search/subproblem_table.h"
 
 namespace grove::detail {
 
 // What one worker found out, until it is common. Values; the numbers are those of one common
 // memory.
 struct FoundOut {
-  using Id = Situations::Id;
+  using Id = SubproblemTable::Id;
   struct Pair {
     Id first;
     Id second;
     AgentIndex agent;
     Excesses::Known known;
   };
-  std::unordered_map<Id, Situations::Known> costs;
+  std::unordered_map<Id, SubproblemTable::Known> costs;
   std::unordered_map<Id, MddCache::Set> sets;  // all that were asked for
   // Few at a time.
   std::vector<Pair> pairs;
@@ -37,7 +37,7 @@ struct FoundOut {
 
 // What workers found out lately that nobody here knew before; see FoundOut. Values.
 struct News {
-  std::vector<std::pair<Situations::Id, Situations::Known>> costs;
+  std::vector<std::pair<SubproblemTable::Id, SubproblemTable::Known>> costs;
   std::vector<FoundOut::Pair> pairs;
   std::vector<Excesses::Group> groups;
 };
@@ -50,7 +50,7 @@ struct CommonMemory {
   struct Successor {};
   explicit CommonMemory(Successor /*successor*/) : follows_another(true) {}
 
-  Situations situations;
+  SubproblemTable situations;
   MddCache path_sets;
   Excesses excesses{situations};
   // What is found out may have to be forgotten again before it is of use.
@@ -81,7 +81,7 @@ struct CommonMemory {
 // thread.
 class Memory {
  public:
-  using Id = Situations::Id;
+  using Id = SubproblemTable::Id;
 
   // `planner` must outlive this. Sets of optimal paths have `most_set_nodes` or are not made.
   Memory(PathPlanner& planner, std::shared_ptr<CommonMemory> common, std::int64_t most_set_nodes)
@@ -108,8 +108,8 @@ class Memory {
   // Sets of optimal paths that were asked for so far, and those of them that had been made.
   std::int64_t sets_asked() const { return sets_asked_; }
   std::int64_t sets_known() const { return sets_known_; }
-  Situations::Known known(Id id) const;
-  void learn(Id id, Situations::Known known) { found_.costs[id] = known; }
+  SubproblemTable::Known known(Id id) const;
+  void learn(Id id, SubproblemTable::Known known) { found_.costs[id] = known; }
 
   // As MddCache::find; valid until take_found().
   const Mdd* paths(Id id, AgentIndex agent, const AgentOrder& order,

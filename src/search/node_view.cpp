@@ -44,7 +44,7 @@ void NodeView::find_conflicts() {
   for (const AgentIndex agent : scope_) steps_ += std::ssize(paths_[agent]);
 }
 
-Situations::Id NodeView::situation(AgentIndex agent) {
+SubproblemTable::Id NodeView::situation(AgentIndex agent) {
   GROVE_ASSERT(is_in_scope(agent), "of others nothing is kept up to date");
   Kept::KnownSituation& known = kept_.situations[agent];
   const AgentOrder& order = this->order(agent);

@@ -27,7 +27,7 @@ class NodeView {
     struct KnownSituation {
       const AgentOrder* order = nullptr;  // null: not known
       std::int64_t numbering = 0;         // of the memory
-      Situations::Id id = 0;
+      SubproblemTable::Id id = 0;
     };
     // By AgentIndex. Those of agents in scope are of this node, those of others of an earlier one.
     std::vector<std::vector<Constraint>> constraints;  // canonical
@@ -55,7 +55,7 @@ class NodeView {
     GROVE_ASSERT(is_in_scope(agent), "of others nothing is kept up to date");
     return kept_.constraints[agent];
   }
-  Situations::Id situation(AgentIndex agent);
+  SubproblemTable::Id situation(AgentIndex agent);
   // The same with one constraint more, in canonical order; until the next call.
   std::span<const Constraint> constraints_with(AgentIndex agent, const Constraint& more);
 

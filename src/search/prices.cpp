@@ -26,8 +26,8 @@ Prices::Outcome Prices::increase(NodeView& view, const AgentConstraint& demand, 
 Prices::Outcome Prices::cost(NodeView& view, AgentIndex agent, const Constraint& more, Time cutoff,
                              std::int64_t label_limit, const Limits& limits, Time& cost) {
   const auto constraints = view.constraints_with(agent, more);
-  const Situations::Id id = memory_.id(agent, view.order(agent), constraints);
-  Situations::Known known = memory_.known(id);
+  const SubproblemTable::Id id = memory_.id(agent, view.order(agent), constraints);
+  SubproblemTable::Known known = memory_.known(id);
   ++asked_;
   if (known.exact || known.at_least > cutoff) {
     ++known_;

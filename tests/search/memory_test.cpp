@@ -16,20 +16,21 @@ bool same(const Known& a, const Known& b) {
   return a.excess == b.excess && a.exact == b.exact && a.expansions == b.expansions;
 }
 
-std::vector<Excesses::Partner> partners_of(const auto& memory, Situations::Id id) {
+std::vector<Excesses::Partner> partners_of(const auto& memory, SubproblemTable::Id id) {
   std::vector<Excesses::Partner> partners;
   memory.partners(id, partners);
   return partners;
 }
 
-std::vector<Excesses::Group> groups_at(const auto& memory, const std::vector<Situations::Id>& now) {
+std::vector<Excesses::Group> groups_at(const auto& memory,
+                                       const std::vector<SubproblemTable::Id>& now) {
   std::vector<Excesses::Group> groups;
   memory.groups_at(now, [&](const Excesses::Group& group) { groups.push_back(group); });
   return groups;
 }
 
 TEST(Excesses, KeepTheStrongerStatement) {
-  const Situations situations;
+  const SubproblemTable situations;
   Excesses excesses(situations);
   EXPECT_TRUE(same(excesses.of_pair(3, 5), Known()));
   excesses.learn_pair(3, 5, 1, {2, false, 16});
@@ -40,7 +41,7 @@ TEST(Excesses, KeepTheStrongerStatement) {
 }
 
 TEST(Excesses, ListPartnersThatCostMoreOnce) {
-  const Situations situations;
+  const SubproblemTable situations;
   Excesses excesses(situations);
   excesses.learn_pair(3, 5, 1, {0, true, 1});
   EXPECT_TRUE(partners_of(excesses, 3).empty());
@@ -58,7 +59,7 @@ TEST(Excesses, ListPartnersThatCostMoreOnce) {
 // Situations of agents under so many constraints, of which there are several kinds.
 class Groups : public ::testing::Test {
  protected:
-  using Id = Situations::Id;
+  using Id = SubproblemTable::Id;
 
   Id id(AgentIndex agent, int constraints, Cell kind = 0) {
     std::vector<Constraint> list;
@@ -68,7 +69,7 @@ class Groups : public ::testing::Test {
   }
 
   const AgentOrder order_;
-  Situations situations_;
+  SubproblemTable situations_;
   Excesses excesses_{situations_};
 };
 
@@ -152,7 +153,7 @@ TEST_F(Groups, AreTheSameWhateverTheOrderInWhichTheyWereNumbered) {
   const std::vector<int> demands{3, 0, 2, 1};
   const std::vector<Constraint> elsewhere{{7, kNoCell, 0, 0}};
   for (int last = 0; last < 4; ++last) {
-    Situations situations;
+    SubproblemTable situations;
     Excesses excesses(situations);
     std::vector<Id> now(4);
     for (int i = 0; i < 4; ++i) {
@@ -183,11 +184,11 @@ struct TwoWorkers : testing::NodeAtHand {
 // What one finds out it knows at once, the others when it is handed over.
 TEST(Memory, IsTheWorkersOwnUntilItIsCommon) {
   TwoWorkers s;
-  const Situations::Id id = s.view.situation(0);
-  std::vector<Situations::Id> trio;
+  const SubproblemTable::Id id = s.view.situation(0);
+  std::vector<SubproblemTable::Id> trio;
   for (AgentIndex agent = 0; agent < 3; ++agent)
     trio.push_back(s.memory.id(agent, s.view.order(0), {}));
-  std::vector<Situations::Id> elsewhere = trio;
+  std::vector<SubproblemTable::Id> elsewhere = trio;
   elsewhere[2] = s.memory.id(2, s.view.order(0), std::array{Constraint{1, kNoCell, 0, 0}});
   s.memory.learn(id, {7, true});
   s.memory.learn_pair(1, 2, 1, {3, true, 1});
@@ -230,7 +231,7 @@ TEST(Memory, ForgetsWhatWasNotHandedOverWhenItTurnsToAnother) {
 
 TEST(Memory, MakesASetOfPathsOnce) {
   TwoWorkers s;
-  const Situations::Id id = s.view.situation(0);
+  const SubproblemTable::Id id = s.view.situation(0);
   const auto ask = [&](Memory& memory) {
     return memory.paths(id, 0, s.view.order(0), s.view.constraints(0), 2, s.limits);
   };
@@ -253,17 +254,17 @@ TEST(MddCache, ForgetWhatWasNotAskedForLately) {
   one.add(0, set);
   constexpr int kYoung = 100;
   MddCache sets(kYoung * one.bytes());
-  const auto add = [&](Situations::Id first, Situations::Id end) {
-    for (Situations::Id id = first; id < end; ++id) sets.add(id, set);
+  const auto add = [&](SubproblemTable::Id first, SubproblemTable::Id end) {
+    for (SubproblemTable::Id id = first; id < end; ++id) sets.add(id, set);
     sets.trim();
   };
   add(0, kYoung);
-  for (Situations::Id id = 0; id < kYoung; ++id) EXPECT_EQ(sets.find(id), set);  // old
-  add(0, 10);                                                                    // young again
+  for (SubproblemTable::Id id = 0; id < kYoung; ++id) EXPECT_EQ(sets.find(id), set);  // old
+  add(0, 10);                                                                         // young again
   add(0, 10);
   EXPECT_EQ(sets.bytes(), kYoung * one.bytes());
   add(kYoung, 2 * kYoung - 10);
-  for (Situations::Id id = 0; id < 2 * kYoung - 10; ++id)
+  for (SubproblemTable::Id id = 0; id < 2 * kYoung - 10; ++id)
     EXPECT_EQ(sets.find(id) != nullptr, id < 10 || id >= kYoung);
   EXPECT_EQ(sets.bytes(), kYoung * one.bytes());
   add(2 * kYoung, 4 * kYoung);

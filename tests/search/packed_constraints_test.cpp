@@ -8,7 +8,7 @@
 #include <random>
 #include <string_view>
 
-#include "search/situations.h"
+#include "search/subproblem_table.h"
 
 namespace grove::detail {
 namespace packed_constraints_test {

@@ -18,7 +18,7 @@
 namespace grove::detail {
 
 // As below, as a value.
-struct Situation {
+struct AgentSubproblem {
   const AgentOrder* order = nullptr;
   AgentIndex agent = -1;
   PackedConstraints constraints;  // in canonical order
@@ -29,7 +29,7 @@ struct Situation {
 // come up, and what is found out about each is kept. Keys are compared in full, so a hash can cost
 // time, never an answer. Costs are functions of the situation alone, so this memory changes no
 // result. All methods may be called from any thread.
-class Situations {
+class SubproblemTable {
  public:
   using Id = std::int32_t;
 
@@ -43,10 +43,10 @@ class Situations {
   // The number of a situation. `constraints` must be in canonical order, see canonical(). `order`
   // must outlive this object.
   Id id(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints);
-  Id id(const Situation& situation);
+  Id id(const AgentSubproblem& situation);
 
   // What has this number.
-  Situation situation(Id id) const;
+  AgentSubproblem situation(Id id) const;
 
   // The bytes of its constraints, packed: the more there are, the fewer nodes have this situation.
   std::size_t constraint_bytes(Id id) const;

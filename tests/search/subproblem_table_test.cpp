@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "search/situations.h"
+#include "search/subproblem_table.h"
 
 #include <gtest/gtest.h>
 
@@ -24,26 +24,26 @@ std::vector<Constraint> random_constraints(std::mt19937& random) {
   return constraints;
 }
 
-TEST(Situations, AreTheSameIfAgentOrderAndConstraintsAre) {
+TEST(SubproblemTable, AreTheSameIfAgentOrderAndConstraintsAre) {
   std::mt19937 random(3);
   const std::vector<AgentOrder> orders(2);
-  Situations situations;
+  SubproblemTable situations;
   using Key = std::tuple<AgentIndex, const AgentOrder*, std::vector<Constraint>>;
-  std::map<Situations::Id, Key> keys;
+  std::map<SubproblemTable::Id, Key> keys;
   for (int round = 0; round < 3000; ++round) {
     const auto agent = static_cast<AgentIndex>(random() % 3);
     const AgentOrder& order = orders[random() % 2];
     const auto constraints = random_constraints(random);
-    const Situations::Id id = situations.id(agent, order, constraints);
+    const SubproblemTable::Id id = situations.id(agent, order, constraints);
     const Key key{agent, &order, constraints};
     if (!keys.contains(id)) {
       EXPECT_TRUE(std::ranges::none_of(keys, [&](const auto& k) { return k.second == key; }));
-      EXPECT_EQ(situations.known(id), Situations::Known());
+      EXPECT_EQ(situations.known(id), SubproblemTable::Known());
       keys.emplace(id, key);
       situations.learn(id, {id, true});
     }
     EXPECT_EQ(keys.at(id), key);
-    const Situation situation = situations.situation(id);
+    const AgentSubproblem situation = situations.situation(id);
     EXPECT_EQ(situation.agent, agent);
     EXPECT_EQ(situation.order, &order);
     EXPECT_EQ(situation.constraints, PackedConstraints(constraints));
@@ -54,23 +54,23 @@ TEST(Situations, AreTheSameIfAgentOrderAndConstraintsAre) {
   EXPECT_GT(situations.bytes(), keys.size() * (sizeof(AgentIndex) + sizeof(AgentOrder*)));
 }
 
-TEST(Situations, KeepTheStrongerStatement) {
-  Situations situations;
+TEST(SubproblemTable, KeepTheStrongerStatement) {
+  SubproblemTable situations;
   const AgentOrder order;
-  const Situations::Id id = situations.id(0, order, {});
+  const SubproblemTable::Id id = situations.id(0, order, {});
   situations.learn(id, {5, false});
   situations.learn(id, {3, false});
-  EXPECT_EQ(situations.known(id), (Situations::Known{5, false}));
+  EXPECT_EQ(situations.known(id), (SubproblemTable::Known{5, false}));
   situations.learn(id, {7, true});
   situations.learn(id, {6, false});
-  EXPECT_EQ(situations.known(id), (Situations::Known{7, true}));
+  EXPECT_EQ(situations.known(id), (SubproblemTable::Known{7, true}));
 }
 
-TEST(Situations, AreNumberedAlikeForAllThreads) {
+TEST(SubproblemTable, AreNumberedAlikeForAllThreads) {
   const std::vector<AgentOrder> orders(1);
-  Situations situations;
+  SubproblemTable situations;
   constexpr int kThreads = 4;
-  std::vector<std::vector<Situations::Id>> ids(kThreads);
+  std::vector<std::vector<SubproblemTable::Id>> ids(kThreads);
   std::vector<std::jthread> threads;
   for (int thread = 0; thread < kThreads; ++thread)
     threads.emplace_back([&, thread] {
@@ -85,10 +85,10 @@ TEST(Situations, AreNumberedAlikeForAllThreads) {
   threads.clear();
   for (int thread = 1; thread < kThreads; ++thread)
     EXPECT_EQ(ids[static_cast<std::size_t>(thread)], ids[0]);
-  for (const Situations::Id id : ids[0]) EXPECT_EQ(situations.known(id).at_least, id);
+  for (const SubproblemTable::Id id : ids[0]) EXPECT_EQ(situations.known(id).at_least, id);
 }
 
-TEST(Situations, CanonicalListsHaveOneOrderAndNoRepeats) {
+TEST(SubproblemTable, CanonicalListsHaveOneOrderAndNoRepeats) {
   std::vector<Constraint> a{{1, kNoCell, 2, 3}, {0, kNoCell, 1, 1}, {1, kNoCell, 2, 3}};
   std::vector<Constraint> b{{0, kNoCell, 1, 1}, {1, kNoCell, 2, 3}};
   canonical(a);

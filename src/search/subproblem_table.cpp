@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "search/situations.h"
+#include "search/subproblem_table.h"
 
 #include <algorithm>
 #include <cstring>
@@ -14,7 +14,7 @@ namespace {
 // Of a key: see key_begun().
 constexpr std::size_t kBytesBeforeConstraints = sizeof(const AgentOrder*) + sizeof(AgentIndex);
 
-std::size_t place_of(Situations::Id id) {
+std::size_t place_of(SubproblemTable::Id id) {
   return static_cast<std::size_t>(id) / Sharded<int>::kParts;
 }
 
@@ -40,8 +40,8 @@ std::string& key_begun(AgentIndex agent, const AgentOrder& order) {
   return key;
 }
 
-Situation situation_of(std::string_view key) {
-  Situation situation;
+AgentSubproblem situation_of(std::string_view key) {
+  AgentSubproblem situation;
   situation.order = taken_from<const AgentOrder*>(key);
   situation.agent = taken_from<AgentIndex>(key);
   situation.constraints.bytes = key;
@@ -74,8 +74,8 @@ void add_to_canonical(std::vector<Constraint>& constraints, const Constraint& mo
   if (at == constraints.end() || *at != more) constraints.insert(at, more);
 }
 
-Situations::Id Situations::id(AgentIndex agent, const AgentOrder& order,
-                              std::span<const Constraint> constraints) {
+SubproblemTable::Id SubproblemTable::id(AgentIndex agent, const AgentOrder& order,
+                                        std::span<const Constraint> constraints) {
   GROVE_ASSERT(std::ranges::is_sorted(constraints, {}, key_of),
                "constraints are in canonical order");
   std::string& key = key_begun(agent, order);
@@ -83,13 +83,13 @@ Situations::Id Situations::id(AgentIndex agent, const AgentOrder& order,
   return id_of_key(order, key);
 }
 
-Situations::Id Situations::id(const Situation& situation) {
+SubproblemTable::Id SubproblemTable::id(const AgentSubproblem& situation) {
   std::string& key = key_begun(situation.agent, *situation.order);
   key += situation.constraints.bytes;
   return id_of_key(*situation.order, key);
 }
 
-Situations::Id Situations::id_of_key(const AgentOrder& order, std::string_view key) {
+SubproblemTable::Id SubproblemTable::id_of_key(const AgentOrder& order, std::string_view key) {
   const std::uint64_t hash = hash_of(order, key);
   const std::size_t number = hash >> (64 - Sharded<Part>::kBits);
   const Id at = parts_.with(number, [&](Part& part) {
@@ -101,24 +101,24 @@ Situations::Id Situations::id_of_key(const AgentOrder& order, std::string_view k
   return at << Sharded<Part>::kBits | static_cast<Id>(number);
 }
 
-std::size_t Situations::constraint_bytes(Id id) const {
+std::size_t SubproblemTable::constraint_bytes(Id id) const {
   return parts_.with(parts_.part_of(id), [&](const Part& part) {
     return part.key(static_cast<Id>(place_of(id))).size() - kBytesBeforeConstraints;
   });
 }
 
-Situations::Known Situations::known(Id id) const {
+SubproblemTable::Known SubproblemTable::known(Id id) const {
   return parts_.with(parts_.part_of(id),
                      [&](const Part& part) { return part.entries[place_of(id)].known; });
 }
 
-Situation Situations::situation(Id id) const {
+AgentSubproblem SubproblemTable::situation(Id id) const {
   return parts_.with(parts_.part_of(id), [&](const Part& part) {
     return situation_of(part.key(static_cast<Id>(place_of(id))));
   });
 }
 
-bool Situations::learn(Id id, Known learnt) {
+bool SubproblemTable::learn(Id id, Known learnt) {
   return parts_.with(parts_.part_of(id), [&](Part& part) {
     Known& known = part.entries[place_of(id)].known;
     const Known before = known;
@@ -128,7 +128,8 @@ bool Situations::learn(Id id, Known learnt) {
   });
 }
 
-Situations::Id Situations::Part::find_or_add(std::uint32_t hash, std::string_view sought) {
+SubproblemTable::Id SubproblemTable::Part::find_or_add(std::uint32_t hash,
+                                                       std::string_view sought) {
   const Id found = index.find(hash, [&](Id entry) { return key(entry) == sought; });
   if (found != HashIndex::kNone) return found;
   const auto first = static_cast<std::uint32_t>(keys.size());
@@ -144,13 +145,13 @@ Situations::Id Situations::Part::find_or_add(std::uint32_t hash, std::string_vie
   return index.add(hash);
 }
 
-std::string_view Situations::Part::key(Id entry) const {
+std::string_view SubproblemTable::Part::key(Id entry) const {
   const auto at = static_cast<std::size_t>(entry);
   const std::size_t end = at + 1 < entries.size() ? entries[at + 1].first : keys.size();
   return std::string_view(keys).substr(entries[at].first, end - entries[at].first);
 }
 
-std::size_t Situations::Part::bytes() const {
+std::size_t SubproblemTable::Part::bytes() const {
   return entries.capacity() * sizeof(Entry) + keys.capacity() + index.bytes();
 }
 
