@@ -311,10 +311,10 @@ void Dependencies::collect(std::vector<GroupExcess>& statements) {
   for (AgentIndex a = 0; a < agents_; ++a) {
     partners_.clear();
     memory_.partners(situation_[a], partners_);
-    for (const Excesses::Partner& b : partners_)
+    for (const DependencyTable::Partner& b : partners_)
       if (situation_[b.agent] == b.situation) statements.push_back({{a, b.agent}, b.excess});
   }
-  memory_.groups_at(situation_, [&](const Excesses::Group& group) {
+  memory_.groups_at(situation_, [&](const DependencyTable::Group& group) {
     if (group.known.excess > 0) statements.push_back({group.agents, group.known.excess});
   });
   std::ranges::sort(statements, [](const GroupExcess& s, const GroupExcess& t) {

@@ -69,7 +69,7 @@ class Dependencies {
   std::int64_t optimal_nodes() const { return pair_brancher_.optimal_nodes(); }
 
  private:
-  using Known = Excesses::Known;
+  using Known = DependencyTable::Known;
 
   struct Open {
     Cost cost;
@@ -115,7 +115,7 @@ class Dependencies {
   std::vector<Open> open_;                      // a heap: least cost first
   std::vector<NodePtr> children_;
   std::vector<ProofSplit> written_;  // of the group under way, if there is a proof to be written
-  std::vector<Excesses::Partner> partners_;
+  std::vector<DependencyTable::Partner> partners_;
   std::int64_t expansions_ = 0;
   std::int64_t give_up_at_ = 0;  // of work()
 };

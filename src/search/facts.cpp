@@ -36,7 +36,7 @@ class Facts {
   Facts(const CommonMemory& memory, const TreesOfFacts& trees) : memory_(memory), trees_(trees) {}
 
   void add(std::span<const SubproblemTable::Id> ids, SubproblemTable::Known cost,
-           Excesses::Known excess) {
+           DependencyTable::Known excess) {
     Fact fact{{}, cost, excess};
     for (const SubproblemTable::Id id : ids) {
       AgentSubproblem situation = memory_.situations.situation(id);

@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "search/excesses.h"
+#include "search/dependency_table.h"
 #include "search/memory.h"
 #include "search/node.h"
 #include "search/packed_constraints.h"
@@ -28,7 +28,7 @@ struct SubproblemRecord {
 struct Fact {
   std::vector<SubproblemRecord> agents;  // one or more, in ascending order of agents
   SubproblemTable::Known cost;           // of one agent,
-  Excesses::Known excess;                // of several
+  DependencyTable::Known excess;         // of several
 
   // How much there is to gain by telling it: what took long to find out, raises a bound, and comes
   // up again, as few constraints do more often than many.

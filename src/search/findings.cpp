@@ -19,7 +19,7 @@ namespace grove::detail {
 namespace {
 
 using Id = SubproblemTable::Id;
-using Known = Excesses::Known;
+using Known = DependencyTable::Known;
 
 bool says_something(const Known& known) {
   return known.exact || known.excess > 0 || known.expansions > 0;

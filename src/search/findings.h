@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/instance.h"
-#include "search/excesses.h"
+#include "search/dependency_table.h"
 #include "search/memory.h"
 #include "search/node.h"
 
@@ -18,7 +18,7 @@ namespace grove::detail {
 struct Finding {
   std::int32_t node = 0;           // its place among the nodes
   std::vector<AgentIndex> agents;  // two or more, in ascending order
-  Excesses::Known known;
+  DependencyTable::Known known;
 };
 
 // What `memory` knows of pairs and groups of agents at these nodes, each at one node where it

@@ -7,7 +7,7 @@
 
 #include "model/limits.h"
 #include "model/tuning.h"
-#include "search/excesses.h"
+#include "search/dependency_table.h"
 #include "search/node_view.h"
 #include "search/path_planner.h"
 
@@ -17,7 +17,7 @@ namespace grove::detail {
 // the head of joint_groups.cpp. Of one thread.
 class JointGroups {
  public:
-  using Known = Excesses::Known;
+  using Known = DependencyTable::Known;
 
   // All must outlive this; `planner` may be shared with others of the same thread.
   JointGroups(const Instance& instance, const Tuning& tuning, PathPlanner& planner)

@@ -58,33 +58,33 @@ const Mdd* Memory::paths(Id id, AgentIndex agent, const AgentOrder& order,
   return (found_.sets[id] = std::move(set)).get();
 }
 
-Excesses::Known Memory::of_pair(Id first, Id second) const {
+DependencyTable::Known Memory::of_pair(Id first, Id second) const {
   const auto same = [&](const FoundOut::Pair& p) { return p.first == first && p.second == second; };
   const auto found = std::ranges::find_if(found_.pairs, same);
   return found == found_.pairs.end() ? common_->excesses.of_pair(first, second) : found->known;
 }
 
-void Memory::learn_pair(Id first, Id second, AgentIndex agent, Excesses::Known known) {
+void Memory::learn_pair(Id first, Id second, AgentIndex agent, DependencyTable::Known known) {
   found_.pairs.push_back({first, second, agent, known});
 }
 
-void Memory::partners(Id first, std::vector<Excesses::Partner>& partners) const {
+void Memory::partners(Id first, std::vector<DependencyTable::Partner>& partners) const {
   common_->excesses.partners(first, partners);
   for (const FoundOut::Pair& p : found_.pairs)
     if (p.first == first && p.known.excess > 0)
       partners.push_back({p.agent, p.second, p.known.excess});
 }
 
-Excesses::Known Memory::of_group(const std::vector<Id>& situations) const {
+DependencyTable::Known Memory::of_group(const std::vector<Id>& situations) const {
   ++groups_asked_;
-  Excesses::Known known = common_->excesses.of_group(situations);
-  for (const Excesses::Group& group : found_.groups)
-    if (group.situations == situations) known = Excesses::join(known, group.known);
+  DependencyTable::Known known = common_->excesses.of_group(situations);
+  for (const DependencyTable::Group& group : found_.groups)
+    if (group.situations == situations) known = DependencyTable::join(known, group.known);
   return known;
 }
 
 void Memory::learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
-                         Excesses::Known known) {
+                         DependencyTable::Known known) {
   found_.groups.push_back({agents, situations, known});
 }
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "search/excesses.h"
+#include "search/dependency_table.h"
 #include "search/mdd_cache.h"
 #include "search/path_planner.h"
 #include "search/subproblem_table.h"
@@ -26,20 +26,20 @@ struct FoundOut {
     Id first;
     Id second;
     AgentIndex agent;
-    Excesses::Known known;
+    DependencyTable::Known known;
   };
   std::unordered_map<Id, SubproblemTable::Known> costs;
   std::unordered_map<Id, MddCache::Set> sets;  // all that were asked for
   // Few at a time.
   std::vector<Pair> pairs;
-  std::vector<Excesses::Group> groups;
+  std::vector<DependencyTable::Group> groups;
 };
 
 // What workers found out lately that nobody here knew before; see FoundOut. Values.
 struct News {
   std::vector<std::pair<SubproblemTable::Id, SubproblemTable::Known>> costs;
   std::vector<FoundOut::Pair> pairs;
-  std::vector<Excesses::Group> groups;
+  std::vector<DependencyTable::Group> groups;
 };
 
 // What all workers know. Thread-safe; nothing is ever taken back, so whoever wants it forgotten
@@ -52,7 +52,7 @@ struct CommonMemory {
 
   SubproblemTable situations;
   MddCache path_sets;
-  Excesses excesses{situations};
+  DependencyTable excesses{situations};
   // What is found out may have to be forgotten again before it is of use.
   const bool follows_another = false;
   // Of this one alone among all that there were in this process.
@@ -116,16 +116,16 @@ class Memory {
                    std::span<const Constraint> constraints, Time cost, const Limits& limits);
 
   // As those of Excesses. Partners and groups come in any order, perhaps more than once.
-  Excesses::Known of_pair(Id first, Id second) const;
-  void learn_pair(Id first, Id second, AgentIndex agent, Excesses::Known known);
-  void partners(Id first, std::vector<Excesses::Partner>& partners) const;
-  Excesses::Known of_group(const std::vector<Id>& situations) const;
+  DependencyTable::Known of_pair(Id first, Id second) const;
+  void learn_pair(Id first, Id second, AgentIndex agent, DependencyTable::Known known);
+  void partners(Id first, std::vector<DependencyTable::Partner>& partners) const;
+  DependencyTable::Known of_group(const std::vector<Id>& situations) const;
   void learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
-                   Excesses::Known known);
+                   DependencyTable::Known known);
   template <class Use>
   void groups_at(const std::vector<Id>& now, Use use) const {
     groups_asked_ += common_->excesses.groups_at(now, use);
-    for (const Excesses::Group& group : found_.groups)
+    for (const DependencyTable::Group& group : found_.groups)
       if (group.is_at(now)) use(group);
   }
 

@@ -97,8 +97,8 @@ struct TwoTrees {
     trees[1].orders = {orders[0], orders[2]};
     for (const Tree& tree : trees) known.add(tree);
   }
-  Excesses::Known of_pair(std::size_t first, std::size_t second,
-                          const std::vector<Constraint>& demands) {
+  DependencyTable::Known of_pair(std::size_t first, std::size_t second,
+                                 const std::vector<Constraint>& demands) {
     return memory.excesses.of_pair(memory.situations.id(0, *orders[first], {}),
                                    memory.situations.id(1, *orders[second], demands));
   }

@@ -10,28 +10,28 @@
 namespace grove::detail {
 namespace memory_test {
 
-using Known = Excesses::Known;
+using Known = DependencyTable::Known;
 
 bool same(const Known& a, const Known& b) {
   return a.excess == b.excess && a.exact == b.exact && a.expansions == b.expansions;
 }
 
-std::vector<Excesses::Partner> partners_of(const auto& memory, SubproblemTable::Id id) {
-  std::vector<Excesses::Partner> partners;
+std::vector<DependencyTable::Partner> partners_of(const auto& memory, SubproblemTable::Id id) {
+  std::vector<DependencyTable::Partner> partners;
   memory.partners(id, partners);
   return partners;
 }
 
-std::vector<Excesses::Group> groups_at(const auto& memory,
-                                       const std::vector<SubproblemTable::Id>& now) {
-  std::vector<Excesses::Group> groups;
-  memory.groups_at(now, [&](const Excesses::Group& group) { groups.push_back(group); });
+std::vector<DependencyTable::Group> groups_at(const auto& memory,
+                                              const std::vector<SubproblemTable::Id>& now) {
+  std::vector<DependencyTable::Group> groups;
+  memory.groups_at(now, [&](const DependencyTable::Group& group) { groups.push_back(group); });
   return groups;
 }
 
-TEST(Excesses, KeepTheStrongerStatement) {
+TEST(DependencyTable, KeepTheStrongerStatement) {
   const SubproblemTable situations;
-  Excesses excesses(situations);
+  DependencyTable excesses(situations);
   EXPECT_TRUE(same(excesses.of_pair(3, 5), Known()));
   excesses.learn_pair(3, 5, 1, {2, false, 16});
   excesses.learn_pair(3, 5, 1, {1, true, 4});
@@ -40,9 +40,9 @@ TEST(Excesses, KeepTheStrongerStatement) {
   EXPECT_TRUE(same(excesses.of_pair(3, 6), Known()));
 }
 
-TEST(Excesses, ListPartnersThatCostMoreOnce) {
+TEST(DependencyTable, ListPartnersThatCostMoreOnce) {
   const SubproblemTable situations;
-  Excesses excesses(situations);
+  DependencyTable excesses(situations);
   excesses.learn_pair(3, 5, 1, {0, true, 1});
   EXPECT_TRUE(partners_of(excesses, 3).empty());
   excesses.learn_pair(3, 6, 2, {1, false, 1});
@@ -70,7 +70,7 @@ class Groups : public ::testing::Test {
 
   const AgentOrder order_;
   SubproblemTable situations_;
-  Excesses excesses_{situations_};
+  DependencyTable excesses_{situations_};
 };
 
 TEST_F(Groups, AreKnownBySituations) {
@@ -117,7 +117,7 @@ TEST_F(Groups, ThatDifferInAnotherAgentOnlyAreKeptApart) {
         ids.push_back(id(agent, agent % 2 == 1 ? 3 : 1, agent == differs ? kind : 0));
       return ids;
     };
-    Excesses excesses(situations_);
+    DependencyTable excesses(situations_);
     excesses.learn_group({0, 1, 2, 3, 4}, at(1), {1, false, 8});
     excesses.learn_group({0, 1, 2, 3, 4}, at(2), {2, false, 8});
     for (int kind : {1, 2}) {
@@ -154,7 +154,7 @@ TEST_F(Groups, AreTheSameWhateverTheOrderInWhichTheyWereNumbered) {
   const std::vector<Constraint> elsewhere{{7, kNoCell, 0, 0}};
   for (int last = 0; last < 4; ++last) {
     SubproblemTable situations;
-    Excesses excesses(situations);
+    DependencyTable excesses(situations);
     std::vector<Id> now(4);
     for (int i = 0; i < 4; ++i) {
       const AgentIndex agent = (last + 1 + i) % 4;

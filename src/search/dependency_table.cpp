@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "search/excesses.h"
+#include "search/dependency_table.h"
 
 #include <algorithm>
 #include <functional>
@@ -12,17 +12,17 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kBytesPerPartner = 2 * sizeof(Excesses::Partner);  // about, as below
+constexpr std::size_t kBytesPerPartner = 2 * sizeof(DependencyTable::Partner);  // about, as below
 constexpr std::size_t kBytesPerGroup = 160;
 
-std::uint32_t hash_of(Excesses::Id first, Excesses::Id second) {
+std::uint32_t hash_of(DependencyTable::Id first, DependencyTable::Id second) {
   const auto both = static_cast<std::uint64_t>(first) << 32 | static_cast<std::uint32_t>(second);
   return static_cast<std::uint32_t>(hash_combine(0, both));
 }
 
 }  // namespace
 
-std::array<std::size_t, 2> Excesses::rarest_two(const std::vector<Id>& situations) const {
+std::array<std::size_t, 2> DependencyTable::rarest_two(const std::vector<Id>& situations) const {
   std::vector<std::tuple<std::size_t, Id, std::size_t>> members;
   for (std::size_t place = 0; place < situations.size(); ++place)
     members.emplace_back(situations_.constraint_bytes(situations[place]), situations[place], place);
@@ -31,7 +31,7 @@ std::array<std::size_t, 2> Excesses::rarest_two(const std::vector<Id>& situation
 }
 
 template <class Item>
-std::vector<Item>& Excesses::Lists<Item>::at(Id situation) {
+std::vector<Item>& DependencyTable::Lists<Item>::at(Id situation) {
   const std::size_t place = place_of(situation);
   if (place >= list_.size()) list_.resize(place + 1, -1);
   if (list_[place] < 0) {
@@ -42,7 +42,7 @@ std::vector<Item>& Excesses::Lists<Item>::at(Id situation) {
 }
 
 template <class What>
-bool Excesses::learn(Id under, What what) {
+bool DependencyTable::learn(Id under, What what) {
   return parts_.with(parts_.part_of(under), [&](Part& part) {
     const std::size_t before = part.bytes();
     const bool is_news = what(part);
@@ -51,25 +51,25 @@ bool Excesses::learn(Id under, What what) {
   });
 }
 
-HashIndex::Number Excesses::Part::find(Id first, Id second) const {
+HashIndex::Number DependencyTable::Part::find(Id first, Id second) const {
   return index.find(hash_of(first, second), [&](HashIndex::Number number) {
     return pairs[number].first == first && pairs[number].second == second;
   });
 }
 
-std::size_t Excesses::Part::bytes() const {
+std::size_t DependencyTable::Part::bytes() const {
   return pairs.capacity() * sizeof(Pair) + index.bytes() + partners.bytes() + groups.bytes() +
          listed_partners * kBytesPerPartner + all_groups.size() * kBytesPerGroup;
 }
 
-Excesses::Known Excesses::of_pair(Id first, Id second) const {
+DependencyTable::Known DependencyTable::of_pair(Id first, Id second) const {
   return parts_.with(parts_.part_of(first), [&](const Part& part) {
     const HashIndex::Number found = part.find(first, second);
     return found == HashIndex::kNone ? Known() : part.pairs[found].known;
   });
 }
 
-bool Excesses::learn_pair(Id first, Id second, AgentIndex agent, Known known) {
+bool DependencyTable::learn_pair(Id first, Id second, AgentIndex agent, Known known) {
   return learn(first, [&](Part& part) {
     HashIndex::Number at = part.find(first, second);
     const bool is_new = at == HashIndex::kNone;
@@ -85,7 +85,7 @@ bool Excesses::learn_pair(Id first, Id second, AgentIndex agent, Known known) {
   });
 }
 
-void Excesses::Part::list(const Partner& partner, Id first) {
+void DependencyTable::Part::list(const Partner& partner, Id first) {
   auto& listed = partners.at(first);
   const auto known = std::ranges::find_if(listed, [&](const Partner& p) {
     return p.agent == partner.agent && p.situation == partner.situation;
@@ -98,7 +98,7 @@ void Excesses::Part::list(const Partner& partner, Id first) {
   ++listed_partners;
 }
 
-void Excesses::partners(Id first, std::vector<Partner>& partners) const {
+void DependencyTable::partners(Id first, std::vector<Partner>& partners) const {
   parts_.with(parts_.part_of(first), [&](const Part& part) {
     const auto listed = part.partners.of(first);
     partners.insert(partners.end(), listed.begin(), listed.end());
@@ -106,15 +106,15 @@ void Excesses::partners(Id first, std::vector<Partner>& partners) const {
 }
 
 // -1: it is not there.
-std::int32_t Excesses::Part::find_group(Id rarest, Id next,
-                                        const std::vector<Id>& situations) const {
+std::int32_t DependencyTable::Part::find_group(Id rarest, Id next,
+                                               const std::vector<Id>& situations) const {
   for (const ListedGroup& listed : groups.of(rarest))
     if (listed.situation == next && all_groups[listed.number].situations == situations)
       return listed.number;
   return -1;
 }
 
-Excesses::Known Excesses::of_group(const std::vector<Id>& situations) const {
+DependencyTable::Known DependencyTable::of_group(const std::vector<Id>& situations) const {
   const auto [rarest, next] = rarest_two(situations);
   return parts_.with(parts_.part_of(situations[rarest]), [&](const Part& part) {
     const auto found = part.find_group(situations[rarest], situations[next], situations);
@@ -122,8 +122,8 @@ Excesses::Known Excesses::of_group(const std::vector<Id>& situations) const {
   });
 }
 
-bool Excesses::learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
-                           Known known) {
+bool DependencyTable::learn_group(const std::vector<AgentIndex>& agents,
+                                  const std::vector<Id>& situations, Known known) {
   GROVE_ASSERT(
       agents.size() > 2 && agents.size() == situations.size() && std::ranges::is_sorted(agents),
       "a group is its agents in ascending order, and their situations");

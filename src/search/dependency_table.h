@@ -22,7 +22,7 @@ namespace grove::detail {
 //
 // A group is *listed* under its rarest situation: few nodes ask for what is listed there. With it
 // stands the next rarest, for most groups that are not at a node differ from it in that already.
-class Excesses {
+class DependencyTable {
  public:
   using Id = SubproblemTable::Id;
 
@@ -57,7 +57,7 @@ class Excesses {
   }
 
   // Of situations with these numbers, which must outlive this.
-  explicit Excesses(const SubproblemTable& situations) : situations_(situations) {}
+  explicit DependencyTable(const SubproblemTable& situations) : situations_(situations) {}
 
   Known of_pair(Id first, Id second) const;
   // The agent is the second one. True, here and below: it was news.
