@@ -80,12 +80,12 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
   if (techniques_.has(Technique::kDependencies) && !node->is_bounded()) {
     Cost bound = 0;
     switch (dependencies_.find_bound(node, view_, cutoff, bounding_effort, limits, bound)) {
-      case Dependencies::Outcome::kStopped:
+      case WdgHeuristic::Outcome::kStopped:
         return stopped();
-      case Dependencies::Outcome::kUnfinished:
+      case WdgHeuristic::Outcome::kUnfinished:
         expansion.unfinished = true;
         return expansion;
-      case Dependencies::Outcome::kDone:
+      case WdgHeuristic::Outcome::kDone:
         break;
     }
     if (bound >= cutoff) return expansion;

@@ -11,12 +11,12 @@
 
 #include "model/limits.h"
 #include "search/brancher.h"
-#include "search/dependencies.h"
 #include "search/memory.h"
 #include "search/node.h"
 #include "search/node_view.h"
 #include "search/path_planner.h"
 #include "search/search_options.h"
+#include "search/wdg_heuristic.h"
 
 namespace grove::detail {
 
@@ -120,7 +120,7 @@ class Expander {
   Memory memory_;
   NodeView view_;
   Brancher brancher_;
-  Dependencies dependencies_;
+  WdgHeuristic dependencies_;
   std::vector<AgentIndex> all_;
   std::vector<Split> splits_;
   std::int64_t work_on_nodes_ = 0;

@@ -149,7 +149,7 @@ test("says how good the plan is", () => {
   assert.match(verdict(read(header(), row({ lower_bound: 30 }))), /No plan yet; none costs less than 30/);
 });
 
-// Named by the demand of the second child: src/conflicts/target.cpp, src/search/dependencies.cpp.
+// Named by the demand of the second child: src/conflicts/target.cpp, src/search/wdg_heuristic.cpp.
 test("a split is told as what it is", () => {
   assert.match(kSplits["rest-by"], /comes to rest early and no other robot passes/);
   assert.match(kSplits["no-rest-by"], /two robots together cost more/);

@@ -45,7 +45,7 @@
 //
 // *Haste.* Fewer statements make a lower bound, and as true a one. Where others wait for nodes,
 // only those count that are known.
-#include "search/dependencies.h"
+#include "search/wdg_heuristic.h"
 
 #include <algorithm>
 #include <array>
@@ -54,7 +54,7 @@
 
 namespace grove::detail {
 
-Dependencies::Dependencies(const Problem& problem, const SearchOptions& options,
+WdgHeuristic::WdgHeuristic(const Problem& problem, const SearchOptions& options,
                            PathPlanner& planner, Memory& memory)
     : instance_(problem.instance),
       planner_(planner),
@@ -69,7 +69,7 @@ Dependencies::Dependencies(const Problem& problem, const SearchOptions& options,
       joint_groups_(problem.instance, tuning_, planner),
       situation_(static_cast<std::size_t>(agents_)) {}
 
-Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, NodeView& view, Cost cutoff,
+WdgHeuristic::Outcome WdgHeuristic::find_bound(const NodePtr& node, NodeView& view, Cost cutoff,
                                                BoundingEffort bounding_effort, const Limits& limits,
                                                Cost& bound) {
   bound = cutoff;
@@ -77,7 +77,7 @@ Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, NodeView& vi
   if (slack < 0) return Outcome::kDone;
   look_at(view);
   if (bounding_effort == BoundingEffort::kFull) {
-    const Outcome outcome = find_out(view, slack, limits);
+    const Outcome outcome = compute_weights(view, slack, limits);
     if (outcome != Outcome::kDone) return outcome;
   }
   std::vector<GroupExcess> statements;
@@ -93,7 +93,8 @@ Dependencies::Outcome Dependencies::find_bound(const NodePtr& node, NodeView& vi
   return Outcome::kDone;
 }
 
-Dependencies::Outcome Dependencies::find_out(NodeView& view, Cost slack, const Limits& limits) {
+WdgHeuristic::Outcome WdgHeuristic::compute_weights(NodeView& view, Cost slack,
+                                                    const Limits& limits) {
   // What had to be forgotten once may be again: then nothing is left for later.
   give_up_at_ = memory_.common()->follows_another ? std::numeric_limits<std::int64_t>::max()
                                                   : work() + tuning_.bound_work;
@@ -102,7 +103,7 @@ Dependencies::Outcome Dependencies::find_out(NodeView& view, Cost slack, const L
   return solve_groups(view, slack, limits);
 }
 
-bool Dependencies::help(const NodePtr& node, NodeView& view, Cost cutoff, double share,
+bool WdgHeuristic::help(const NodePtr& node, NodeView& view, Cost cutoff, double share,
                         const Limits& limits) {
   const Cost slack = cutoff - node->cost() - 1;
   if (slack < 0) return false;
@@ -113,7 +114,7 @@ bool Dependencies::help(const NodePtr& node, NodeView& view, Cost cutoff, double
   return work() > before;
 }
 
-void Dependencies::look_at(NodeView& view) {
+void WdgHeuristic::look_at(NodeView& view) {
   for (AgentIndex agent = 0; agent < agents_; ++agent) {
     situation_[agent] = view.situation(agent);
     GROVE_ASSERT(may_cost(agent, view.cost_of(agent)),
@@ -123,13 +124,13 @@ void Dependencies::look_at(NodeView& view) {
 
 // What a pair or group costs more is more than its agents' paths at the node where that was found
 // out; it counts at others because they cost the same there.
-bool Dependencies::may_cost(AgentIndex agent, Time cost) const {
+bool WdgHeuristic::may_cost(AgentIndex agent, Time cost) const {
   const SubproblemTable::Known known = memory_.known(situation_[agent]);
   return known.exact ? cost == known.at_least : cost >= known.at_least;
 }
 
 // Looks into every pair that conflicts at the node.
-Dependencies::Outcome Dependencies::solve_conflicting(NodeView& view, Cost slack, double share,
+WdgHeuristic::Outcome WdgHeuristic::solve_conflicting(NodeView& view, Cost slack, double share,
                                                       const Limits& limits) {
   std::vector<std::pair<AgentIndex, AgentIndex>> pairs;
   for (const Conflict& c : view.conflicts()) pairs.emplace_back(c.first, c.second);
@@ -159,7 +160,7 @@ Dependencies::Outcome Dependencies::solve_conflicting(NodeView& view, Cost slack
 }
 
 // Can both keep their costs? None: a limit struck.
-std::optional<Dependence> Dependencies::compare(NodeView& view, AgentIndex a, AgentIndex b,
+std::optional<Dependence> WdgHeuristic::compare(NodeView& view, AgentIndex a, AgentIndex b,
                                                 const Limits& limits) {
   const Mdd* of_a = optimal_paths(view, a, limits);
   const Mdd* of_b = optimal_paths(view, b, limits);
@@ -171,14 +172,14 @@ std::optional<Dependence> Dependencies::compare(NodeView& view, AgentIndex a, Ag
   return dependence;
 }
 
-const Mdd* Dependencies::optimal_paths(NodeView& view, AgentIndex agent, const Limits& limits) {
+const Mdd* WdgHeuristic::optimal_paths(NodeView& view, AgentIndex agent, const Limits& limits) {
   const Time cost = view.cost_of(agent);
   return memory_.paths(situation_[agent], agent, view.order(agent), view.constraints(agent), cost,
                        limits);
 }
 
 // Looks into every group that conflicts among itself though no pair of it has to cost more.
-Dependencies::Outcome Dependencies::solve_groups(NodeView& view, Cost slack, const Limits& limits) {
+WdgHeuristic::Outcome WdgHeuristic::solve_groups(NodeView& view, Cost slack, const Limits& limits) {
   for (const auto& group : groups_in_conflict(view)) {
     if (group.size() < 3 || std::ssize(group) > tuning_.group_agents) continue;
     const auto situations = key(group);
@@ -193,7 +194,7 @@ Dependencies::Outcome Dependencies::solve_groups(NodeView& view, Cost slack, con
 }
 
 // The components of the graph of such conflicts, each in ascending order.
-std::vector<std::vector<AgentIndex>> Dependencies::groups_in_conflict(const NodeView& view) const {
+std::vector<std::vector<AgentIndex>> WdgHeuristic::groups_in_conflict(const NodeView& view) const {
   std::vector<AgentIndex> leader(static_cast<std::size_t>(agents_));
   std::iota(leader.begin(), leader.end(), 0);
   for (const Conflict& c : view.conflicts()) {
@@ -214,14 +215,14 @@ std::vector<std::vector<AgentIndex>> Dependencies::groups_in_conflict(const Node
   return groups;
 }
 
-std::vector<SubproblemTable::Id> Dependencies::key(std::span<const AgentIndex> group) const {
+std::vector<SubproblemTable::Id> WdgHeuristic::key(std::span<const AgentIndex> group) const {
   std::vector<SubproblemTable::Id> ids;
   for (AgentIndex agent : group) ids.push_back(situation_[agent]);
   return ids;
 }
 
 // False: a limit struck.
-bool Dependencies::solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
+bool WdgHeuristic::solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
                          std::int64_t most_expansions, const Limits& limits, Known& known) {
   if (!solve_by_splits(view.node(), group, slack, most_expansions, limits, known)) return false;
   if (known.exact || known.excess > slack || !techniques_.has(Technique::kJointGroups)) return true;
@@ -232,7 +233,7 @@ bool Dependencies::solve(const NodeView& view, std::span<const AgentIndex> group
   return true;
 }
 
-bool Dependencies::solve_by_splits(const NodePtr& node, std::span<const AgentIndex> group,
+bool WdgHeuristic::solve_by_splits(const NodePtr& node, std::span<const AgentIndex> group,
                                    Cost slack, std::int64_t most_expansions, const Limits& limits,
                                    Known& known) {
   const Cost base = node->cost();
@@ -273,7 +274,7 @@ bool Dependencies::solve_by_splits(const NodePtr& node, std::span<const AgentInd
 }
 
 // The costs are those of the group beyond what it costs at the beginning, until they are written.
-void Dependencies::write_down_splits(const Open& from, Cost base, Cost closed) {
+void WdgHeuristic::write_down_splits(const Open& from, Cost base, Cost closed) {
   const Split& split = pair_brancher_.branching()->split;
   ProofSplit written{proof_key(*from.node), split, {closed, closed}};
   for (const NodePtr& child : children_)
@@ -281,7 +282,7 @@ void Dependencies::write_down_splits(const Open& from, Cost base, Cost closed) {
   written_.push_back(written);
 }
 
-void Dependencies::write_down_lemma(const NodeView& view, std::span<const AgentIndex> group,
+void WdgHeuristic::write_down_lemma(const NodeView& view, std::span<const AgentIndex> group,
                                     Cost excess, ProofKey root,
                                     std::span<const ProofSplit> splits) {
   const ProofLemma lemma = lemma_at(view, group, excess);
@@ -291,7 +292,7 @@ void Dependencies::write_down_lemma(const NodeView& view, std::span<const AgentI
   proof_->lemma(lemma, root, of_group);
 }
 
-void Dependencies::write_down_bound(const NodeView& view, std::span<const GroupExcess> statements,
+void WdgHeuristic::write_down_bound(const NodeView& view, std::span<const GroupExcess> statements,
                                     Cost bound) {
   std::vector<ProofExcess> excesses;
   for (const GroupExcess& s : statements)
@@ -299,7 +300,7 @@ void Dependencies::write_down_bound(const NodeView& view, std::span<const GroupE
   proof_->bound(proof_key(*view.node()), view.node()->cost(), bound, excesses);
 }
 
-void Dependencies::leave() {
+void WdgHeuristic::leave() {
   open_.clear();
   children_.clear();
   pair_view_.leave();
@@ -307,7 +308,7 @@ void Dependencies::leave() {
 
 // Every pair and group that is known to cost more in its present situations, once, in one order
 // whatever the order in which it became known.
-void Dependencies::collect(std::vector<GroupExcess>& statements) {
+void WdgHeuristic::collect(std::vector<GroupExcess>& statements) {
   for (AgentIndex a = 0; a < agents_; ++a) {
     partners_.clear();
     memory_.partners(situation_[a], partners_);
@@ -326,13 +327,13 @@ void Dependencies::collect(std::vector<GroupExcess>& statements) {
   statements.erase(std::unique(statements.begin(), statements.end(), repeats), statements.end());
 }
 
-ProofKey Dependencies::why(NodeView& view, const Split& split) {
+ProofKey WdgHeuristic::why(NodeView& view, const Split& split) {
   look_at(view);
   const auto [a, b] = std::minmax(split[0].agent, split[1].agent);
   return lemma_at(view, std::array{a, b}, known(a, b).excess).key();
 }
 
-void Dependencies::splits(NodeView& view, std::vector<Split>& splits) {
+void WdgHeuristic::splits(NodeView& view, std::vector<Split>& splits) {
   look_at(view);
   const auto finishes_when_it_comes = [&](AgentIndex i) {
     const Agent& agent = instance_.agent(i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "search/dependencies.h"
+#include "search/wdg_heuristic.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace dependencies_test {
 
 using testing::AgentSpec;
 using testing::NodeAtHand;
-using Outcome = Dependencies::Outcome;
+using Outcome = WdgHeuristic::Outcome;
 
 struct Bounded : NodeAtHand {
   using NodeAtHand::NodeAtHand;
@@ -29,14 +29,14 @@ struct Bounded : NodeAtHand {
     return found;
   }
 
-  Dependencies dependencies{problem, options, planner, memory};
+  WdgHeuristic dependencies{problem, options, planner, memory};
 };
 
 // One passes the door at time 2 at the earliest, the other then at time 5: three steps late.
 const std::vector<std::string> kDoor{"..@..", ".....", "..@.."};
 const std::vector<AgentSpec> kHeadOn{{{0, 1}, Position{4, 1}}, {{4, 1}, Position{0, 1}}};
 
-TEST(Dependencies, KnowWhatAPairCostsMore) {
+TEST(WdgHeuristic, KnowWhatAPairCostsMore) {
   Bounded s(kDoor, kHeadOn);
   EXPECT_EQ(s.excess(), 3);
   const std::int64_t work = s.dependencies.expansions();
@@ -45,7 +45,7 @@ TEST(Dependencies, KnowWhatAPairCostsMore) {
   EXPECT_EQ(s.dependencies.expansions(), work);
 }
 
-TEST(Dependencies, InHasteSayOnlyWhatIsKnown) {
+TEST(WdgHeuristic, InHasteSayOnlyWhatIsKnown) {
   Bounded s(kDoor, kHeadOn);
   EXPECT_EQ(s.excess(kInfiniteCost, BoundingEffort::kCachedOnly), 0);
   EXPECT_EQ(s.dependencies.expansions(), 0);
@@ -53,7 +53,7 @@ TEST(Dependencies, InHasteSayOnlyWhatIsKnown) {
   EXPECT_EQ(s.excess(kInfiniteCost, BoundingEffort::kCachedOnly), 3);
 }
 
-TEST(Dependencies, SayNothingOfAgentsThatGoRoundEachOther) {
+TEST(WdgHeuristic, SayNothingOfAgentsThatGoRoundEachOther) {
   Bounded s({"...", "...", "..."}, {{{0, 0}, Position{2, 2}}, {{0, 2}, Position{2, 0}}});
   s.take({{{0, 0}, {1, 0}, {1, 1}, {2, 1}, {2, 2}}, {{0, 2}, {0, 1}, {1, 1}, {1, 0}, {2, 0}}});
   ASSERT_FALSE(s.view.conflict_free());
@@ -61,7 +61,7 @@ TEST(Dependencies, SayNothingOfAgentsThatGoRoundEachOther) {
   EXPECT_TRUE(s.splits().empty());
 }
 
-TEST(Dependencies, GiveTheCutoffWhereNothingIsCheaper) {
+TEST(WdgHeuristic, GiveTheCutoffWhereNothingIsCheaper) {
   for (const Cost above : {1, 2, 3}) {
     Bounded s(kDoor, kHeadOn);
     EXPECT_EQ(s.excess(s.root->cost() + above), above);
@@ -69,7 +69,7 @@ TEST(Dependencies, GiveTheCutoffWhereNothingIsCheaper) {
 }
 
 // What was closed for want of slack says no more than that, whatever is asked afterwards.
-TEST(Dependencies, ClaimNoMoreThanTheSlackHasShown) {
+TEST(WdgHeuristic, ClaimNoMoreThanTheSlackHasShown) {
   for (const Cost above : {1, 2, 3}) {
     Bounded s(kDoor, kHeadOn);
     s.excess(s.root->cost() + above);
@@ -77,7 +77,7 @@ TEST(Dependencies, ClaimNoMoreThanTheSlackHasShown) {
   }
 }
 
-TEST(Dependencies, AddUpPairsThatShareNobody) {
+TEST(WdgHeuristic, AddUpPairsThatShareNobody) {
   const std::vector<std::string> twice{"..@..", ".....", "..@..", "@@@@@",
                                        "..@..", ".....", "..@.."};
   Bounded apart(twice,
@@ -85,7 +85,7 @@ TEST(Dependencies, AddUpPairsThatShareNobody) {
   EXPECT_EQ(apart.excess(), 6);
 }
 
-TEST(Dependencies, SplitOnTheCostsOfAPairThatCannotKeepThem) {
+TEST(WdgHeuristic, SplitOnTheCostsOfAPairThatCannotKeepThem) {
   Bounded s(kDoor, kHeadOn);
   EXPECT_TRUE(s.splits().empty());  // before anything is known of them
   s.excess();
@@ -101,14 +101,14 @@ TEST(Dependencies, SplitOnTheCostsOfAPairThatCannotKeepThem) {
 }
 
 // An agent that may rest on any of its tasks does not only come to rest later.
-TEST(Dependencies, SplitNoCostsOfAgentsWithoutADestination) {
+TEST(WdgHeuristic, SplitNoCostsOfAgentsWithoutADestination) {
   Bounded s(kDoor, {{{0, 1}, std::nullopt, {{4, 1}}}, {{4, 1}, std::nullopt, {{0, 1}}}});
   EXPECT_GT(s.excess(), 0);
   EXPECT_TRUE(s.splits().empty());
 }
 
 // Any two of them can keep their costs, all three cannot: two steps more, as trying all ways says.
-TEST(Dependencies, KnowThatAGroupCostsMoreThoughNoPairDoes) {
+TEST(WdgHeuristic, KnowThatAGroupCostsMoreThoughNoPairDoes) {
   const std::vector<std::string> rows{"....", "....", "...."};
   const std::vector<AgentSpec> three{
       {{2, 2}, Position{1, 1}}, {{3, 0}, Position{1, 2}}, {{2, 0}, Position{2, 2}}};
@@ -119,7 +119,7 @@ TEST(Dependencies, KnowThatAGroupCostsMoreThoughNoPairDoes) {
 }
 
 // Where a search by splits ends after its first node, joint search goes on.
-TEST(Dependencies, AreSettledByJointSearchWhereSplitsDoNotEnd) {
+TEST(WdgHeuristic, AreSettledByJointSearchWhereSplitsDoNotEnd) {
   SearchOptions options{Techniques::usual().without({Technique::kTraversal, Technique::kTarget}), 0,
                         true};
   options.tuning.pair_expansions = 1;
@@ -134,7 +134,7 @@ TEST(Dependencies, AreSettledByJointSearchWhereSplitsDoNotEnd) {
   EXPECT_EQ(below.excess(below.root->cost() + 2), 2);
 }
 
-TEST(Dependencies, StopAtALimit) {
+TEST(WdgHeuristic, StopAtALimit) {
   Bounded s(kDoor, kHeadOn);
   s.limits.set_deadline(testing::kPast);
   Cost bound = -1;
@@ -143,7 +143,7 @@ TEST(Dependencies, StopAtALimit) {
             Outcome::kStopped);
 }
 
-TEST(Dependencies, HelpUntilNothingIsLeft) {
+TEST(WdgHeuristic, HelpUntilNothingIsLeft) {
   Bounded s(kDoor, kHeadOn);
   EXPECT_TRUE(s.dependencies.help(s.root, s.view, kInfiniteCost, 0.5, s.limits));
   const std::int64_t work = s.dependencies.expansions();

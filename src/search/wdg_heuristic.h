@@ -25,10 +25,10 @@ enum class BoundingEffort : std::uint8_t {
 // The pairwise-dependency heuristic of CBS (WDG: Li et al., IJCAI 2019), with a memory that serves
 // all nodes; also for larger groups that conflict though no pair of them must cost more. The essay
 // is at the head of dependencies.cpp. Of one thread.
-class Dependencies {
+class WdgHeuristic {
  public:
   // All must outlive this.
-  Dependencies(const Problem& problem, const SearchOptions& options, PathPlanner& planner,
+  WdgHeuristic(const Problem& problem, const SearchOptions& options, PathPlanner& planner,
                Memory& memory);
 
   enum class Outcome : std::uint8_t {
@@ -78,7 +78,7 @@ class Dependencies {
 
   void look_at(NodeView& view);
   bool may_cost(AgentIndex agent, Time cost) const;
-  Outcome find_out(NodeView& view, Cost slack, const Limits& limits);
+  Outcome compute_weights(NodeView& view, Cost slack, const Limits& limits);
   Known known(AgentIndex a, AgentIndex b) const {
     return memory_.of_pair(situation_[a], situation_[b]);
   }
