@@ -41,7 +41,7 @@ SharedSearch::SharedSearch(const SolveOptions& options, const Limits& limits, Lo
       lagrangian_(options.tuning),
       shares_(std::make_unique<MemoryShares>(limits, options.node_memory)),
       most_known_(kMostKnown),
-      known_(std::make_shared<CommonMemory>()) {}
+      known_(std::make_shared<SharedCache>()) {}
 
 SharedSearch::~SharedSearch() = default;
 
@@ -116,12 +116,12 @@ void SharedSearch::keep_within_memory() {
   }
   most_known_ = std::min(kMostKnown, shares_->for_expanders());
   if (known <= most_known_) return;
-  auto next = std::make_shared<CommonMemory>(CommonMemory::Successor{});
+  auto next = std::make_shared<SharedCache>(SharedCache::Successor{});
   const std::lock_guard lock_known(knowing_);  // the old memory is freed after it
   known_.swap(next);
 }
 
-std::shared_ptr<CommonMemory> SharedSearch::memory() const {
+std::shared_ptr<SharedCache> SharedSearch::memory() const {
   const std::lock_guard lock(knowing_);
   return known_;
 }

@@ -16,7 +16,7 @@
 #include "engine/tree_source.h"
 #include "engine/turn_observer.h"
 #include "search/expander.h"
-#include "search/memory.h"
+#include "search/result_cache.h"
 
 namespace grove::detail {
 
@@ -61,7 +61,7 @@ class SharedSearch {
   // Gives up nodes, and what was found out, as memory demands.
   void keep_within_memory();
   // What was found out, for expanders to go on with.
-  std::shared_ptr<CommonMemory> memory() const;
+  std::shared_ptr<SharedCache> memory() const;
   // Is there room there for what others found out?
   bool has_room_for_facts() const;
 
@@ -97,7 +97,7 @@ class SharedSearch {
 
   std::atomic<std::size_t> most_known_;  // bytes of what was found out
   mutable std::mutex knowing_;
-  std::shared_ptr<CommonMemory> known_;  // under knowing_: GCC 11 has no std::atomic of these
+  std::shared_ptr<SharedCache> known_;  // under knowing_: GCC 11 has no std::atomic of these
 
   mutable std::mutex helping_;
   NodePtr unfinished_;  // under helping_

@@ -37,7 +37,7 @@ class Worker {
     Job job;
     NodePtr node;                                            // to expand or to help with
     BoundingEffort bounding_effort = BoundingEffort::kFull;  // with which to expand it
-    std::shared_ptr<CommonMemory> memory;                    // to do so with
+    std::shared_ptr<SharedCache> memory;                     // to do so with
     FoundOut found;
     Expansion expansion;
     std::optional<Plan> plan;

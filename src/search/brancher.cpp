@@ -46,7 +46,7 @@ std::uint64_t priority(const Conflict& conflict, std::uint64_t seed) {
 }  // namespace
 
 Brancher::Brancher(const Problem& problem, const SearchOptions& options, PathPlanner& planner,
-                   Memory& memory)
+                   WorkerCache& memory)
     : problem_(problem),
       options_(options),
       planner_(planner),

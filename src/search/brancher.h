@@ -12,10 +12,10 @@
 #include "model/limits.h"
 #include "planning/conflict_avoidance_table.h"
 #include "planning/fewest_conflicts.h"
-#include "search/memory.h"
 #include "search/node_view.h"
 #include "search/path_planner.h"
 #include "search/prices.h"
+#include "search/result_cache.h"
 #include "search/search_options.h"
 
 namespace grove::detail {
@@ -39,7 +39,7 @@ class Brancher {
 
   // All must outlive this; `planner` and `memory` may be shared with others of the same thread.
   Brancher(const Problem& problem, const SearchOptions& options, PathPlanner& planner,
-           Memory& memory);
+           WorkerCache& memory);
 
   // Makes the children of the node that `view` has entered, appended to `children`: every plan that
   // obeys the node's constraints and costs less than `cutoff` obeys those of one of them. At most
@@ -97,7 +97,7 @@ class Brancher {
   const Problem& problem_;
   const SearchOptions options_;
   PathPlanner& planner_;
-  Memory& memory_;
+  WorkerCache& memory_;
   Prices prices_;
   FewestConflicts fewest_conflicts_;
   ConflictAvoidanceTable others_;  // the paths in scope

@@ -44,7 +44,7 @@ struct Expander::Leaving {
 };
 
 Expander::Expander(const Problem& problem, AgentStopsCache& stops, const SearchOptions& options,
-                   std::shared_ptr<CommonMemory> memory, std::unique_ptr<AgentPlanner> planner)
+                   std::shared_ptr<SharedCache> memory, std::unique_ptr<AgentPlanner> planner)
     : problem_(problem),
       techniques_(options.techniques),
       proof_(options.proof),

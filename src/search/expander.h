@@ -11,10 +11,10 @@
 
 #include "model/limits.h"
 #include "search/brancher.h"
-#include "search/memory.h"
 #include "search/node.h"
 #include "search/node_view.h"
 #include "search/path_planner.h"
+#include "search/result_cache.h"
 #include "search/search_options.h"
 #include "search/wdg_heuristic.h"
 
@@ -68,7 +68,7 @@ class Expander {
   // `problem` and `stops` must outlive the expander; `stops` may be shared with others of the same
   // thread. `planner` plans agents whose order is open; null: Grove's own low level.
   Expander(const Problem& problem, AgentStopsCache& stops, const SearchOptions& options,
-           std::shared_ptr<CommonMemory> memory = std::make_shared<CommonMemory>(),
+           std::shared_ptr<SharedCache> memory = std::make_shared<SharedCache>(),
            std::unique_ptr<AgentPlanner> planner = nullptr);
 
   // Holds no node afterwards: how much memory nodes take would depend on who expanded which last.
@@ -93,8 +93,8 @@ class Expander {
   void publish() { memory()->learn(take_found()); }
   FoundOut take_found() { return memory_.take_found(); }
   // Goes on with another memory, perhaps an empty one.
-  void turn_to(std::shared_ptr<CommonMemory> memory) { memory_.turn_to(std::move(memory)); }
-  const std::shared_ptr<CommonMemory>& memory() const { return memory_.common(); }
+  void turn_to(std::shared_ptr<SharedCache> memory) { memory_.turn_to(std::move(memory)); }
+  const std::shared_ptr<SharedCache>& memory() const { return memory_.common(); }
   // What it keeps of agents from node to node; see NodeView::exchange.
   struct Kept {
     NodeView::Kept of_nodes;
@@ -117,7 +117,7 @@ class Expander {
   const Techniques techniques_;
   ProofLog* const proof_;
   PathPlanner planner_;
-  Memory memory_;
+  WorkerCache memory_;
   NodeView view_;
   Brancher brancher_;
   WdgHeuristic dependencies_;

@@ -33,7 +33,7 @@ std::size_t bytes_of_constraints(const Fact& fact) {
 // Collects facts whose agents are of trees that are known.
 class Facts {
  public:
-  Facts(const CommonMemory& memory, const TreesOfFacts& trees) : memory_(memory), trees_(trees) {}
+  Facts(const SharedCache& memory, const TreesOfFacts& trees) : memory_(memory), trees_(trees) {}
 
   void add(std::span<const SubproblemTable::Id> ids, SubproblemTable::Known cost,
            DependencyTable::Known excess) {
@@ -50,7 +50,7 @@ class Facts {
   std::vector<Fact> all() { return std::move(facts_); }
 
  private:
-  const CommonMemory& memory_;
+  const SharedCache& memory_;
   const TreesOfFacts& trees_;
   std::vector<Fact> facts_;
 };
@@ -89,8 +89,7 @@ const Tree* TreesOfFacts::numbered(std::uint32_t number) const {
   return found == by_number_.end() ? nullptr : found->second;
 }
 
-std::vector<Fact> facts_of(const News& news, const CommonMemory& memory,
-                           const TreesOfFacts& trees) {
+std::vector<Fact> facts_of(const News& news, const SharedCache& memory, const TreesOfFacts& trees) {
   Facts facts(memory, trees);
   for (const auto& [id, known] : news.costs) facts.add(std::array{id}, known, {});
   for (const auto& pair : news.pairs)
@@ -99,7 +98,7 @@ std::vector<Fact> facts_of(const News& news, const CommonMemory& memory,
   return facts.all();
 }
 
-void learn(Fact fact, const TreesOfFacts& trees, CommonMemory& memory) {
+void learn(Fact fact, const TreesOfFacts& trees, SharedCache& memory) {
   require_order(fact);
   std::vector<SubproblemTable::Id> ids;
   std::vector<AgentIndex> agents;

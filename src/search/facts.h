@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "search/dependency_table.h"
-#include "search/memory.h"
 #include "search/node.h"
 #include "search/packed_constraints.h"
+#include "search/result_cache.h"
 #include "search/subproblem_table.h"
 
 namespace grove::detail {
@@ -50,11 +50,11 @@ class TreesOfFacts {
 };
 
 // News of `memory`, as facts; but for what is of no tree in `trees`.
-std::vector<Fact> facts_of(const News& news, const CommonMemory& memory, const TreesOfFacts& trees);
+std::vector<Fact> facts_of(const News& news, const SharedCache& memory, const TreesOfFacts& trees);
 
 // Adds a fact to what `memory` knows, unless it is of a tree that is not known here. Throws
 // std::invalid_argument, and learns nothing, for what cannot be: no agent, one that is not there,
 // or agents in another order.
-void learn(Fact fact, const TreesOfFacts& trees, CommonMemory& memory);
+void learn(Fact fact, const TreesOfFacts& trees, SharedCache& memory);
 
 }  // namespace grove::detail

@@ -28,7 +28,7 @@ bool says_something(const Known& known) {
 // The situations of all agents at a node.
 class SituationsAt {
  public:
-  explicit SituationsAt(CommonMemory& memory) : memory_(memory) {}
+  explicit SituationsAt(SharedCache& memory) : memory_(memory) {}
 
   const std::vector<Id>& of(const Node& node) {
     node.constraints(constraints_);
@@ -42,7 +42,7 @@ class SituationsAt {
   }
 
  private:
-  CommonMemory& memory_;
+  SharedCache& memory_;
   std::vector<std::vector<Constraint>> constraints_;
   std::vector<Id> ids_;
 };
@@ -50,7 +50,7 @@ class SituationsAt {
 // Collects what is known at one node after the other, once.
 class Collector {
  public:
-  explicit Collector(CommonMemory& memory) : memory_(memory), situations_(memory) {}
+  explicit Collector(SharedCache& memory) : memory_(memory), situations_(memory) {}
 
   void look_at(const Node& node, std::int32_t place, std::vector<Finding>& findings) {
     const std::vector<Id>& ids = situations_.of(node);
@@ -73,7 +73,7 @@ class Collector {
   }
 
  private:
-  CommonMemory& memory_;
+  SharedCache& memory_;
   SituationsAt situations_;
   std::set<Id> seen_;
   std::vector<bool> is_new_;  // by AgentIndex: a situation that no earlier node had
@@ -94,7 +94,7 @@ void require_agents(const Finding& finding, std::size_t agents) {
 
 }  // namespace
 
-std::vector<Finding> findings_about(std::span<const NodePtr> nodes, CommonMemory& memory) {
+std::vector<Finding> findings_about(std::span<const NodePtr> nodes, SharedCache& memory) {
   std::vector<Finding> findings;
   if (memory.excesses.bytes() == 0) return findings;
   Collector collector(memory);
@@ -103,8 +103,7 @@ std::vector<Finding> findings_about(std::span<const NodePtr> nodes, CommonMemory
   return findings;
 }
 
-void learn(std::span<const Finding> findings, std::span<const NodePtr> nodes,
-           CommonMemory& memory) {
+void learn(std::span<const Finding> findings, std::span<const NodePtr> nodes, SharedCache& memory) {
   SituationsAt situations(memory);
   const Node* at = nullptr;  // whose situations these are:
   std::vector<Id> ids;

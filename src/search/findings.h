@@ -8,8 +8,8 @@
 
 #include "model/instance.h"
 #include "search/dependency_table.h"
-#include "search/memory.h"
 #include "search/node.h"
+#include "search/result_cache.h"
 
 namespace grove::detail {
 
@@ -24,11 +24,11 @@ struct Finding {
 // What `memory` knows of pairs and groups of agents at these nodes, each at one node where it
 // holds. O(agents squared) for the first node, and for another what is new there; not quite all of
 // it: what combines situations of several earlier nodes is left out.
-std::vector<Finding> findings_about(std::span<const NodePtr> nodes, CommonMemory& memory);
+std::vector<Finding> findings_about(std::span<const NodePtr> nodes, SharedCache& memory);
 
 // Adds what others found out about these nodes to what `memory` knows. Findings about a node that
 // is null are ignored. Throws std::invalid_argument, perhaps after some were added, for what cannot
 // be: a node or an agent that is not there, agents in another order.
-void learn(std::span<const Finding> findings, std::span<const NodePtr> nodes, CommonMemory& memory);
+void learn(std::span<const Finding> findings, std::span<const NodePtr> nodes, SharedCache& memory);
 
 }  // namespace grove::detail

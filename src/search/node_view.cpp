@@ -8,7 +8,7 @@
 
 namespace grove::detail {
 
-NodeView::NodeView(const Problem& problem, const SearchOptions& options, Memory& memory)
+NodeView::NodeView(const Problem& problem, const SearchOptions& options, WorkerCache& memory)
     : problem_(problem),
       audit_(options.audit),
       memory_(memory),

@@ -9,8 +9,8 @@
 
 #include "conflicts/conflict.h"
 #include "model/assert.h"
-#include "search/memory.h"
 #include "search/node.h"
+#include "search/result_cache.h"
 #include "search/search_options.h"
 
 namespace grove::detail {
@@ -36,7 +36,7 @@ class NodeView {
   };
 
   // All must outlive this; `memory` may be shared with others of the same thread.
-  NodeView(const Problem& problem, const SearchOptions& options, Memory& memory);
+  NodeView(const Problem& problem, const SearchOptions& options, WorkerCache& memory);
 
   // Turns to a node and to the agents in scope, which are in ascending order.
   void enter(const NodePtr& node, std::span<const AgentIndex> scope);
@@ -87,7 +87,7 @@ class NodeView {
 
   const Problem& problem_;
   const bool audit_;
-  Memory& memory_;
+  WorkerCache& memory_;
   ConflictFinder finder_;
 
   NodePtr node_;

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "model/limits.h"
-#include "search/memory.h"
 #include "search/node_view.h"
 #include "search/path_planner.h"
+#include "search/result_cache.h"
 
 namespace grove::detail {
 
@@ -23,7 +23,7 @@ class Prices {
   };
 
   // Both must outlive this. A split whose price takes more than `label_limit` is not considered.
-  Prices(PathPlanner& planner, Memory& memory, std::int64_t label_limit)
+  Prices(PathPlanner& planner, WorkerCache& memory, std::int64_t label_limit)
       : planner_(planner), memory_(memory), most_labels_(label_limit) {}
 
   // By how much the costs of the agents in scope rise, each alone, when `demand` is made; if by
@@ -42,7 +42,7 @@ class Prices {
 
  private:
   PathPlanner& planner_;
-  Memory& memory_;
+  WorkerCache& memory_;
   const std::int64_t most_labels_;
   std::vector<AgentIndex> disturbed_;
   Path path_;

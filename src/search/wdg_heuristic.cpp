@@ -55,7 +55,7 @@
 namespace grove::detail {
 
 WdgHeuristic::WdgHeuristic(const Problem& problem, const SearchOptions& options,
-                           PathPlanner& planner, Memory& memory)
+                           PathPlanner& planner, WorkerCache& memory)
     : instance_(problem.instance),
       planner_(planner),
       agents_(problem.instance.agent_count()),

@@ -11,8 +11,8 @@
 #include "search/brancher.h"
 #include "search/covering.h"
 #include "search/joint_groups.h"
-#include "search/memory.h"
 #include "search/proof_log.h"
+#include "search/result_cache.h"
 
 namespace grove::detail {
 
@@ -29,7 +29,7 @@ class WdgHeuristic {
  public:
   // All must outlive this.
   WdgHeuristic(const Problem& problem, const SearchOptions& options, PathPlanner& planner,
-               Memory& memory);
+               WorkerCache& memory);
 
   enum class Outcome : std::uint8_t {
     kDone,
@@ -106,7 +106,7 @@ class WdgHeuristic {
   const Techniques techniques_;
   const Tuning tuning_;
   ProofLog* const proof_;
-  Memory& memory_;
+  WorkerCache& memory_;
   NodeView pair_view_;  // of a pair or group
   Brancher pair_brancher_;
   JointMddSearch pair_dependency_;

@@ -124,7 +124,7 @@ TEST(Expander, BoundsAHardNodeInTurnsAsAtOneGo) {
 
   // Who once had to forget leaves nothing for later.
   Expander other(problem, stops, {Techniques::usual(), 0});
-  other.turn_to(std::make_shared<CommonMemory>(CommonMemory::Successor{}));
+  other.turn_to(std::make_shared<SharedCache>(SharedCache::Successor{}));
   const Expansion at_once = other.expand(root, kInfiniteCost, limits);
   ASSERT_FALSE(at_once.unfinished);
   ASSERT_EQ(in_turns.children.size(), at_once.children.size());
@@ -158,7 +158,7 @@ TEST(Expander, ServesTwoWorkersAsIfEachHadItsOwn) {
   SingleTree forest(problem, stops, pool, limits);
   const NodePtr root = forest.next_root();
   struct Worker {
-    std::shared_ptr<CommonMemory> memory = std::make_shared<CommonMemory>();
+    std::shared_ptr<SharedCache> memory = std::make_shared<SharedCache>();
     Expander::Kept kept;
   };
   // The expander and what is kept there of worker 0 or 1.

@@ -106,7 +106,7 @@ struct TwoTrees {
   std::vector<std::shared_ptr<const AgentOrder>> orders;
   std::array<Tree, 2> trees;
   TreesOfFacts known;
-  CommonMemory memory;
+  SharedCache memory;
 };
 
 // An order may be one of several trees; what is said must be about the very orders.

@@ -94,7 +94,7 @@ TEST(Findings, SayWhatTheMemoryKnowsAndNothingElse) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const Begun s(seed);
     const auto findings = findings_about(s.nodes, *s.expander.memory());
-    CommonMemory other;
+    SharedCache other;
     learn(findings, s.nodes, other);
     // Both number situations as they come up, so only what is said of the nodes can be compared.
     const auto again = findings_about(s.nodes, other);
@@ -105,7 +105,7 @@ TEST(Findings, SayWhatTheMemoryKnowsAndNothingElse) {
       EXPECT_EQ(again[i].known.excess, findings[i].known.excess);
       EXPECT_EQ(again[i].known.exact, findings[i].known.exact);
     }
-    CommonMemory empty;
+    SharedCache empty;
     EXPECT_TRUE(findings_about(s.nodes, empty).empty());
   }
 }
@@ -116,7 +116,7 @@ TEST(Findings, AboutANodeThatIsNotTakenOverAreIgnored) {
   const auto findings = findings_about(s.nodes, *s.expander.memory());
   ASSERT_FALSE(findings.empty());
   std::ranges::fill(nodes, NodePtr());
-  CommonMemory other;
+  SharedCache other;
   learn(findings, nodes, other);
   EXPECT_EQ(other.excesses.bytes(), 0);
 }
@@ -124,7 +124,7 @@ TEST(Findings, AboutANodeThatIsNotTakenOverAreIgnored) {
 TEST(Findings, RefusesWhatCannotBe) {
   const Begun s(1);
   const auto refuses = [&](const Finding& finding) {
-    CommonMemory memory;
+    SharedCache memory;
     EXPECT_THROW(learn(std::vector{finding}, s.nodes, memory), std::invalid_argument);
   };
   const auto place = static_cast<std::int32_t>(s.nodes.size());

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "search/memory.h"
 #include "search/node_view.h"
+#include "search/result_cache.h"
 #include "search/single_tree.h"
 #include "tests/support/instances.h"
 
@@ -28,7 +28,7 @@ struct NodeAtHand {
         forest(problem, stops, pool, limits),
         root(forest.next_root()),
         planner(problem, stops),
-        memory(planner, std::make_shared<CommonMemory>(), options.tuning.path_set_nodes),
+        memory(planner, std::make_shared<SharedCache>(), options.tuning.path_set_nodes),
         view(problem, options, memory),
         all(static_cast<std::size_t>(instance.agent_count())) {
     std::iota(all.begin(), all.end(), 0);
@@ -59,7 +59,7 @@ struct NodeAtHand {
   SingleTree forest;
   NodePtr root;
   PathPlanner planner;
-  Memory memory;
+  WorkerCache memory;
   NodeView view;
   std::vector<AgentIndex> all;
 };

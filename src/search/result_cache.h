@@ -44,11 +44,11 @@ struct News {
 
 // What all workers know. Thread-safe; nothing is ever taken back, so whoever wants it forgotten
 // starts another one.
-struct CommonMemory {
-  CommonMemory() = default;
+struct SharedCache {
+  SharedCache() = default;
   // Takes the place of one that was full.
   struct Successor {};
-  explicit CommonMemory(Successor /*successor*/) : follows_another(true) {}
+  explicit SharedCache(Successor /*successor*/) : follows_another(true) {}
 
   SubproblemTable situations;
   MddCache path_sets;
@@ -79,12 +79,13 @@ struct CommonMemory {
 // what others find out at the same time does not reach it before it asks, and a worker that is
 // given the same common memory does the same again, whatever the others do meanwhile. Of one
 // thread.
-class Memory {
+class WorkerCache {
  public:
   using Id = SubproblemTable::Id;
 
   // `planner` must outlive this. Sets of optimal paths have `most_set_nodes` or are not made.
-  Memory(PathPlanner& planner, std::shared_ptr<CommonMemory> common, std::int64_t most_set_nodes)
+  WorkerCache(PathPlanner& planner, std::shared_ptr<SharedCache> common,
+              std::int64_t most_set_nodes)
       : planner_(planner), common_(std::move(common)), most_set_nodes_(most_set_nodes) {}
 
   // Hands over what was found out since the last time; it is not known here any more until it is
@@ -92,8 +93,8 @@ class Memory {
   FoundOut take_found() { return std::exchange(found_, {}); }
   // Turns to this common memory. If it is another one, what was not handed over is forgotten, and
   // so are all numbers.
-  void turn_to(std::shared_ptr<CommonMemory> common);
-  const std::shared_ptr<CommonMemory>& common() const { return common_; }
+  void turn_to(std::shared_ptr<SharedCache> common);
+  const std::shared_ptr<SharedCache>& common() const { return common_; }
   // Changes with the common memory: numbers of situations are good as long as this is the same.
   std::int64_t numbering() const { return common_->number; }
 
@@ -131,7 +132,7 @@ class Memory {
 
  private:
   PathPlanner& planner_;
-  std::shared_ptr<CommonMemory> common_;
+  std::shared_ptr<SharedCache> common_;
   const std::int64_t most_set_nodes_;
   std::int64_t asked_ = 0;
   mutable std::int64_t groups_asked_ = 0;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "search/memory.h"
+#include "search/result_cache.h"
 
 #include <algorithm>
 #include <iterator>
 
 namespace grove::detail {
 
-std::int64_t CommonMemory::next_number() {
+std::int64_t SharedCache::next_number() {
   static std::atomic<std::int64_t> next{1};
   return next++;
 }
 
-void CommonMemory::learn(const FoundOut& found) {
+void SharedCache::learn(const FoundOut& found) {
   const bool keeps = keeps_news_;
   News news;
   for (const auto& [id, known] : found.costs)
@@ -28,25 +28,26 @@ void CommonMemory::learn(const FoundOut& found) {
   std::ranges::move(news.groups, std::back_inserter(news_.groups));
 }
 
-News CommonMemory::take_news() {
+News SharedCache::take_news() {
   keeps_news_ = true;
   const std::lock_guard lock(news_mutex_);
   return std::exchange(news_, {});
 }
 
-void Memory::turn_to(std::shared_ptr<CommonMemory> common) {
+void WorkerCache::turn_to(std::shared_ptr<SharedCache> common) {
   if (common == common_) return;
   found_ = {};
   common_ = std::move(common);
 }
 
-SubproblemTable::Known Memory::known(Id id) const {
+SubproblemTable::Known WorkerCache::known(Id id) const {
   const auto found = found_.costs.find(id);
   return found == found_.costs.end() ? common_->situations.known(id) : found->second;
 }
 
-const Mdd* Memory::paths(Id id, AgentIndex agent, const AgentOrder& order,
-                         std::span<const Constraint> constraints, Time cost, const Limits& limits) {
+const Mdd* WorkerCache::paths(Id id, AgentIndex agent, const AgentOrder& order,
+                              std::span<const Constraint> constraints, Time cost,
+                              const Limits& limits) {
   ++sets_asked_;
   const auto known = found_.sets.find(id);
   MddCache::Set set = known != found_.sets.end() ? known->second : common_->path_sets.find(id);
@@ -58,24 +59,24 @@ const Mdd* Memory::paths(Id id, AgentIndex agent, const AgentOrder& order,
   return (found_.sets[id] = std::move(set)).get();
 }
 
-DependencyTable::Known Memory::of_pair(Id first, Id second) const {
+DependencyTable::Known WorkerCache::of_pair(Id first, Id second) const {
   const auto same = [&](const FoundOut::Pair& p) { return p.first == first && p.second == second; };
   const auto found = std::ranges::find_if(found_.pairs, same);
   return found == found_.pairs.end() ? common_->excesses.of_pair(first, second) : found->known;
 }
 
-void Memory::learn_pair(Id first, Id second, AgentIndex agent, DependencyTable::Known known) {
+void WorkerCache::learn_pair(Id first, Id second, AgentIndex agent, DependencyTable::Known known) {
   found_.pairs.push_back({first, second, agent, known});
 }
 
-void Memory::partners(Id first, std::vector<DependencyTable::Partner>& partners) const {
+void WorkerCache::partners(Id first, std::vector<DependencyTable::Partner>& partners) const {
   common_->excesses.partners(first, partners);
   for (const FoundOut::Pair& p : found_.pairs)
     if (p.first == first && p.known.excess > 0)
       partners.push_back({p.agent, p.second, p.known.excess});
 }
 
-DependencyTable::Known Memory::of_group(const std::vector<Id>& situations) const {
+DependencyTable::Known WorkerCache::of_group(const std::vector<Id>& situations) const {
   ++groups_asked_;
   DependencyTable::Known known = common_->excesses.of_group(situations);
   for (const DependencyTable::Group& group : found_.groups)
@@ -83,8 +84,8 @@ DependencyTable::Known Memory::of_group(const std::vector<Id>& situations) const
   return known;
 }
 
-void Memory::learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
-                         DependencyTable::Known known) {
+void WorkerCache::learn_group(const std::vector<AgentIndex>& agents,
+                              const std::vector<Id>& situations, DependencyTable::Known known) {
   found_.groups.push_back({agents, situations, known});
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "search/memory.h"
+#include "search/result_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -178,11 +178,11 @@ struct TwoWorkers : testing::NodeAtHand {
       : NodeAtHand({"..."}, {{{0, 0}, Position{2, 0}}}),
         other(planner, memory.common(), options.tuning.path_set_nodes) {}
 
-  Memory other;
+  WorkerCache other;
 };
 
 // What one finds out it knows at once, the others when it is handed over.
-TEST(Memory, IsTheWorkersOwnUntilItIsCommon) {
+TEST(WorkerCache, IsTheWorkersOwnUntilItIsCommon) {
   TwoWorkers s;
   const SubproblemTable::Id id = s.view.situation(0);
   std::vector<SubproblemTable::Id> trio;
@@ -208,7 +208,7 @@ TEST(Memory, IsTheWorkersOwnUntilItIsCommon) {
   const FoundOut found = s.memory.take_found();
   EXPECT_EQ(s.memory.known(id).at_least, 0);
   s.memory.common()->learn(found);
-  for (const Memory* memory : {&s.memory, &s.other}) {
+  for (const WorkerCache* memory : {&s.memory, &s.other}) {
     EXPECT_EQ(memory->known(id).at_least, 7);
     EXPECT_EQ(memory->of_pair(1, 2).excess, 3);
     EXPECT_EQ(memory->of_group(trio).excess, 5);
@@ -218,21 +218,21 @@ TEST(Memory, IsTheWorkersOwnUntilItIsCommon) {
   }
 }
 
-TEST(Memory, ForgetsWhatWasNotHandedOverWhenItTurnsToAnother) {
+TEST(WorkerCache, ForgetsWhatWasNotHandedOverWhenItTurnsToAnother) {
   TwoWorkers s;
   s.memory.learn_pair(1, 2, 1, {3, true, 1});
   s.memory.turn_to(s.memory.common());  // the same: nothing happens
   EXPECT_EQ(s.memory.of_pair(1, 2).excess, 3);
-  s.memory.turn_to(std::make_shared<CommonMemory>(CommonMemory::Successor()));
+  s.memory.turn_to(std::make_shared<SharedCache>(SharedCache::Successor()));
   EXPECT_EQ(s.memory.of_pair(1, 2).excess, 0);
   EXPECT_TRUE(s.memory.take_found().pairs.empty());
   EXPECT_TRUE(s.memory.common()->follows_another);
 }
 
-TEST(Memory, MakesASetOfPathsOnce) {
+TEST(WorkerCache, MakesASetOfPathsOnce) {
   TwoWorkers s;
   const SubproblemTable::Id id = s.view.situation(0);
-  const auto ask = [&](Memory& memory) {
+  const auto ask = [&](WorkerCache& memory) {
     return memory.paths(id, 0, s.view.order(0), s.view.constraints(0), 2, s.limits);
   };
   const Mdd* paths = ask(s.memory);
