@@ -38,7 +38,7 @@ class Worker {
     NodePtr node;                                            // to expand or to help with
     BoundingEffort bounding_effort = BoundingEffort::kFull;  // with which to expand it
     std::shared_ptr<SharedCache> memory;                     // to do so with
-    FoundOut found;
+    CacheDelta found;
     Expansion expansion;
     std::optional<Plan> plan;
     Cost proven = 0;  // by the search over joint states; see Ledger::prove

@@ -91,7 +91,7 @@ class Expander {
   // What was found out is known to this expander only, until it is published, or handed over for
   // others to add to the memory.
   void publish() { memory()->learn(take_found()); }
-  FoundOut take_found() { return memory_.take_found(); }
+  CacheDelta take_found() { return memory_.take_found(); }
   // Goes on with another memory, perhaps an empty one.
   void turn_to(std::shared_ptr<SharedCache> memory) { memory_.turn_to(std::move(memory)); }
   const std::shared_ptr<SharedCache>& memory() const { return memory_.common(); }

@@ -11,7 +11,7 @@ std::int64_t SharedCache::next_number() {
   return next++;
 }
 
-void SharedCache::learn(const FoundOut& found) {
+void SharedCache::learn(const CacheDelta& found) {
   const bool keeps = keeps_news_;
   News news;
   for (const auto& [id, known] : found.costs)
@@ -60,7 +60,9 @@ const Mdd* WorkerCache::paths(Id id, AgentIndex agent, const AgentOrder& order,
 }
 
 DependencyTable::Known WorkerCache::of_pair(Id first, Id second) const {
-  const auto same = [&](const FoundOut::Pair& p) { return p.first == first && p.second == second; };
+  const auto same = [&](const CacheDelta::Pair& p) {
+    return p.first == first && p.second == second;
+  };
   const auto found = std::ranges::find_if(found_.pairs, same);
   return found == found_.pairs.end() ? common_->excesses.of_pair(first, second) : found->known;
 }
@@ -71,7 +73,7 @@ void WorkerCache::learn_pair(Id first, Id second, AgentIndex agent, DependencyTa
 
 void WorkerCache::partners(Id first, std::vector<DependencyTable::Partner>& partners) const {
   common_->excesses.partners(first, partners);
-  for (const FoundOut::Pair& p : found_.pairs)
+  for (const CacheDelta::Pair& p : found_.pairs)
     if (p.first == first && p.known.excess > 0)
       partners.push_back({p.agent, p.second, p.known.excess});
 }

@@ -20,7 +20,7 @@ namespace grove::detail {
 
 // What one worker found out, until it is common. Values; the numbers are those of one common
 // memory.
-struct FoundOut {
+struct CacheDelta {
   using Id = SubproblemTable::Id;
   struct Pair {
     Id first;
@@ -35,10 +35,10 @@ struct FoundOut {
   std::vector<DependencyTable::Group> groups;
 };
 
-// What workers found out lately that nobody here knew before; see FoundOut. Values.
+// What workers found out lately that nobody here knew before; see CacheDelta. Values.
 struct News {
   std::vector<std::pair<SubproblemTable::Id, SubproblemTable::Known>> costs;
-  std::vector<FoundOut::Pair> pairs;
+  std::vector<CacheDelta::Pair> pairs;
   std::vector<DependencyTable::Group> groups;
 };
 
@@ -59,7 +59,7 @@ struct SharedCache {
   const std::int64_t number = next_number();
 
   // Adds this. Workers may do so at the same time: it does not matter who is first.
-  void learn(const FoundOut& found);
+  void learn(const CacheDelta& found);
   // What was news of that, from the first call on, since the last call.
   News take_news();
 
@@ -90,7 +90,7 @@ class WorkerCache {
 
   // Hands over what was found out since the last time; it is not known here any more until it is
   // common.
-  FoundOut take_found() { return std::exchange(found_, {}); }
+  CacheDelta take_found() { return std::exchange(found_, {}); }
   // Turns to this common memory. If it is another one, what was not handed over is forgotten, and
   // so are all numbers.
   void turn_to(std::shared_ptr<SharedCache> common);
@@ -138,7 +138,7 @@ class WorkerCache {
   mutable std::int64_t groups_asked_ = 0;
   std::int64_t sets_asked_ = 0;
   std::int64_t sets_known_ = 0;
-  FoundOut found_;
+  CacheDelta found_;
 };
 
 }  // namespace grove::detail

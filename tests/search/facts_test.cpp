@@ -114,7 +114,7 @@ TEST(Facts, AreAboutTheOrdersThatTheyWereFoundFor) {
   const std::vector<Constraint> demands{{3, kNoCell, 1, 2}};
   TwoTrees here;
   here.memory.take_news();
-  FoundOut found;
+  CacheDelta found;
   found.pairs.push_back({here.memory.situations.id(0, *here.orders[0], {}),
                          here.memory.situations.id(1, *here.orders[2], demands),
                          1,

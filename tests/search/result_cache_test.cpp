@@ -205,7 +205,7 @@ TEST(WorkerCache, IsTheWorkersOwnUntilItIsCommon) {
   EXPECT_TRUE(groups_at(s.other, trio).empty());
   EXPECT_TRUE(partners_of(s.other, 1).empty());
 
-  const FoundOut found = s.memory.take_found();
+  const CacheDelta found = s.memory.take_found();
   EXPECT_EQ(s.memory.known(id).at_least, 0);
   s.memory.common()->learn(found);
   for (const WorkerCache* memory : {&s.memory, &s.other}) {
