@@ -33,7 +33,7 @@ void weigh(Worker::Turn& turn, Expander& by, const What& what) {
   turn.work = by.work() - work;
   turn.counts = by.counts();
   turn.counts -= counts;
-  turn.found = by.take_found();
+  turn.found = by.take_delta();
 }
 
 }  // namespace

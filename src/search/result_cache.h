@@ -90,7 +90,7 @@ class WorkerCache {
 
   // Hands over what was found out since the last time; it is not known here any more until it is
   // common.
-  CacheDelta take_found() { return std::exchange(found_, {}); }
+  CacheDelta take_delta() { return std::exchange(found_, {}); }
   // Turns to this common memory. If it is another one, what was not handed over is forgotten, and
   // so are all numbers.
   void turn_to(std::shared_ptr<SharedCache> common);

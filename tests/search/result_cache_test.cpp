@@ -205,7 +205,7 @@ TEST(WorkerCache, IsTheWorkersOwnUntilItIsCommon) {
   EXPECT_TRUE(groups_at(s.other, trio).empty());
   EXPECT_TRUE(partners_of(s.other, 1).empty());
 
-  const CacheDelta found = s.memory.take_found();
+  const CacheDelta found = s.memory.take_delta();
   EXPECT_EQ(s.memory.known(id).at_least, 0);
   s.memory.common()->learn(found);
   for (const WorkerCache* memory : {&s.memory, &s.other}) {
@@ -225,7 +225,7 @@ TEST(WorkerCache, ForgetsWhatWasNotHandedOverWhenItTurnsToAnother) {
   EXPECT_EQ(s.memory.of_pair(1, 2).excess, 3);
   s.memory.turn_to(std::make_shared<SharedCache>(SharedCache::Successor()));
   EXPECT_EQ(s.memory.of_pair(1, 2).excess, 0);
-  EXPECT_TRUE(s.memory.take_found().pairs.empty());
+  EXPECT_TRUE(s.memory.take_delta().pairs.empty());
   EXPECT_TRUE(s.memory.common()->follows_another);
 }
 
@@ -240,7 +240,7 @@ TEST(WorkerCache, MakesASetOfPathsOnce) {
   EXPECT_FALSE(paths->empty());
   EXPECT_EQ(ask(s.memory), paths);
   const std::int64_t nodes = s.planner.optimal_nodes();
-  s.memory.common()->learn(s.memory.take_found());
+  s.memory.common()->learn(s.memory.take_delta());
   EXPECT_EQ(ask(s.other), s.memory.common()->path_sets.find(id).get());
   EXPECT_EQ(s.planner.optimal_nodes(), nodes);
 }
