@@ -273,7 +273,7 @@ void Rank::speak_of_prices() {
 void Rank::speak_of_facts(double now) {
   if (!knowledge_.is_on()) return;
   const auto memory = search_.memory();
-  for (const Fact& fact : facts_of(memory->take_news(), *memory, trees_of_facts_))
+  for (const Fact& fact : facts_of(memory->take_new_entries(), *memory, trees_of_facts_))
     knowledge_.add(fact);
   for (auto& [rank, facts] : knowledge_.due(now)) {
     facts_sent_ += std::ssize(facts.facts);

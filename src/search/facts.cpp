@@ -89,7 +89,8 @@ const Tree* TreesOfFacts::numbered(std::uint32_t number) const {
   return found == by_number_.end() ? nullptr : found->second;
 }
 
-std::vector<Fact> facts_of(const News& news, const SharedCache& memory, const TreesOfFacts& trees) {
+std::vector<Fact> facts_of(const NewEntries& news, const SharedCache& memory,
+                           const TreesOfFacts& trees) {
   Facts facts(memory, trees);
   for (const auto& [id, known] : news.costs) facts.add(std::array{id}, known, {});
   for (const auto& pair : news.pairs)

@@ -50,7 +50,8 @@ class TreesOfFacts {
 };
 
 // News of `memory`, as facts; but for what is of no tree in `trees`.
-std::vector<Fact> facts_of(const News& news, const SharedCache& memory, const TreesOfFacts& trees);
+std::vector<Fact> facts_of(const NewEntries& news, const SharedCache& memory,
+                           const TreesOfFacts& trees);
 
 // Adds a fact to what `memory` knows, unless it is of a tree that is not known here. Throws
 // std::invalid_argument, and learns nothing, for what cannot be: no agent, one that is not there,

@@ -12,8 +12,8 @@ std::int64_t SharedCache::next_number() {
 }
 
 void SharedCache::learn(const CacheDelta& found) {
-  const bool keeps = keeps_news_;
-  News news;
+  const bool keeps = keeps_new_entries_;
+  NewEntries news;
   for (const auto& [id, known] : found.costs)
     if (situations.learn(id, known) && keeps) news.costs.emplace_back(id, known);
   for (const auto& [id, set] : found.sets) path_sets.add(id, set);
@@ -28,8 +28,8 @@ void SharedCache::learn(const CacheDelta& found) {
   std::ranges::move(news.groups, std::back_inserter(news_.groups));
 }
 
-News SharedCache::take_news() {
-  keeps_news_ = true;
+NewEntries SharedCache::take_new_entries() {
+  keeps_new_entries_ = true;
   const std::lock_guard lock(news_mutex_);
   return std::exchange(news_, {});
 }

@@ -36,7 +36,7 @@ struct CacheDelta {
 };
 
 // What workers found out lately that nobody here knew before; see CacheDelta. Values.
-struct News {
+struct NewEntries {
   std::vector<std::pair<SubproblemTable::Id, SubproblemTable::Known>> costs;
   std::vector<CacheDelta::Pair> pairs;
   std::vector<DependencyTable::Group> groups;
@@ -61,7 +61,7 @@ struct SharedCache {
   // Adds this. Workers may do so at the same time: it does not matter who is first.
   void learn(const CacheDelta& found);
   // What was news of that, from the first call on, since the last call.
-  News take_news();
+  NewEntries take_new_entries();
 
   // Forgets what there is too much of, and can be found again.
   void trim() { path_sets.trim(); }
@@ -70,9 +70,9 @@ struct SharedCache {
  private:
   static std::int64_t next_number();
 
-  std::atomic<bool> keeps_news_{false};
+  std::atomic<bool> keeps_new_entries_{false};
   std::mutex news_mutex_;
-  News news_;
+  NewEntries news_;
 };
 
 // What one worker knows: the common memory, and what it has found out that is not common yet. So

@@ -24,7 +24,7 @@ struct Process {
         forest(problem, stops, pool, limits),
         root(forest.next_root()),
         expander(problem, stops, {Techniques::usual(), 0}) {
-    expander.memory()->take_news();
+    expander.memory()->take_new_entries();
     trees.add(root->tree());
   }
 
@@ -44,7 +44,7 @@ struct Process {
     return all;
   }
   std::vector<Fact> facts() {
-    return facts_of(expander.memory()->take_news(), *expander.memory(), trees);
+    return facts_of(expander.memory()->take_new_entries(), *expander.memory(), trees);
   }
 
   Limits limits;
@@ -113,14 +113,14 @@ struct TwoTrees {
 TEST(Facts, AreAboutTheOrdersThatTheyWereFoundFor) {
   const std::vector<Constraint> demands{{3, kNoCell, 1, 2}};
   TwoTrees here;
-  here.memory.take_news();
+  here.memory.take_new_entries();
   CacheDelta found;
   found.pairs.push_back({here.memory.situations.id(0, *here.orders[0], {}),
                          here.memory.situations.id(1, *here.orders[2], demands),
                          1,
                          {5, true, 9}});
   here.memory.learn(found);
-  const auto facts = facts_of(here.memory.take_news(), here.memory, here.known);
+  const auto facts = facts_of(here.memory.take_new_entries(), here.memory, here.known);
   ASSERT_EQ(facts.size(), 1u);
 
   TwoTrees there;
