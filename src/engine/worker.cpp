@@ -164,7 +164,7 @@ void Worker::step_lagrangian(Turn& turn) {
 }
 
 void Worker::publish(Turn& turn) {
-  turn.memory->learn(std::exchange(turn.found, {}));
+  turn.memory->merge(std::exchange(turn.found, {}));
 }
 
 void Worker::commit(Turn& turn) {

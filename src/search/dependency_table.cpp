@@ -42,7 +42,7 @@ std::vector<Item>& DependencyTable::Lists<Item>::at(Id situation) {
 }
 
 template <class What>
-bool DependencyTable::learn(Id under, What what) {
+bool DependencyTable::merge(Id under, What what) {
   return parts_.with(parts_.part_of(under), [&](Part& part) {
     const std::size_t before = part.bytes();
     const bool is_news = what(part);
@@ -69,8 +69,8 @@ DependencyTable::Known DependencyTable::of_pair(Id first, Id second) const {
   });
 }
 
-bool DependencyTable::learn_pair(Id first, Id second, AgentIndex agent, Known known) {
-  return learn(first, [&](Part& part) {
+bool DependencyTable::merge_pair(Id first, Id second, AgentIndex agent, Known known) {
+  return merge(first, [&](Part& part) {
     HashIndex::Number at = part.find(first, second);
     const bool is_new = at == HashIndex::kNone;
     if (is_new) {
@@ -122,14 +122,14 @@ DependencyTable::Known DependencyTable::of_group(const std::vector<Id>& situatio
   });
 }
 
-bool DependencyTable::learn_group(const std::vector<AgentIndex>& agents,
+bool DependencyTable::merge_group(const std::vector<AgentIndex>& agents,
                                   const std::vector<Id>& situations, Known known) {
   GROVE_ASSERT(
       agents.size() > 2 && agents.size() == situations.size() && std::ranges::is_sorted(agents),
       "a group is its agents in ascending order, and their situations");
   const auto [rarest, next] = rarest_two(situations);
   const Id under = situations[rarest];
-  return learn(under, [&](Part& part) {
+  return merge(under, [&](Part& part) {
     const auto found = part.find_group(under, situations[next], situations);
     if (found < 0) {
       const auto number = static_cast<std::int32_t>(part.all_groups.size());

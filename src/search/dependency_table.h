@@ -61,12 +61,12 @@ class DependencyTable {
 
   Known of_pair(Id first, Id second) const;
   // The agent is the second one. True, here and below: it was news.
-  bool learn_pair(Id first, Id second, AgentIndex agent, Known known);
+  bool merge_pair(Id first, Id second, AgentIndex agent, Known known);
   // Of an agent in a situation, those of greater index that it costs more with. Appended.
   void partners(Id first, std::vector<Partner>& partners) const;
 
   Known of_group(const std::vector<Id>& situations) const;
-  bool learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
+  bool merge_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
                    Known known);
   // Calls use(group) once for each group that is at a node with the situations `now`, by
   // AgentIndex. `use` must not call this object, and copies what it keeps. Returns how many groups
@@ -138,7 +138,7 @@ class DependencyTable {
 
   // Calls what(part), which returns whether that was news, and keeps count of the bytes.
   template <class What>
-  bool learn(Id under, What what);
+  bool merge(Id under, What what);
 
   // The places of a group's rarest situation and of the next: those with the most constraints. (Not
   // those that came up last, which are not the rarest where others tell of them.) Of equal ones the

@@ -90,7 +90,7 @@ class Expander {
 
   // What was found out is known to this expander only, until it is published, or handed over for
   // others to add to the memory.
-  void publish() { memory()->learn(take_delta()); }
+  void publish() { memory()->merge(take_delta()); }
   CacheDelta take_delta() { return memory_.take_delta(); }
   // Goes on with another memory, perhaps an empty one.
   void turn_to(std::shared_ptr<SharedCache> memory) { memory_.turn_to(std::move(memory)); }

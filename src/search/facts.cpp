@@ -99,7 +99,7 @@ std::vector<Fact> facts_of(const NewEntries& news, const SharedCache& memory,
   return facts.all();
 }
 
-void learn(Fact fact, const TreesOfFacts& trees, SharedCache& memory) {
+void merge(Fact fact, const TreesOfFacts& trees, SharedCache& memory) {
   require_order(fact);
   std::vector<SubproblemTable::Id> ids;
   std::vector<AgentIndex> agents;
@@ -111,11 +111,11 @@ void learn(Fact fact, const TreesOfFacts& trees, SharedCache& memory) {
     agents.push_back(agent);
   }
   if (ids.size() == 1)
-    memory.situations.learn(ids[0], fact.cost);
+    memory.situations.merge(ids[0], fact.cost);
   else if (ids.size() == 2)
-    memory.excesses.learn_pair(ids[0], ids[1], agents[1], fact.excess);
+    memory.excesses.merge_pair(ids[0], ids[1], agents[1], fact.excess);
   else
-    memory.excesses.learn_group(agents, ids, fact.excess);
+    memory.excesses.merge_group(agents, ids, fact.excess);
 }
 
 }  // namespace grove::detail

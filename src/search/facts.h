@@ -56,6 +56,6 @@ std::vector<Fact> facts_of(const NewEntries& news, const SharedCache& memory,
 // Adds a fact to what `memory` knows, unless it is of a tree that is not known here. Throws
 // std::invalid_argument, and learns nothing, for what cannot be: no agent, one that is not there,
 // or agents in another order.
-void learn(Fact fact, const TreesOfFacts& trees, SharedCache& memory);
+void merge(Fact fact, const TreesOfFacts& trees, SharedCache& memory);
 
 }  // namespace grove::detail

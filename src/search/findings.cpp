@@ -103,7 +103,7 @@ std::vector<Finding> findings_about(std::span<const NodePtr> nodes, SharedCache&
   return findings;
 }
 
-void learn(std::span<const Finding> findings, std::span<const NodePtr> nodes, SharedCache& memory) {
+void merge(std::span<const Finding> findings, std::span<const NodePtr> nodes, SharedCache& memory) {
   SituationsAt situations(memory);
   const Node* at = nullptr;  // whose situations these are:
   std::vector<Id> ids;
@@ -118,9 +118,9 @@ void learn(std::span<const Finding> findings, std::span<const NodePtr> nodes, Sh
     key.clear();
     for (const AgentIndex agent : finding.agents) key.push_back(ids[agent]);
     if (key.size() > 2)
-      memory.excesses.learn_group(finding.agents, key, finding.known);
+      memory.excesses.merge_group(finding.agents, key, finding.known);
     else
-      memory.excesses.learn_pair(key[0], key[1], finding.agents[1], finding.known);
+      memory.excesses.merge_pair(key[0], key[1], finding.agents[1], finding.known);
   }
 }
 

@@ -29,6 +29,6 @@ std::vector<Finding> findings_about(std::span<const NodePtr> nodes, SharedCache&
 // Adds what others found out about these nodes to what `memory` knows. Findings about a node that
 // is null are ignored. Throws std::invalid_argument, perhaps after some were added, for what cannot
 // be: a node or an agent that is not there, agents in another order.
-void learn(std::span<const Finding> findings, std::span<const NodePtr> nodes, SharedCache& memory);
+void merge(std::span<const Finding> findings, std::span<const NodePtr> nodes, SharedCache& memory);
 
 }  // namespace grove::detail

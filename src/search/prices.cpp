@@ -49,7 +49,7 @@ Prices::Outcome Prices::cost(NodeView& view, AgentIndex agent, const Constraint&
         known.hard = true;
         break;
     }
-    memory_.learn(id, known);
+    memory_.merge(id, known);
     if (known.hard) return Outcome::kTooHard;
   }
   cost = known.at_least;

@@ -11,16 +11,16 @@ std::int64_t SharedCache::next_number() {
   return next++;
 }
 
-void SharedCache::learn(const CacheDelta& found) {
+void SharedCache::merge(const CacheDelta& found) {
   const bool keeps = keeps_new_entries_;
   NewEntries news;
   for (const auto& [id, known] : found.costs)
-    if (situations.learn(id, known) && keeps) news.costs.emplace_back(id, known);
+    if (situations.merge(id, known) && keeps) news.costs.emplace_back(id, known);
   for (const auto& [id, set] : found.sets) path_sets.add(id, set);
   for (const auto& p : found.pairs)
-    if (excesses.learn_pair(p.first, p.second, p.agent, p.known) && keeps) news.pairs.push_back(p);
+    if (excesses.merge_pair(p.first, p.second, p.agent, p.known) && keeps) news.pairs.push_back(p);
   for (const auto& g : found.groups)
-    if (excesses.learn_group(g.agents, g.situations, g.known) && keeps) news.groups.push_back(g);
+    if (excesses.merge_group(g.agents, g.situations, g.known) && keeps) news.groups.push_back(g);
   if (!keeps) return;
   const std::lock_guard lock(news_mutex_);
   std::ranges::move(news.costs, std::back_inserter(news_.costs));
@@ -67,7 +67,7 @@ DependencyTable::Known WorkerCache::of_pair(Id first, Id second) const {
   return found == found_.pairs.end() ? common_->excesses.of_pair(first, second) : found->known;
 }
 
-void WorkerCache::learn_pair(Id first, Id second, AgentIndex agent, DependencyTable::Known known) {
+void WorkerCache::merge_pair(Id first, Id second, AgentIndex agent, DependencyTable::Known known) {
   found_.pairs.push_back({first, second, agent, known});
 }
 
@@ -86,7 +86,7 @@ DependencyTable::Known WorkerCache::of_group(const std::vector<Id>& situations) 
   return known;
 }
 
-void WorkerCache::learn_group(const std::vector<AgentIndex>& agents,
+void WorkerCache::merge_group(const std::vector<AgentIndex>& agents,
                               const std::vector<Id>& situations, DependencyTable::Known known) {
   found_.groups.push_back({agents, situations, known});
 }

@@ -59,7 +59,7 @@ struct SharedCache {
   const std::int64_t number = next_number();
 
   // Adds this. Workers may do so at the same time: it does not matter who is first.
-  void learn(const CacheDelta& found);
+  void merge(const CacheDelta& found);
   // What was news of that, from the first call on, since the last call.
   NewEntries take_new_entries();
 
@@ -110,7 +110,7 @@ class WorkerCache {
   std::int64_t sets_asked() const { return sets_asked_; }
   std::int64_t sets_known() const { return sets_known_; }
   SubproblemTable::Known known(Id id) const;
-  void learn(Id id, SubproblemTable::Known known) { found_.costs[id] = known; }
+  void merge(Id id, SubproblemTable::Known known) { found_.costs[id] = known; }
 
   // As MddCache::find; valid until take_found().
   const Mdd* paths(Id id, AgentIndex agent, const AgentOrder& order,
@@ -118,10 +118,10 @@ class WorkerCache {
 
   // As those of Excesses. Partners and groups come in any order, perhaps more than once.
   DependencyTable::Known of_pair(Id first, Id second) const;
-  void learn_pair(Id first, Id second, AgentIndex agent, DependencyTable::Known known);
+  void merge_pair(Id first, Id second, AgentIndex agent, DependencyTable::Known known);
   void partners(Id first, std::vector<DependencyTable::Partner>& partners) const;
   DependencyTable::Known of_group(const std::vector<Id>& situations) const;
-  void learn_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
+  void merge_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
                    DependencyTable::Known known);
   template <class Use>
   void groups_at(const std::vector<Id>& now, Use use) const {

@@ -118,7 +118,7 @@ AgentSubproblem SubproblemTable::situation(Id id) const {
   });
 }
 
-bool SubproblemTable::learn(Id id, Known learnt) {
+bool SubproblemTable::merge(Id id, Known learnt) {
   return parts_.with(parts_.part_of(id), [&](Part& part) {
     Known& known = part.entries[place_of(id)].known;
     const Known before = known;

@@ -53,7 +53,7 @@ class SubproblemTable {
 
   Known known(Id id) const;
   // Adds what was found out; the stronger statement stays. True: it was news.
-  bool learn(Id id, Known known);
+  bool merge(Id id, Known known);
 
   // Memory held, in bytes (about).
   std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }

@@ -154,7 +154,7 @@ WdgHeuristic::Outcome WdgHeuristic::solve_conflicting(NodeView& view, Cost slack
     const bool solved =
         known.exact || solve(view, std::array{a, b}, slack, tuning_.pair_expansions, limits, known);
     if (!solved) return Outcome::kStopped;
-    memory_.learn_pair(situation_[a], situation_[b], b, known);
+    memory_.merge_pair(situation_[a], situation_[b], b, known);
   }
   return Outcome::kDone;
 }
@@ -188,7 +188,7 @@ WdgHeuristic::Outcome WdgHeuristic::solve_groups(NodeView& view, Cost slack, con
     if (work() >= give_up_at_) return Outcome::kUnfinished;
     if (!solve(view, group, slack, tuning_.group_expansions, limits, known))
       return Outcome::kStopped;
-    memory_.learn_group(group, situations, known);
+    memory_.merge_group(group, situations, known);
   }
   return Outcome::kDone;
 }

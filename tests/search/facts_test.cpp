@@ -68,7 +68,7 @@ TEST(Facts, ServeWhoeverIsToldAsIfItHadFoundThem) {
     const auto facts = finder.facts();
     told += std::ssize(facts);
     Process other(seed);
-    for (const Fact& fact : facts) learn(fact, other.trees, *other.expander.memory());
+    for (const Fact& fact : facts) merge(fact, other.trees, *other.expander.memory());
     EXPECT_TRUE(other.facts().empty()) << "what one is told is no news";
     EXPECT_EQ(other.expand(8), found) << "seed " << seed;
     of_finder += finder.expander.counts();
@@ -119,13 +119,13 @@ TEST(Facts, AreAboutTheOrdersThatTheyWereFoundFor) {
                          here.memory.situations.id(1, *here.orders[2], demands),
                          1,
                          {5, true, 9}});
-  here.memory.learn(found);
+  here.memory.merge(found);
   const auto facts = facts_of(here.memory.take_new_entries(), here.memory, here.known);
   ASSERT_EQ(facts.size(), 1u);
 
   TwoTrees there;
   there.memory.situations.id(1, *there.orders[1], {});  // numbers differ
-  learn(facts[0], there.known, there.memory);
+  merge(facts[0], there.known, there.memory);
   EXPECT_EQ(there.of_pair(0, 2, demands).excess, 5);
   EXPECT_TRUE(there.of_pair(0, 2, demands).exact);
   EXPECT_EQ(there.of_pair(0, 1, demands).excess, 0);
@@ -135,14 +135,14 @@ TEST(Facts, AreAboutTheOrdersThatTheyWereFoundFor) {
 TEST(Facts, OfTreesThatAreNotHereAreIgnored) {
   TwoTrees s;
   const Fact fact{{{4, 0, {}}, {5, 1, {}}}, {}, {5, true, 9}};
-  learn(fact, s.known, s.memory);
+  merge(fact, s.known, s.memory);
   EXPECT_EQ(s.memory.excesses.bytes(), 0);
 }
 
 TEST(Facts, RefuseWhatCannotBe) {
   TwoTrees s;
   const auto refuses = [&](const Fact& fact) {
-    EXPECT_THROW(learn(fact, s.known, s.memory), std::invalid_argument);
+    EXPECT_THROW(merge(fact, s.known, s.memory), std::invalid_argument);
     EXPECT_EQ(s.memory.excesses.bytes(), 0);
   };
   refuses({});

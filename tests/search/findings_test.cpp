@@ -77,7 +77,7 @@ TEST(Findings, WhoeverIsToldExpandsTheSameWithLessWork) {
     for (const NodePtr& node : s.nodes) {
       AgentStopsCache stops = s.stops;
       Expander of_told(s.problem, stops, {Techniques::usual(), 0});
-      learn(findings, s.nodes, *of_told.memory());
+      merge(findings, s.nodes, *of_told.memory());
       Expander ignorant(s.problem, stops, {Techniques::usual(), 0});
       const Outcome there = outcome(s.expand(of_told, node));
       EXPECT_EQ(there, outcome(s.expand(s.expander, node))) << "seed " << seed;
@@ -95,7 +95,7 @@ TEST(Findings, SayWhatTheMemoryKnowsAndNothingElse) {
     const Begun s(seed);
     const auto findings = findings_about(s.nodes, *s.expander.memory());
     SharedCache other;
-    learn(findings, s.nodes, other);
+    merge(findings, s.nodes, other);
     // Both number situations as they come up, so only what is said of the nodes can be compared.
     const auto again = findings_about(s.nodes, other);
     ASSERT_EQ(again.size(), findings.size());
@@ -117,7 +117,7 @@ TEST(Findings, AboutANodeThatIsNotTakenOverAreIgnored) {
   ASSERT_FALSE(findings.empty());
   std::ranges::fill(nodes, NodePtr());
   SharedCache other;
-  learn(findings, nodes, other);
+  merge(findings, nodes, other);
   EXPECT_EQ(other.excesses.bytes(), 0);
 }
 
@@ -125,7 +125,7 @@ TEST(Findings, RefusesWhatCannotBe) {
   const Begun s(1);
   const auto refuses = [&](const Finding& finding) {
     SharedCache memory;
-    EXPECT_THROW(learn(std::vector{finding}, s.nodes, memory), std::invalid_argument);
+    EXPECT_THROW(merge(std::vector{finding}, s.nodes, memory), std::invalid_argument);
   };
   const auto place = static_cast<std::int32_t>(s.nodes.size());
   refuses({place, {0, 1}, {1, false, 1}});

@@ -33,8 +33,8 @@ TEST(DependencyTable, KeepTheStrongerStatement) {
   const SubproblemTable situations;
   DependencyTable excesses(situations);
   EXPECT_TRUE(same(excesses.of_pair(3, 5), Known()));
-  excesses.learn_pair(3, 5, 1, {2, false, 16});
-  excesses.learn_pair(3, 5, 1, {1, true, 4});
+  excesses.merge_pair(3, 5, 1, {2, false, 16});
+  excesses.merge_pair(3, 5, 1, {1, true, 4});
   EXPECT_TRUE(same(excesses.of_pair(3, 5), {2, true, 16}));
   EXPECT_TRUE(same(excesses.of_pair(5, 3), Known()));
   EXPECT_TRUE(same(excesses.of_pair(3, 6), Known()));
@@ -43,11 +43,11 @@ TEST(DependencyTable, KeepTheStrongerStatement) {
 TEST(DependencyTable, ListPartnersThatCostMoreOnce) {
   const SubproblemTable situations;
   DependencyTable excesses(situations);
-  excesses.learn_pair(3, 5, 1, {0, true, 1});
+  excesses.merge_pair(3, 5, 1, {0, true, 1});
   EXPECT_TRUE(partners_of(excesses, 3).empty());
-  excesses.learn_pair(3, 6, 2, {1, false, 1});
-  excesses.learn_pair(3, 6, 2, {4, false, 1});
-  excesses.learn_pair(3, 6, 2, {2, false, 1});
+  excesses.merge_pair(3, 6, 2, {1, false, 1});
+  excesses.merge_pair(3, 6, 2, {4, false, 1});
+  excesses.merge_pair(3, 6, 2, {2, false, 1});
   const auto partners = partners_of(excesses, 3);
   ASSERT_EQ(partners.size(), 1u);
   EXPECT_EQ(partners[0].agent, 2);
@@ -76,14 +76,14 @@ class Groups : public ::testing::Test {
 TEST_F(Groups, AreKnownBySituations) {
   const std::vector<Id> some{id(0, 1), id(2, 0), id(4, 2)};
   const std::vector<Id> others{id(0, 1), id(2, 0), id(4, 3)};
-  EXPECT_TRUE(excesses_.learn_group({0, 2, 4}, some, {1, false, 8}));
+  EXPECT_TRUE(excesses_.merge_group({0, 2, 4}, some, {1, false, 8}));
   const std::size_t bytes = excesses_.bytes();
-  EXPECT_TRUE(excesses_.learn_group({0, 2, 4}, some, {3, false, 2}));
-  EXPECT_FALSE(excesses_.learn_group({0, 2, 4}, some, {2, false, 2}));
+  EXPECT_TRUE(excesses_.merge_group({0, 2, 4}, some, {3, false, 2}));
+  EXPECT_FALSE(excesses_.merge_group({0, 2, 4}, some, {2, false, 2}));
   EXPECT_EQ(excesses_.bytes(), bytes);
   EXPECT_TRUE(same(excesses_.of_group(some), {3, false, 8}));
   EXPECT_TRUE(same(excesses_.of_group(others), Known()));
-  excesses_.learn_group({0, 2, 4}, others, {1, true, 1});
+  excesses_.merge_group({0, 2, 4}, others, {1, true, 1});
   EXPECT_GT(excesses_.bytes(), bytes);
   EXPECT_TRUE(same(excesses_.of_group(some), {3, false, 8}));
   EXPECT_TRUE(same(excesses_.of_group(others), {1, true, 1}));
@@ -91,9 +91,9 @@ TEST_F(Groups, AreKnownBySituations) {
 
 TEST_F(Groups, AreFoundWhereAllAreInTheirSituationsOnce) {
   const Id constrained = id(2, 2);
-  excesses_.learn_group({0, 2, 3}, {id(0, 0), constrained, id(3, 1)}, {1, false, 8});
-  excesses_.learn_group({1, 2, 3}, {id(1, 0), constrained, id(3, 0)}, {2, false, 8});
-  excesses_.learn_group({0, 1, 2}, {id(0, 0), id(1, 0), id(2, 0)}, {3, false, 8});
+  excesses_.merge_group({0, 2, 3}, {id(0, 0), constrained, id(3, 1)}, {1, false, 8});
+  excesses_.merge_group({1, 2, 3}, {id(1, 0), constrained, id(3, 0)}, {2, false, 8});
+  excesses_.merge_group({0, 1, 2}, {id(0, 0), id(1, 0), id(2, 0)}, {3, false, 8});
   const auto now = [&](int of_1, int of_3) {
     return std::vector<Id>{id(0, 0), id(1, of_1), constrained, id(3, of_3)};
   };
@@ -118,8 +118,8 @@ TEST_F(Groups, ThatDifferInAnotherAgentOnlyAreKeptApart) {
       return ids;
     };
     DependencyTable excesses(situations_);
-    excesses.learn_group({0, 1, 2, 3, 4}, at(1), {1, false, 8});
-    excesses.learn_group({0, 1, 2, 3, 4}, at(2), {2, false, 8});
+    excesses.merge_group({0, 1, 2, 3, 4}, at(1), {1, false, 8});
+    excesses.merge_group({0, 1, 2, 3, 4}, at(2), {2, false, 8});
     for (int kind : {1, 2}) {
       EXPECT_EQ(excesses.of_group(at(kind)).excess, kind);
       const auto found = groups_at(excesses, at(kind));
@@ -135,7 +135,7 @@ TEST_F(Groups, ThatDifferInAnotherAgentOnlyAreKeptApart) {
 // whose rarest two are there.
 TEST_F(Groups, AreListedUnderTheRarest) {
   for (int kind = 0; kind < 50; ++kind)
-    excesses_.learn_group({0, 1, 2}, {id(0, 0), id(1, 1, kind), id(2, 2, kind)}, {kind, false, 1});
+    excesses_.merge_group({0, 1, 2}, {id(0, 0), id(1, 1, kind), id(2, 2, kind)}, {kind, false, 1});
   const auto looked_at = [&](const std::vector<Id>& now) {
     return excesses_.groups_at(now, [](const auto&) {});
   };
@@ -163,7 +163,7 @@ TEST_F(Groups, AreTheSameWhateverTheOrderInWhichTheyWereNumbered) {
         list.push_back({0, kNoCell, c, c});
       now[static_cast<std::size_t>(agent)] = situations.id(agent, order_, list);
     }
-    excesses.learn_group({0, 1, 2, 3}, now, {1, false, 1});
+    excesses.merge_group({0, 1, 2, 3}, now, {1, false, 1});
     for (std::size_t other = 0; other < 4; ++other) {
       std::vector<Id> differing = now;
       differing[other] = situations.id(static_cast<AgentIndex>(other), order_, elsewhere);
@@ -190,9 +190,9 @@ TEST(WorkerCache, IsTheWorkersOwnUntilItIsCommon) {
     trio.push_back(s.memory.id(agent, s.view.order(0), {}));
   std::vector<SubproblemTable::Id> elsewhere = trio;
   elsewhere[2] = s.memory.id(2, s.view.order(0), std::array{Constraint{1, kNoCell, 0, 0}});
-  s.memory.learn(id, {7, true});
-  s.memory.learn_pair(1, 2, 1, {3, true, 1});
-  s.memory.learn_group({0, 1, 2}, trio, {5, false, 1});
+  s.memory.merge(id, {7, true});
+  s.memory.merge_pair(1, 2, 1, {3, true, 1});
+  s.memory.merge_group({0, 1, 2}, trio, {5, false, 1});
   EXPECT_EQ(s.memory.known(id).at_least, 7);
   EXPECT_EQ(s.memory.of_pair(1, 2).excess, 3);
   EXPECT_EQ(s.memory.of_group(trio).excess, 5);
@@ -207,7 +207,7 @@ TEST(WorkerCache, IsTheWorkersOwnUntilItIsCommon) {
 
   const CacheDelta found = s.memory.take_delta();
   EXPECT_EQ(s.memory.known(id).at_least, 0);
-  s.memory.common()->learn(found);
+  s.memory.common()->merge(found);
   for (const WorkerCache* memory : {&s.memory, &s.other}) {
     EXPECT_EQ(memory->known(id).at_least, 7);
     EXPECT_EQ(memory->of_pair(1, 2).excess, 3);
@@ -220,7 +220,7 @@ TEST(WorkerCache, IsTheWorkersOwnUntilItIsCommon) {
 
 TEST(WorkerCache, ForgetsWhatWasNotHandedOverWhenItTurnsToAnother) {
   TwoWorkers s;
-  s.memory.learn_pair(1, 2, 1, {3, true, 1});
+  s.memory.merge_pair(1, 2, 1, {3, true, 1});
   s.memory.turn_to(s.memory.common());  // the same: nothing happens
   EXPECT_EQ(s.memory.of_pair(1, 2).excess, 3);
   s.memory.turn_to(std::make_shared<SharedCache>(SharedCache::Successor()));
@@ -240,7 +240,7 @@ TEST(WorkerCache, MakesASetOfPathsOnce) {
   EXPECT_FALSE(paths->empty());
   EXPECT_EQ(ask(s.memory), paths);
   const std::int64_t nodes = s.planner.optimal_nodes();
-  s.memory.common()->learn(s.memory.take_delta());
+  s.memory.common()->merge(s.memory.take_delta());
   EXPECT_EQ(ask(s.other), s.memory.common()->path_sets.find(id).get());
   EXPECT_EQ(s.planner.optimal_nodes(), nodes);
 }

@@ -40,7 +40,7 @@ TEST(SubproblemTable, AreTheSameIfAgentOrderAndConstraintsAre) {
       EXPECT_TRUE(std::ranges::none_of(keys, [&](const auto& k) { return k.second == key; }));
       EXPECT_EQ(situations.known(id), SubproblemTable::Known());
       keys.emplace(id, key);
-      situations.learn(id, {id, true});
+      situations.merge(id, {id, true});
     }
     EXPECT_EQ(keys.at(id), key);
     const AgentSubproblem situation = situations.situation(id);
@@ -58,11 +58,11 @@ TEST(SubproblemTable, KeepTheStrongerStatement) {
   SubproblemTable situations;
   const AgentOrder order;
   const SubproblemTable::Id id = situations.id(0, order, {});
-  situations.learn(id, {5, false});
-  situations.learn(id, {3, false});
+  situations.merge(id, {5, false});
+  situations.merge(id, {3, false});
   EXPECT_EQ(situations.known(id), (SubproblemTable::Known{5, false}));
-  situations.learn(id, {7, true});
-  situations.learn(id, {6, false});
+  situations.merge(id, {7, true});
+  situations.merge(id, {6, false});
   EXPECT_EQ(situations.known(id), (SubproblemTable::Known{7, true}));
 }
 
@@ -78,7 +78,7 @@ TEST(SubproblemTable, AreNumberedAlikeForAllThreads) {
       for (int round = 0; round < 2000; ++round) {
         const auto id = situations.id(static_cast<AgentIndex>(random() % 3), orders[0],
                                       random_constraints(random));
-        situations.learn(id, {id, true});
+        situations.merge(id, {id, true});
         ids[static_cast<std::size_t>(thread)].push_back(id);
       }
     });
