@@ -49,7 +49,7 @@
 // of the new era it is not known what it holds; a group is of the era of its last.
 //
 // *Facts.* What ranks find out about agents they tell each other (knowledge.h). That is never a
-// node, is true wherever it comes (search/facts.cpp), and nobody waits for it or answers.
+// node, is true wherever it comes (search/learned_bounds.cpp), and nobody waits for it or answers.
 //
 // *Prices.* The Lagrangian bound is rank 0's, beside its nodes. It asks other ranks for prices
 // under its multipliers, each for one share of the agents at a time: the next when it has answered.

@@ -23,14 +23,14 @@ constexpr std::size_t kBytesOfSize = 1;  // of a fact, in a message: about
 
 }  // namespace
 
-void Knowledge::add(const Fact& fact) {
-  add(fact.worth(), message::packed(fact), ranks_);
+void Knowledge::add(const LearnedBound& fact) {
+  add(fact.utility(), message::packed(fact), ranks_);
 }
 
-void Knowledge::add(double worth, std::string fact, int reach) {
+void Knowledge::add(double utility, std::string fact, int reach) {
   reach = std::min(reach, ranks_);
   if (reach <= 1 || fact.size() > kLongest) return;
-  const Piece piece{worth, std::make_shared<const std::string>(std::move(fact))};
+  const Piece piece{utility, std::make_shared<const std::string>(std::move(fact))};
   for (int n = reach; n > 1; n = (n + 1) / 2) add(piece, waiting_[n]);
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mpi/messages.h"
-#include "search/facts.h"
+#include "search/learned_bounds.h"
 
 namespace grove::detail {
 
@@ -32,9 +32,9 @@ class Knowledge {
   bool is_on() const { return ranks_ > 1 && rate_ > 0; }
 
   // One that was found out here. Those of more than a thousand bytes are not told.
-  void add(const Fact& fact);
+  void add(const LearnedBound& fact);
   // One, packed, of this worth, that the next `reach` - 1 ranks are to be told.
-  void add(double worth, std::string fact, int reach);
+  void add(double utility, std::string fact, int reach);
 
   // What is to be said now, in seconds since the beginning.
   std::vector<Parcel> due(double now);
@@ -45,9 +45,9 @@ class Knowledge {
 
  private:
   struct Piece {
-    double worth;
+    double utility;
     std::shared_ptr<const std::string> fact;
-    friend bool operator<(const Piece& a, const Piece& b) { return a.worth < b.worth; }
+    friend bool operator<(const Piece& a, const Piece& b) { return a.utility < b.utility; }
   };
   using Waiting = std::vector<Piece>;  // a heap
 

@@ -19,7 +19,7 @@ void serialize(Archive& archive, SubproblemRecord& s) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Fact& fact) {
+void serialize(Archive& archive, LearnedBound& fact) {
   archive(fact.agents, fact.cost.at_least, fact.cost.exact, fact.cost.hard, fact.excess.excess,
           fact.excess.exact, fact.excess.expansions);
 }
@@ -211,12 +211,12 @@ void add(const Farewell& part, Farewell& sum) {
   for (const auto& [rank, messages] : part.messages) sum.messages[rank] += messages;
 }
 
-std::string packed(const Fact& fact) {
+std::string packed(const LearnedBound& fact) {
   return to_bytes(fact);
 }
 
-Fact unpacked(std::string_view bytes) {
-  return from_bytes<Fact>(bytes);
+LearnedBound unpacked(std::string_view bytes) {
+  return from_bytes<LearnedBound>(bytes);
 }
 
 std::string bytes_of(const Message& message, int level) {

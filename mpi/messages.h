@@ -18,8 +18,8 @@
 #include "lagrangian/pricing_messages.h"
 #include "model/limits.h"
 #include "primal/plan_source.h"
-#include "search/facts.h"
 #include "search/findings.h"
+#include "search/learned_bounds.h"
 #include "search/node_record.h"
 #include "search/tree_record.h"
 
@@ -198,9 +198,9 @@ struct Addressed {
 };
 
 // A fact as it travels.
-std::string packed(const Fact& fact);
+std::string packed(const LearnedBound& fact);
 // Throws std::invalid_argument for bytes that are no fact.
-Fact unpacked(std::string_view bytes);
+LearnedBound unpacked(std::string_view bytes);
 
 std::string bytes_of(const Message& message, int level);
 // Throws std::invalid_argument for bytes that are no message.

@@ -273,7 +273,7 @@ void Rank::speak_of_prices() {
 void Rank::speak_of_facts(double now) {
   if (!knowledge_.is_on()) return;
   const auto memory = search_.memory();
-  for (const Fact& fact : facts_of(memory->take_new_entries(), *memory, trees_of_facts_))
+  for (const LearnedBound& fact : facts_of(memory->take_new_entries(), *memory, trees_of_facts_))
     knowledge_.add(fact);
   for (auto& [rank, facts] : knowledge_.due(now)) {
     facts_sent_ += std::ssize(facts.facts);
@@ -286,8 +286,8 @@ void Rank::hear(message::Facts& facts) {
   const auto memory = search_.memory();
   const bool has_room = search_.has_room_for_facts();
   for (std::string& bytes : facts.facts) {
-    Fact fact = message::unpacked(bytes);
-    if (!ended_) knowledge_.add(fact.worth(), std::move(bytes), facts.reach);
+    LearnedBound fact = message::unpacked(bytes);
+    if (!ended_) knowledge_.add(fact.utility(), std::move(bytes), facts.reach);
     if (has_room) learn(std::move(fact), trees_of_facts_, *memory);
   }
 }

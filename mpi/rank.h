@@ -103,7 +103,7 @@ class Rank {
   SharedSearch search_;
 
   std::map<std::uint32_t, NodePtr> roots_;  // by the number of the tree
-  TreesOfFacts trees_of_facts_;
+  TreeIndex trees_of_facts_;
   Knowledge knowledge_;
   std::int32_t era_ = 0;
   std::int64_t entrusted_ = 0;

@@ -13,7 +13,7 @@ namespace knowledge_test {
 
 constexpr double kPlenty = 1e12;
 
-Fact fact(AgentIndex agent, std::int32_t expansions = 0) {
+LearnedBound fact(AgentIndex agent, std::int32_t expansions = 0) {
   return {{{0, agent, {}}}, {7, true}, {0, false, expansions}};
 }
 
@@ -72,9 +72,9 @@ TEST(Knowledge, SaysNoMoreThanItMayAndTheMostWorthwhileFirst) {
       for (const std::string& told : message.facts) {
         ++count;
         said += static_cast<double>(told.size() + 1);
-        const double worth = message::unpacked(told).worth();
-        EXPECT_LE(worth, last);
-        last = worth;
+        const double utility = message::unpacked(told).utility();
+        EXPECT_LE(utility, last);
+        last = utility;
       }
       EXPECT_LE(said, kRate * (now + 0.011));
     }
@@ -114,7 +114,7 @@ TEST(Knowledge, IsNotHeldUpByALongFact) {
   for (const int constraints : {150, 20'000}) {
     Knowledge knowledge(0, 2, 1e6);
     knowledge.due(36'000);
-    Fact dear;
+    LearnedBound dear;
     dear.agents.emplace_back(0, 0, PackedConstraints(std::vector<Constraint>(constraints)));
     dear.excess = {1, true, 1'000'000'000};
     knowledge.add(dear);

@@ -70,7 +70,7 @@ TEST(Messages, AreAsLongWhateverMemoryAProcessTakes) {
 }
 
 TEST(Messages, PackFacts) {
-  Fact fact;
+  LearnedBound fact;
   for (const AgentIndex agent : {7, 19}) {
     AgentSituation& situation = fact.agents.emplace_back(3, agent);
     situation.constraints = PackedConstraints(
@@ -78,7 +78,7 @@ TEST(Messages, PackFacts) {
   }
   fact.excess = {2, true, 400};
   const std::string bytes = message::packed(fact);
-  const Fact back = message::unpacked(bytes);
+  const LearnedBound back = message::unpacked(bytes);
   EXPECT_EQ(back.agents, fact.agents);
   EXPECT_EQ(back.cost, fact.cost);
   EXPECT_EQ(back.excess, fact.excess);

@@ -7,7 +7,7 @@
 // process to process, and is not told.
 //
 // So facts may come late, twice, in any order or never: nothing but time depends on it.
-#include "search/facts.h"
+#include "search/learned_bounds.h"
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ constexpr std::size_t kBytesPerConstraint = 6;  // about
 // room-32-32-4 with 40 agents: a search overhead of 38 % without this, 36 % with it, or with 16.
 constexpr double kWorthOfExcess = 4;
 
-std::size_t bytes_of_constraints(const Fact& fact) {
+std::size_t bytes_of_constraints(const LearnedBound& fact) {
   std::size_t sum = 0;
   for (const SubproblemRecord& s : fact.agents) sum += s.constraints.bytes.size();
   return sum;
@@ -33,11 +33,11 @@ std::size_t bytes_of_constraints(const Fact& fact) {
 // Collects facts whose agents are of trees that are known.
 class Facts {
  public:
-  Facts(const SharedCache& memory, const TreesOfFacts& trees) : memory_(memory), trees_(trees) {}
+  Facts(const SharedCache& memory, const TreeIndex& trees) : memory_(memory), trees_(trees) {}
 
   void add(std::span<const SubproblemTable::Id> ids, SubproblemTable::Known cost,
            DependencyTable::Known excess) {
-    Fact fact{{}, cost, excess};
+    LearnedBound fact{{}, cost, excess};
     for (const SubproblemTable::Id id : ids) {
       AgentSubproblem situation = memory_.situations.situation(id);
       const Tree* tree = trees_.of(*situation.order);
@@ -47,12 +47,12 @@ class Facts {
     facts_.push_back(std::move(fact));
   }
 
-  std::vector<Fact> all() { return std::move(facts_); }
+  std::vector<LearnedBound> all() { return std::move(facts_); }
 
  private:
   const SharedCache& memory_;
-  const TreesOfFacts& trees_;
-  std::vector<Fact> facts_;
+  const TreeIndex& trees_;
+  std::vector<LearnedBound> facts_;
 };
 
 void require(bool possible) {
@@ -60,7 +60,7 @@ void require(bool possible) {
     throw std::invalid_argument("a fact must be about agents of the instance, in order");
 }
 
-void require_order(const Fact& fact) {
+void require_order(const LearnedBound& fact) {
   const auto& agents = fact.agents;
   require(!agents.empty() && fact.excess.excess >= 0 && fact.cost.at_least >= 0 &&
           std::ranges::adjacent_find(agents, std::greater_equal<>(), &SubproblemRecord::agent) ==
@@ -69,28 +69,28 @@ void require_order(const Fact& fact) {
 
 }  // namespace
 
-double Fact::worth() const {
+double LearnedBound::utility() const {
   const double dearness = (1.0 + excess.expansions) * (excess.excess > 0 ? kWorthOfExcess : 1);
   return dearness / static_cast<double>(kBytesPerConstraint + bytes_of_constraints(*this));
 }
 
-void TreesOfFacts::add(const Tree& tree) {
+void TreeIndex::add(const Tree& tree) {
   by_number_.emplace(tree.number, &tree);
   for (const auto& order : tree.orders) by_order_.emplace(order.get(), &tree);
 }
 
-const Tree* TreesOfFacts::of(const AgentOrder& order) const {
+const Tree* TreeIndex::of(const AgentOrder& order) const {
   const auto found = by_order_.find(&order);
   return found == by_order_.end() ? nullptr : found->second;
 }
 
-const Tree* TreesOfFacts::numbered(std::uint32_t number) const {
+const Tree* TreeIndex::numbered(std::uint32_t number) const {
   const auto found = by_number_.find(number);
   return found == by_number_.end() ? nullptr : found->second;
 }
 
-std::vector<Fact> facts_of(const NewEntries& news, const SharedCache& memory,
-                           const TreesOfFacts& trees) {
+std::vector<LearnedBound> facts_of(const NewEntries& news, const SharedCache& memory,
+                                   const TreeIndex& trees) {
   Facts facts(memory, trees);
   for (const auto& [id, known] : news.costs) facts.add(std::array{id}, known, {});
   for (const auto& pair : news.pairs)
@@ -99,7 +99,7 @@ std::vector<Fact> facts_of(const NewEntries& news, const SharedCache& memory,
   return facts.all();
 }
 
-void merge(Fact fact, const TreesOfFacts& trees, SharedCache& memory) {
+void merge(LearnedBound fact, const TreeIndex& trees, SharedCache& memory) {
   require_order(fact);
   std::vector<SubproblemTable::Id> ids;
   std::vector<AgentIndex> agents;

@@ -25,18 +25,18 @@ struct SubproblemRecord {
 };
 
 // What one agent costs, or by how much several cost more together than each alone.
-struct Fact {
+struct LearnedBound {
   std::vector<SubproblemRecord> agents;  // one or more, in ascending order of agents
   SubproblemTable::Known cost;           // of one agent,
   DependencyTable::Known excess;         // of several
 
   // How much there is to gain by telling it: what took long to find out, raises a bound, and comes
   // up again, as few constraints do more often than many.
-  double worth() const;
+  double utility() const;
 };
 
 // The trees that facts are about. Of one thread.
-class TreesOfFacts {
+class TreeIndex {
  public:
   // `tree` must outlive this.
   void add(const Tree& tree);
@@ -50,12 +50,12 @@ class TreesOfFacts {
 };
 
 // News of `memory`, as facts; but for what is of no tree in `trees`.
-std::vector<Fact> facts_of(const NewEntries& news, const SharedCache& memory,
-                           const TreesOfFacts& trees);
+std::vector<LearnedBound> facts_of(const NewEntries& news, const SharedCache& memory,
+                                   const TreeIndex& trees);
 
 // Adds a fact to what `memory` knows, unless it is of a tree that is not known here. Throws
 // std::invalid_argument, and learns nothing, for what cannot be: no agent, one that is not there,
 // or agents in another order.
-void merge(Fact fact, const TreesOfFacts& trees, SharedCache& memory);
+void merge(LearnedBound fact, const TreeIndex& trees, SharedCache& memory);
 
 }  // namespace grove::detail

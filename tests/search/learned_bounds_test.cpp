@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What one process found out is told as values, and another knows as much as if it had found it.
-#include "search/facts.h"
+#include "search/learned_bounds.h"
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ struct Process {
     for (const NodePtr& node : nodes) all.emplace_back(node->cost(), node->bound());
     return all;
   }
-  std::vector<Fact> facts() {
+  std::vector<LearnedBound> facts() {
     return facts_of(expander.memory()->take_new_entries(), *expander.memory(), trees);
   }
 
@@ -55,7 +55,7 @@ struct Process {
   SingleTree forest;
   NodePtr root;
   Expander expander;
-  TreesOfFacts trees;
+  TreeIndex trees;
 };
 
 TEST(Facts, ServeWhoeverIsToldAsIfItHadFoundThem) {
@@ -68,7 +68,7 @@ TEST(Facts, ServeWhoeverIsToldAsIfItHadFoundThem) {
     const auto facts = finder.facts();
     told += std::ssize(facts);
     Process other(seed);
-    for (const Fact& fact : facts) merge(fact, other.trees, *other.expander.memory());
+    for (const LearnedBound& fact : facts) merge(fact, other.trees, *other.expander.memory());
     EXPECT_TRUE(other.facts().empty()) << "what one is told is no news";
     EXPECT_EQ(other.expand(8), found) << "seed " << seed;
     of_finder += finder.expander.counts();
@@ -105,7 +105,7 @@ struct TwoTrees {
 
   std::vector<std::shared_ptr<const AgentOrder>> orders;
   std::array<Tree, 2> trees;
-  TreesOfFacts known;
+  TreeIndex known;
   SharedCache memory;
 };
 
@@ -134,14 +134,14 @@ TEST(Facts, AreAboutTheOrdersThatTheyWereFoundFor) {
 
 TEST(Facts, OfTreesThatAreNotHereAreIgnored) {
   TwoTrees s;
-  const Fact fact{{{4, 0, {}}, {5, 1, {}}}, {}, {5, true, 9}};
+  const LearnedBound fact{{{4, 0, {}}, {5, 1, {}}}, {}, {5, true, 9}};
   merge(fact, s.known, s.memory);
   EXPECT_EQ(s.memory.excesses.bytes(), 0);
 }
 
 TEST(Facts, RefuseWhatCannotBe) {
   TwoTrees s;
-  const auto refuses = [&](const Fact& fact) {
+  const auto refuses = [&](const LearnedBound& fact) {
     EXPECT_THROW(merge(fact, s.known, s.memory), std::invalid_argument);
     EXPECT_EQ(s.memory.excesses.bytes(), 0);
   };
@@ -156,13 +156,13 @@ TEST(Facts, RefuseWhatCannotBe) {
 
 TEST(Facts, AreWorthMoreTheLongerTheyTookTheFewerConstraintsTheyHaveAndIfTheyRaiseBounds) {
   const PackedConstraints demands(std::vector<Constraint>{{3, kNoCell, 1, 2}});
-  const Fact dear{{{0, 0, {}}, {0, 1, {}}}, {}, {1, true, 9}};
-  const Fact cheap{{{0, 0, {}}, {0, 1, {}}}, {}, {1, true, 2}};
-  const Fact special{{{0, 0, demands}, {0, 1, {}}}, {}, {1, true, 9}};
-  const Fact harmless{{{0, 0, {}}, {0, 1, {}}}, {}, {0, true, 9}};
-  EXPECT_GT(dear.worth(), cheap.worth());
-  EXPECT_GT(dear.worth(), harmless.worth());
-  EXPECT_GT(dear.worth(), special.worth());
+  const LearnedBound dear{{{0, 0, {}}, {0, 1, {}}}, {}, {1, true, 9}};
+  const LearnedBound cheap{{{0, 0, {}}, {0, 1, {}}}, {}, {1, true, 2}};
+  const LearnedBound special{{{0, 0, demands}, {0, 1, {}}}, {}, {1, true, 9}};
+  const LearnedBound harmless{{{0, 0, {}}, {0, 1, {}}}, {}, {0, true, 9}};
+  EXPECT_GT(dear.utility(), cheap.utility());
+  EXPECT_GT(dear.utility(), harmless.utility());
+  EXPECT_GT(dear.utility(), special.utility());
 }
 
 }  // namespace facts_test
