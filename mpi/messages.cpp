@@ -8,7 +8,7 @@
 namespace grove::detail {
 
 template <class Archive>
-void serialize(Archive& archive, Finding& finding) {
+void serialize(Archive& archive, GroupBound& finding) {
   archive(finding.node, finding.agents, finding.known.excess, finding.known.exact,
           finding.known.expansions);
 }

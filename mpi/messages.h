@@ -18,7 +18,7 @@
 #include "lagrangian/pricing_messages.h"
 #include "model/limits.h"
 #include "primal/plan_source.h"
-#include "search/findings.h"
+#include "search/group_bounds.h"
 #include "search/learned_bounds.h"
 #include "search/node_record.h"
 #include "search/tree_record.h"
@@ -110,7 +110,7 @@ void add(const Farewell& part, Farewell& sum);
 struct Batch {
   std::int32_t era = 0;
   std::vector<NodeRecord> nodes;
-  std::vector<Finding> findings;
+  std::vector<GroupBound> findings;
 };
 
 // Rank to rank: what was found out. The receiver tells it to the next `reach` - 1 ranks, in the

@@ -139,7 +139,7 @@ void Rank::give(const message::Order& order) {
   message::Batch batch;
   batch.era = era_;
   for (const NodePtr& node : nodes) batch.nodes.push_back(record_of(*node));
-  batch.findings = findings_about(nodes, *search_.memory());
+  batch.findings = group_bounds_of(nodes, *search_.memory());
   Peer& peer = peers_[order.to];
   peer.custody[peer.sent + 1] = nodes;
   in_custody_ += std::ssize(nodes);
@@ -179,7 +179,7 @@ void Rank::accept(const message::Entrust& entrusted) {
   superior_.urge();
 }
 
-void Rank::push(const std::vector<NodeRecord>& records, const std::vector<Finding>& findings) {
+void Rank::push(const std::vector<NodeRecord>& records, const std::vector<GroupBound>& findings) {
   std::vector<NodePtr> nodes;  // null: pruned
   for (const NodeRecord& record : records) {
     const NodePtr& root = roots_.at(record.tree);

@@ -81,7 +81,7 @@ class Rank {
   void speak_of_prices();
   void speak_of_facts(double now);
   void hear(message::Facts& facts);
-  void push(const std::vector<NodeRecord>& records, const std::vector<Finding>& findings);
+  void push(const std::vector<NodeRecord>& records, const std::vector<GroupBound>& findings);
   void begin_anew(Cost proven);
   message::Status status() const;
   Survey survey(Stats counts) const;

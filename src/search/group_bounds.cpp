@@ -7,7 +7,7 @@
 // *Claim: a finding is as true there as here.* It speaks of agents under sets of constraints, of
 // which both sides have the same text, and of nothing else; see dependencies.cpp. Its numbers of
 // situations differ, so agents and a node stand for them.
-#include "search/findings.h"
+#include "search/group_bounds.h"
 
 #include <algorithm>
 #include <functional>
@@ -52,7 +52,7 @@ class Collector {
  public:
   explicit Collector(SharedCache& memory) : memory_(memory), situations_(memory) {}
 
-  void look_at(const Node& node, std::int32_t place, std::vector<Finding>& findings) {
+  void look_at(const Node& node, std::int32_t place, std::vector<GroupBound>& findings) {
     const std::vector<Id>& ids = situations_.of(node);
     is_new_.resize(ids.size());
     for (std::size_t agent = 0; agent < ids.size(); ++agent)
@@ -79,12 +79,12 @@ class Collector {
   std::vector<bool> is_new_;  // by AgentIndex: a situation that no earlier node had
 };
 
-void require_place(const Finding& finding, std::size_t nodes) {
+void require_place(const GroupBound& finding, std::size_t nodes) {
   if (finding.node < 0 || static_cast<std::size_t>(finding.node) >= nodes)
     throw std::invalid_argument("a finding must be about one of the nodes that it came with");
 }
 
-void require_agents(const Finding& finding, std::size_t agents) {
+void require_agents(const GroupBound& finding, std::size_t agents) {
   const auto& group = finding.agents;
   const bool ascend = std::ranges::adjacent_find(group, std::greater_equal<>()) == group.end();
   if (group.size() < 2 || !ascend || group.front() < 0 ||
@@ -94,8 +94,8 @@ void require_agents(const Finding& finding, std::size_t agents) {
 
 }  // namespace
 
-std::vector<Finding> findings_about(std::span<const NodePtr> nodes, SharedCache& memory) {
-  std::vector<Finding> findings;
+std::vector<GroupBound> group_bounds_of(std::span<const NodePtr> nodes, SharedCache& memory) {
+  std::vector<GroupBound> findings;
   if (memory.excesses.bytes() == 0) return findings;
   Collector collector(memory);
   for (std::size_t place = 0; place < nodes.size(); ++place)
@@ -103,12 +103,13 @@ std::vector<Finding> findings_about(std::span<const NodePtr> nodes, SharedCache&
   return findings;
 }
 
-void merge(std::span<const Finding> findings, std::span<const NodePtr> nodes, SharedCache& memory) {
+void merge(std::span<const GroupBound> findings, std::span<const NodePtr> nodes,
+           SharedCache& memory) {
   SituationsAt situations(memory);
   const Node* at = nullptr;  // whose situations these are:
   std::vector<Id> ids;
   std::vector<Id> key;
-  for (const Finding& finding : findings) {
+  for (const GroupBound& finding : findings) {
     require_place(finding, nodes.size());
     const Node* node = nodes[static_cast<std::size_t>(finding.node)].get();
     if (!node) continue;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is told about nodes is what was found out, and whoever is told expands them alike with less
 // work.
-#include "search/findings.h"
+#include "search/group_bounds.h"
 
 #include <gtest/gtest.h>
 
@@ -72,7 +72,7 @@ TEST(Findings, WhoeverIsToldExpandsTheSameWithLessWork) {
   std::int64_t pair_expansions_of_ignorant = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     Begun s(seed);
-    const auto findings = findings_about(s.nodes, *s.expander.memory());
+    const auto findings = group_bounds_of(s.nodes, *s.expander.memory());
     told += static_cast<int>(findings.size());
     for (const NodePtr& node : s.nodes) {
       AgentStopsCache stops = s.stops;
@@ -93,11 +93,11 @@ TEST(Findings, WhoeverIsToldExpandsTheSameWithLessWork) {
 TEST(Findings, SayWhatTheMemoryKnowsAndNothingElse) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const Begun s(seed);
-    const auto findings = findings_about(s.nodes, *s.expander.memory());
+    const auto findings = group_bounds_of(s.nodes, *s.expander.memory());
     SharedCache other;
     merge(findings, s.nodes, other);
     // Both number situations as they come up, so only what is said of the nodes can be compared.
-    const auto again = findings_about(s.nodes, other);
+    const auto again = group_bounds_of(s.nodes, other);
     ASSERT_EQ(again.size(), findings.size());
     for (std::size_t i = 0; i < findings.size(); ++i) {
       EXPECT_EQ(again[i].node, findings[i].node);
@@ -106,14 +106,14 @@ TEST(Findings, SayWhatTheMemoryKnowsAndNothingElse) {
       EXPECT_EQ(again[i].known.exact, findings[i].known.exact);
     }
     SharedCache empty;
-    EXPECT_TRUE(findings_about(s.nodes, empty).empty());
+    EXPECT_TRUE(group_bounds_of(s.nodes, empty).empty());
   }
 }
 
 TEST(Findings, AboutANodeThatIsNotTakenOverAreIgnored) {
   const Begun s(1);
   std::vector<NodePtr> nodes = s.nodes;
-  const auto findings = findings_about(s.nodes, *s.expander.memory());
+  const auto findings = group_bounds_of(s.nodes, *s.expander.memory());
   ASSERT_FALSE(findings.empty());
   std::ranges::fill(nodes, NodePtr());
   SharedCache other;
@@ -123,7 +123,7 @@ TEST(Findings, AboutANodeThatIsNotTakenOverAreIgnored) {
 
 TEST(Findings, RefusesWhatCannotBe) {
   const Begun s(1);
-  const auto refuses = [&](const Finding& finding) {
+  const auto refuses = [&](const GroupBound& finding) {
     SharedCache memory;
     EXPECT_THROW(merge(std::vector{finding}, s.nodes, memory), std::invalid_argument);
   };
