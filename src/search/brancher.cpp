@@ -143,7 +143,7 @@ bool Brancher::improve(Choice& choice, const Branching& by, const Task& task) {
   for (int i = 0; i < 2; ++i) {
     const auto outcome =
         prices_.increase(task.view, by.split[i], task.slack, task.limits, increases[i]);
-    if (outcome != Prices::Outcome::kDone) return outcome == Prices::Outcome::kTooHard;
+    if (outcome != ChildCosts::Outcome::kDone) return outcome == ChildCosts::Outcome::kTooHard;
   }
   const std::pair<Cost, Cost> gain = std::minmax(increases[0], increases[1]);
   if (gain > choice.gain) choice = {gain, by};
@@ -198,7 +198,7 @@ bool Brancher::replan_one(const Task& task, AgentIndex agent, const Constraint& 
   if (options_.techniques.has(Technique::kFewestConflicts)) {
     Time cost = 0;
     if (prices_.cost(task.view, agent, more, cutoff, PathQuery::kUnlimited, task.limits, cost) !=
-        Prices::Outcome::kDone)
+        ChildCosts::Outcome::kDone)
       return false;
     found = cost <= cutoff;
     if (!found) return true;

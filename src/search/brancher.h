@@ -12,9 +12,9 @@
 #include "model/limits.h"
 #include "planning/conflict_avoidance_table.h"
 #include "planning/fewest_conflicts.h"
+#include "search/child_costs.h"
 #include "search/node_view.h"
 #include "search/path_planner.h"
-#include "search/prices.h"
 #include "search/result_cache.h"
 #include "search/search_options.h"
 
@@ -57,7 +57,7 @@ class Brancher {
   std::int64_t optimal_nodes() const { return fewest_conflicts_.nodes(); }
   std::span<const std::int64_t, kConstraintKinds> splits() const { return splits_made_; }
   std::int64_t bypasses() const { return bypasses_; }
-  const Prices& prices() const { return prices_; }
+  const ChildCosts& prices() const { return prices_; }
 
  private:
   // What one side of a split leads to.
@@ -98,7 +98,7 @@ class Brancher {
   const SearchOptions options_;
   PathPlanner& planner_;
   WorkerCache& memory_;
-  Prices prices_;
+  ChildCosts prices_;
   FewestConflicts fewest_conflicts_;
   ConflictAvoidanceTable others_;  // the paths in scope
   std::vector<Path> shown_;        // what others_ holds, by AgentIndex

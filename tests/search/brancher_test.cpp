@@ -70,7 +70,7 @@ TEST(Brancher, ClosesSidesThatReachTheCutoff) {
   ASSERT_EQ(s.branch(s.root->cost() + 2), Brancher::Outcome::kBranched);
   EXPECT_EQ(s.children.size(), 2u);
   for (const NodePtr& child : s.children) EXPECT_EQ(child->cost(), s.root->cost() + 1);
-  const Prices& prices = s.brancher.prices();
+  const ChildCosts& prices = s.brancher.prices();
   const std::int64_t asked = prices.asked();
   EXPECT_GT(asked, prices.known());
   s.view.enter(s.root, s.all);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "search/prices.h"
+#include "search/child_costs.h"
 
 namespace grove::detail {
 // With time windows, which is what cells barred for ever make, the low level is NP-hard, and one
 // call could take all the time there is.
-Prices::Outcome Prices::increase(NodeView& view, const AgentConstraint& demand, Cost slack,
-                                 const Limits& limits, Cost& increase) {
+ChildCosts::Outcome ChildCosts::increase(NodeView& view, const AgentConstraint& demand, Cost slack,
+                                         const Limits& limits, Cost& increase) {
   increase = 0;
   view.disturbed(demand, disturbed_);
   for (AgentIndex agent : disturbed_) {
@@ -23,8 +23,9 @@ Prices::Outcome Prices::increase(NodeView& view, const AgentConstraint& demand, 
   return Outcome::kDone;
 }
 
-Prices::Outcome Prices::cost(NodeView& view, AgentIndex agent, const Constraint& more, Time cutoff,
-                             std::int64_t label_limit, const Limits& limits, Time& cost) {
+ChildCosts::Outcome ChildCosts::cost(NodeView& view, AgentIndex agent, const Constraint& more,
+                                     Time cutoff, std::int64_t label_limit, const Limits& limits,
+                                     Time& cost) {
   const auto constraints = view.constraints_with(agent, more);
   const SubproblemTable::Id id = memory_.id(agent, view.order(agent), constraints);
   SubproblemTable::Known known = memory_.known(id);

@@ -14,7 +14,7 @@ namespace grove::detail {
 
 // The prices of strong branching, which the memory keeps from node to node. Workspace of one
 // thread.
-class Prices {
+class ChildCosts {
  public:
   enum class Outcome : std::uint8_t {
     kDone,
@@ -23,7 +23,7 @@ class Prices {
   };
 
   // Both must outlive this. A split whose price takes more than `label_limit` is not considered.
-  Prices(PathPlanner& planner, WorkerCache& memory, std::int64_t label_limit)
+  ChildCosts(PathPlanner& planner, WorkerCache& memory, std::int64_t label_limit)
       : planner_(planner), memory_(memory), most_labels_(label_limit) {}
 
   // By how much the costs of the agents in scope rise, each alone, when `demand` is made; if by

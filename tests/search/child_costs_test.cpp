@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "search/prices.h"
+#include "search/child_costs.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace grove::detail {
 namespace prices_test {
 
 using testing::NodeAtHand;
-using Outcome = Prices::Outcome;
+using Outcome = ChildCosts::Outcome;
 
 // Through the door at time 2, or when it is barred up to time 9 at time 10: 12 steps in all.
 constexpr Time kFree = 4;
@@ -32,7 +32,7 @@ class PricesTest : public ::testing::Test {
 
   NodeAtHand node_{{"..@..", ".....", "..@.."}, {{{0, 1}, Position{4, 1}}}};
   const Constraint door_is_barred_{node_.instance.grid().cell({2, 1}), kNoPlace, 0, 9};
-  Prices prices_{node_.planner, node_.memory, PathQuery::kUnlimited};
+  ChildCosts prices_{node_.planner, node_.memory, PathQuery::kUnlimited};
 };
 
 TEST_F(PricesTest, AreExactWithinTheCutoff) {
