@@ -68,14 +68,15 @@ Brancher::Outcome Brancher::branch(NodeView& view, Cost cutoff, std::span<const 
     if (!choose(task, last_resorts, chosen)) return Outcome::kStopped;
     const Split& split = chosen.split;
     for (int i = 0; i < 2; ++i)
-      if (!make_side(task, split[i], sides_[i])) return Outcome::kStopped;
-    if (round < options_.tuning.bypasses && (bypass(view, sides_[0]) || bypass(view, sides_[1])))
+      if (!evaluate_branch(task, split[i], branches_[i])) return Outcome::kStopped;
+    if (round < options_.tuning.bypasses &&
+        (bypass(view, branches_[0]) || bypass(view, branches_[1])))
       continue;
     ++splits_made_[static_cast<std::size_t>(split[1].constraint.kind)];
     branching_ = chosen;
     const NodePtr parent = view.node_as_routed();
     for (int i = 0; i < 2; ++i)
-      if (sides_[i].open) children.push_back(child(view, parent, split[i], sides_[i]));
+      if (branches_[i].open) children.push_back(child(view, parent, split[i], branches_[i]));
     return Outcome::kBranched;
   }
   return Outcome::kConflictFree;
@@ -162,7 +163,7 @@ Branching Brancher::earliest(const NodeView& view) {
 }
 
 // The paths of one side of the split, around those of the others.
-bool Brancher::make_side(const Task& task, const AgentConstraint& demand, Side& side) {
+bool Brancher::evaluate_branch(const Task& task, const AgentConstraint& demand, Branch& side) {
   side.open = true;
   side.increase = 0;
   side.conflicts = 0;
@@ -178,7 +179,7 @@ bool Brancher::make_side(const Task& task, const AgentConstraint& demand, Side& 
   return done;
 }
 
-bool Brancher::replan(const Task& task, const AgentConstraint& demand, Side& side) {
+bool Brancher::replan(const Task& task, const AgentConstraint& demand, Branch& side) {
   for (AgentIndex agent : side.agents) {
     const Time cutoff = cutoff_for(task.view, agent, task.slack - side.increase);
     if (!replan_one(task, agent, *constraint_on(agent, demand), cutoff, side.open)) return false;
@@ -219,7 +220,7 @@ bool Brancher::replan_one(const Task& task, AgentIndex agent, const Constraint& 
 }
 
 // Takes the paths of a side for the node's own, if that costs nothing and saves conflicts.
-bool Brancher::bypass(NodeView& view, const Side& side) {
+bool Brancher::bypass(NodeView& view, const Branch& side) {
   if (!options_.techniques.has(Technique::kBypass)) return false;
   if (!side.open || side.increase > 0 || side.conflicts >= 0) return false;
   view.reroute(side.agents, side.paths);
@@ -228,7 +229,7 @@ bool Brancher::bypass(NodeView& view, const Side& side) {
 }
 
 NodePtr Brancher::child(const NodeView& view, const NodePtr& parent, const AgentConstraint& demand,
-                        const Side& side) const {
+                        const Branch& side) const {
   std::vector<NewPath> paths;
   for (std::size_t i = 0; i < side.agents.size(); ++i)
     paths.push_back({side.agents[i], &side.paths[i]});

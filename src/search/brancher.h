@@ -61,7 +61,7 @@ class Brancher {
 
  private:
   // What one side of a split leads to.
-  struct Side {
+  struct Branch {
     bool open = false;  // else it holds no plan cheaper than the cutoff
     Cost increase = 0;
     int conflicts = 0;               // more than before
@@ -86,13 +86,13 @@ class Brancher {
   bool improve(Choice& choice, const Branching& by, const Task& task);
   bool improve_by_sequences(Choice& choice, const Task& task);
   Branching earliest(const NodeView& view);
-  bool make_side(const Task& task, const AgentConstraint& demand, Side& side);
-  bool replan(const Task& task, const AgentConstraint& demand, Side& side);
+  bool evaluate_branch(const Task& task, const AgentConstraint& demand, Branch& side);
+  bool replan(const Task& task, const AgentConstraint& demand, Branch& side);
   bool replan_one(const Task& task, AgentIndex agent, const Constraint& more, Time cutoff,
                   bool& found);
-  bool bypass(NodeView& view, const Side& side);
+  bool bypass(NodeView& view, const Branch& side);
   NodePtr child(const NodeView& view, const NodePtr& parent, const AgentConstraint& demand,
-                const Side& side) const;
+                const Branch& side) const;
 
   const Problem& problem_;
   const SearchOptions options_;
@@ -104,7 +104,7 @@ class Brancher {
   std::vector<Path> shown_;        // what others_ holds, by AgentIndex
 
   std::vector<Split> splits_;
-  std::array<Side, 2> sides_;
+  std::array<Branch, 2> branches_;
   std::vector<AgentIndex> in_conflict_;
   Path path_;
   std::optional<Branching> branching_;
