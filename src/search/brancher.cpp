@@ -57,15 +57,16 @@ Brancher::Brancher(const Problem& problem, const SearchOptions& options, PathPla
 
 // Each bypass saves conflicts, but by a count in which two rests on one cell are not symmetric, so
 // that alone does not prove that bypasses end.
-Brancher::Outcome Brancher::branch(NodeView& view, Cost cutoff, std::span<const Split> last_resorts,
-                                   const Limits& limits, std::vector<NodePtr>& children) {
+Brancher::Outcome Brancher::branch(NodeView& view, Cost cutoff,
+                                   std::span<const Split> fallback_splits, const Limits& limits,
+                                   std::vector<NodePtr>& children) {
   branching_.reset();
   const Task task{view, cutoff - view.node()->cost() - 1, limits};
   if (task.slack < 0) return Outcome::kBranched;
   for (std::int64_t round = 0; !view.conflict_free(); ++round) {
     show_others(view);
     Branching chosen;
-    if (!choose(task, last_resorts, chosen)) return Outcome::kStopped;
+    if (!choose(task, fallback_splits, chosen)) return Outcome::kStopped;
     const Split& split = chosen.split;
     for (int i = 0; i < 2; ++i)
       if (!evaluate_branch(task, split[i], branches_[i])) return Outcome::kStopped;
@@ -95,7 +96,7 @@ void Brancher::show_others(const NodeView& view) {
 }
 
 // The split to make: the one that raises the bounds most, or that of a conflict of least time.
-bool Brancher::choose(const Task& task, std::span<const Split> last_resorts, Branching& chosen) {
+bool Brancher::choose(const Task& task, std::span<const Split> fallback_splits, Branching& chosen) {
   const Techniques techniques = options_.techniques;
   if (!techniques.has(Technique::kStrongBranching)) {
     chosen = earliest(task.view);
@@ -108,7 +109,7 @@ bool Brancher::choose(const Task& task, std::span<const Split> last_resorts, Bra
     for (const Split& split : splits_)
       if (!improve(best, {conflict, split}, task)) return false;
   }
-  for (const Split& split : last_resorts) {
+  for (const Split& split : fallback_splits) {
     if (best.gain.second > 0) break;
     const Conflict* conflict = task.view.conflict_between(split[0].agent, split[1].agent);
     if (conflict && !improve(best, {*conflict, split}, task)) return false;

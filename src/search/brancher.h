@@ -43,10 +43,10 @@ class Brancher {
 
   // Makes the children of the node that `view` has entered, appended to `children`: every plan that
   // obeys the node's constraints and costs less than `cutoff` obeys those of one of them. At most
-  // two; a child that surely holds no such plan is none. `last_resorts` are further splits, valid
-  // at the node: one is made where no conflict offers any that raises the cost of a side, and its
-  // two agents are in conflict.
-  Outcome branch(NodeView& view, Cost cutoff, std::span<const Split> last_resorts,
+  // two; a child that surely holds no such plan is none. `fallback_splits` are further splits,
+  // valid at the node: one is made where no conflict offers any that raises the cost of a side, and
+  // its two agents are in conflict.
+  Outcome branch(NodeView& view, Cost cutoff, std::span<const Split> fallback_splits,
                  const Limits& limits, std::vector<NodePtr>& children);
   // How the last node was split; none if it was not.
   const std::optional<Branching>& branching() const { return branching_; }
@@ -82,7 +82,7 @@ class Brancher {
 
   void show_others(const NodeView& view);
   // False: a limit struck.
-  bool choose(const Task& task, std::span<const Split> last_resorts, Branching& chosen);
+  bool choose(const Task& task, std::span<const Split> fallback_splits, Branching& chosen);
   bool improve(Choice& choice, const Branching& by, const Task& task);
   bool improve_by_sequences(Choice& choice, const Task& task);
   Branching earliest(const NodeView& view);

@@ -20,9 +20,10 @@ const Techniques kCardinal{Technique::kStrongBranching};
 struct Branched : NodeAtHand {
   using NodeAtHand::NodeAtHand;
 
-  Brancher::Outcome branch(Cost cutoff = kInfiniteCost, std::span<const Split> last_resorts = {}) {
+  Brancher::Outcome branch(Cost cutoff = kInfiniteCost,
+                           std::span<const Split> fallback_splits = {}) {
     children.clear();
-    return brancher.branch(view, cutoff, last_resorts, limits, children);
+    return brancher.branch(view, cutoff, fallback_splits, limits, children);
   }
   // Who is asked something by the children, in ascending order.
   std::vector<AgentIndex> asked() const {
