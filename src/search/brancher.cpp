@@ -169,7 +169,7 @@ bool Brancher::evaluate_branch(const Task& task, const AgentConstraint& demand, 
   side.increase = 0;
   side.conflicts = 0;
   side.paths.clear();
-  task.view.disturbed(demand, side.agents);
+  task.view.affected_agents(demand, side.agents);
   for (AgentIndex agent : side.agents) {
     others_.remove(task.view.path(agent));
     side.conflicts -= others_.conflicts_of(task.view.path(agent));

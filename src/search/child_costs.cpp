@@ -7,7 +7,7 @@ namespace grove::detail {
 ChildCosts::Outcome ChildCosts::increase(NodeView& view, const AgentConstraint& demand, Cost slack,
                                          const Limits& limits, Cost& increase) {
   increase = 0;
-  view.disturbed(demand, disturbed_);
+  view.affected_agents(demand, disturbed_);
   for (AgentIndex agent : disturbed_) {
     const Time cutoff = cutoff_for(view, agent, slack - increase);
     Time least = 0;

@@ -66,7 +66,8 @@ const Conflict* NodeView::conflict_between(AgentIndex a, AgentIndex b) const {
   return found == conflicts_.end() ? nullptr : &*found;
 }
 
-void NodeView::disturbed(const AgentConstraint& demand, std::vector<AgentIndex>& agents) const {
+void NodeView::affected_agents(const AgentConstraint& demand,
+                               std::vector<AgentIndex>& agents) const {
   agents.clear();
   for_each_implied_constraint(demand, scope_, [&](AgentIndex agent, const Constraint& c) {
     if (is_about_sequence(c) ||

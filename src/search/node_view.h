@@ -70,7 +70,7 @@ class NodeView {
   const Conflict* conflict_between(AgentIndex a, AgentIndex b) const;
   // Who in scope must go another way if `demand` is made: whose path does not obey what it asks,
   // or, if that is about the sequence, who is asked. Replaces `agents`.
-  void disturbed(const AgentConstraint& demand, std::vector<AgentIndex>& agents) const;
+  void affected_agents(const AgentConstraint& demand, std::vector<AgentIndex>& agents) const;
 
   // Sends agents ways that cost as much and obey the node's constraints.
   void reroute(std::span<const AgentIndex> agents, std::span<const Path> paths);

@@ -215,17 +215,18 @@ TEST(NodeView, SeesItsScopeAlone) {
 TEST(NodeView, TellsWhomADemandDisturbs) {
   NodeAtHand s({"....", "...."}, {{{0, 0}, Position{3, 0}}, {{0, 1}, Position{3, 1}}});
   std::vector<AgentIndex> agents;
-  const auto disturbed = [&](AgentIndex agent, const Constraint& c) {
-    s.view.disturbed({agent, c}, agents);
+  const auto affected_agents = [&](AgentIndex agent, const Constraint& c) {
+    s.view.affected_agents({agent, c}, agents);
     return agents;
   };
   const Cell on_first = s.view.path(0)[1];
-  EXPECT_EQ(disturbed(0, {on_first, kNoCell, 1, 1}), std::vector<AgentIndex>({0}));
-  EXPECT_EQ(disturbed(0, {on_first, kNoCell, 2, 2}), std::vector<AgentIndex>());
+  EXPECT_EQ(affected_agents(0, {on_first, kNoCell, 1, 1}), std::vector<AgentIndex>({0}));
+  EXPECT_EQ(affected_agents(0, {on_first, kNoCell, 2, 2}), std::vector<AgentIndex>());
   // That agent 0 rests on its goal by 3 it does; agent 1 must keep off, and does.
-  EXPECT_EQ(disturbed(0, {3, kNoCell, 0, 3, ConstraintKind::kRestBy}), std::vector<AgentIndex>());
+  EXPECT_EQ(affected_agents(0, {3, kNoCell, 0, 3, ConstraintKind::kRestBy}),
+            std::vector<AgentIndex>());
   // If it were to rest where the other passes, both would be disturbed.
-  EXPECT_EQ(disturbed(0, {5, kNoCell, 0, 1, ConstraintKind::kRestBy}),
+  EXPECT_EQ(affected_agents(0, {5, kNoCell, 0, 1, ConstraintKind::kRestBy}),
             std::vector<AgentIndex>({0, 1}));
 }
 
