@@ -75,7 +75,7 @@ Brancher::Outcome Brancher::branch(NodeView& view, Cost cutoff,
       continue;
     ++splits_made_[static_cast<std::size_t>(split[1].constraint.kind)];
     branching_ = chosen;
-    const NodePtr parent = view.node_as_routed();
+    const NodePtr parent = view.node_with_current_paths();
     for (int i = 0; i < 2; ++i)
       if (branches_[i].open) children.push_back(child(view, parent, split[i], branches_[i]));
     return Outcome::kBranched;

@@ -84,7 +84,7 @@ void NodeView::reroute(std::span<const AgentIndex> agents, std::span<const Path>
   find_conflicts();
 }
 
-NodePtr NodeView::node_as_routed() const {
+NodePtr NodeView::node_with_current_paths() const {
   if (rerouted_.empty()) return node_;
   std::vector<NewPath> paths;
   for (AgentIndex agent : rerouted_) paths.push_back({agent, &paths_[agent]});

@@ -75,7 +75,7 @@ class NodeView {
   // Sends agents ways that cost as much and obey the node's constraints.
   void reroute(std::span<const AgentIndex> agents, std::span<const Path> paths);
   // The node, or below it one that demands the same and has the paths that are here now.
-  NodePtr node_as_routed() const;
+  NodePtr node_with_current_paths() const;
 
   // Steps of paths looked through for conflicts, so far.
   std::int64_t steps() const { return steps_; }

@@ -209,7 +209,7 @@ TEST(NodeView, SeesItsScopeAlone) {
   }
   EXPECT_TRUE(s.view.path(0).empty());
   EXPECT_TRUE(s.view.conflict_between(3, 2));
-  EXPECT_EQ(s.view.node_as_routed(), s.root);
+  EXPECT_EQ(s.view.node_with_current_paths(), s.root);
 }
 
 TEST(NodeView, TellsWhomADemandDisturbs) {
