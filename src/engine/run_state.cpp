@@ -14,7 +14,8 @@ namespace grove::detail {
 namespace {
 
 bool same_sequences(const Tree& a, const Tree& b) {
-  return std::ranges::equal(a.orders, b.orders, {}, &AgentOrder::sequences, &AgentOrder::sequences);
+  return std::ranges::equal(a.orders, b.orders, {}, &AgentSequencing::sequences,
+                            &AgentSequencing::sequences);
 }
 
 std::unique_ptr<Forest> make_forest(const Problem& problem, AgentStopsCache& stops, NodePool& pool,

@@ -196,7 +196,7 @@ bool Brancher::replan(const Task& task, const AgentConstraint& demand, Branch& s
 // Writes a cheapest path under one constraint more to path_, if it costs at most `cutoff`.
 bool Brancher::replan_one(const Task& task, AgentIndex agent, const Constraint& more, Time cutoff,
                           bool& found) {
-  const AgentOrder& order = task.view.order(agent);
+  const AgentSequencing& order = task.view.order(agent);
   if (options_.techniques.has(Technique::kFewestConflicts)) {
     Time cost = 0;
     if (prices_.cost(task.view, agent, more, cutoff, PathQuery::kUnlimited, task.limits, cost) !=

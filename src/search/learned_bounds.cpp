@@ -79,7 +79,7 @@ void TreeIndex::add(const Tree& tree) {
   for (const auto& order : tree.orders) by_order_.emplace(order.get(), &tree);
 }
 
-const Tree* TreeIndex::of(const AgentOrder& order) const {
+const Tree* TreeIndex::of(const AgentSequencing& order) const {
   const auto found = by_order_.find(&order);
   return found == by_order_.end() ? nullptr : found->second;
 }

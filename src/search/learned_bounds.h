@@ -41,11 +41,11 @@ class TreeIndex {
   // `tree` must outlive this.
   void add(const Tree& tree);
   // Null: none here.
-  const Tree* of(const AgentOrder& order) const;
+  const Tree* of(const AgentSequencing& order) const;
   const Tree* numbered(std::uint32_t number) const;
 
  private:
-  std::map<const AgentOrder*, const Tree*> by_order_;
+  std::map<const AgentSequencing*, const Tree*> by_order_;
   std::map<std::uint32_t, const Tree*> by_number_;
 };
 

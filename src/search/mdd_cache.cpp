@@ -35,7 +35,7 @@ void MddCache::add(SubproblemTable::Id id, const Set& set) {
   });
 }
 
-MddCache::Set MddCache::make(PathPlanner& planner, AgentIndex agent, const AgentOrder& order,
+MddCache::Set MddCache::make(PathPlanner& planner, AgentIndex agent, const AgentSequencing& order,
                              std::span<const Constraint> constraints, Time cost,
                              std::size_t most_nodes, const Limits& limits) {
   Mdd paths;

@@ -34,7 +34,7 @@ class MddCache {
 
   // Makes the set of the situation that the arguments are, of least cost `cost`. Empty if it takes
   // more than `most_nodes`; null if a limit struck. `planner` is the calling thread's.
-  static Set make(PathPlanner& planner, AgentIndex agent, const AgentOrder& order,
+  static Set make(PathPlanner& planner, AgentIndex agent, const AgentSequencing& order,
                   std::span<const Constraint> constraints, Time cost, std::size_t most_nodes,
                   const Limits& limits);
 

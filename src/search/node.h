@@ -24,7 +24,7 @@ namespace grove::detail {
 
 // What a tree fixes about one agent's order of visits, and the agent's best path when nobody else
 // is there. Immutable; shared by all trees that fix the same.
-struct AgentOrder {
+struct AgentSequencing {
   SequenceClass sequences;            // the paper's forest: a complete prefix
   std::optional<GoalSequence> goals;  // of a complete prefix; else the low level chooses the order
   PackedPath path;                    // shortest for `sequences`, no constraints
@@ -32,10 +32,10 @@ struct AgentOrder {
 
 // One tree of the forest: a class of joint task sequences. Immutable; outlives its nodes.
 struct Tree {
-  const World* world = nullptr;                           // in which its agents move
-  NodePool* pool = nullptr;                               // where its nodes live
-  std::uint32_t number = 0;                               // from 0, in the order of instantiation
-  std::vector<std::shared_ptr<const AgentOrder>> orders;  // by AgentIndex
+  const World* world = nullptr;  // in which its agents move
+  NodePool* pool = nullptr;      // where its nodes live
+  std::uint32_t number = 0;      // from 0, in the order of instantiation
+  std::vector<std::shared_ptr<const AgentSequencing>> orders;  // by AgentIndex
 };
 
 class Node;

@@ -47,7 +47,7 @@ void NodeView::find_conflicts() {
 SubproblemTable::Id NodeView::situation(AgentIndex agent) {
   GROVE_ASSERT(is_in_scope(agent), "of others nothing is kept up to date");
   Kept::KnownSituation& known = kept_.situations[agent];
-  const AgentOrder& order = this->order(agent);
+  const AgentSequencing& order = this->order(agent);
   if (known.order != &order || known.numbering != memory_.numbering())
     known = {&order, memory_.numbering(), memory_.id(agent, order, kept_.constraints[agent])};
   return known.id;

@@ -25,8 +25,8 @@ class NodeView {
     friend class NodeView;
 
     struct KnownSituation {
-      const AgentOrder* order = nullptr;  // null: not known
-      std::int64_t numbering = 0;         // of the memory
+      const AgentSequencing* order = nullptr;  // null: not known
+      std::int64_t numbering = 0;              // of the memory
       SubproblemTable::Id id = 0;
     };
     // By AgentIndex. Those of agents in scope are of this node, those of others of an earlier one.
@@ -50,7 +50,7 @@ class NodeView {
   std::span<const AgentIndex> scope() const { return scope_; }
 
   // Of an agent in scope: its order of visits, and what the node demands of it, in canonical order.
-  const AgentOrder& order(AgentIndex agent) const { return *node_->tree().orders[agent]; }
+  const AgentSequencing& order(AgentIndex agent) const { return *node_->tree().orders[agent]; }
   std::span<const Constraint> constraints(AgentIndex agent) const {
     GROVE_ASSERT(is_in_scope(agent), "of others nothing is kept up to date");
     return kept_.constraints[agent];

@@ -26,7 +26,7 @@ PathPlanner::PathPlanner(const Problem& problem, AgentStopsCache& stops,
       repeatable_(repeatable),
       free_goals_(problem.instance.agent_count()) {}
 
-PathOutcome PathPlanner::find(AgentIndex agent, const AgentOrder& order, PathQuery query,
+PathOutcome PathPlanner::find(AgentIndex agent, const AgentSequencing& order, PathQuery query,
                               const Limits& limits, Path& path) {
   ++calls_;
   if (order.goals) return fixed_.find(*order.goals, query, limits, path);
@@ -35,7 +35,7 @@ PathOutcome PathPlanner::find(AgentIndex agent, const AgentOrder& order, PathQue
   return free_->find(goals, query, limits, path);
 }
 
-MddBuilder::Outcome PathPlanner::optimal_paths(AgentIndex agent, const AgentOrder& order,
+MddBuilder::Outcome PathPlanner::optimal_paths(AgentIndex agent, const AgentSequencing& order,
                                                std::span<const Constraint> constraints, Time cost,
                                                std::size_t most_nodes, const Limits& limits,
                                                Mdd& paths) {
@@ -43,7 +43,7 @@ MddBuilder::Outcome PathPlanner::optimal_paths(AgentIndex agent, const AgentOrde
                         most_nodes, limits, paths);
 }
 
-TimeExpandedGraphs::Outcome PathPlanner::timed_graph(AgentIndex agent, const AgentOrder& order,
+TimeExpandedGraphs::Outcome PathPlanner::timed_graph(AgentIndex agent, const AgentSequencing& order,
                                                      std::span<const Constraint> constraints,
                                                      Time most_cost, std::size_t most_nodes,
                                                      const Limits& limits, AgentGraph& graph) {
@@ -51,13 +51,13 @@ TimeExpandedGraphs::Outcome PathPlanner::timed_graph(AgentIndex agent, const Age
                      most_nodes, limits, graph);
 }
 
-Sequence PathPlanner::sequence(AgentIndex agent, const AgentOrder& order, Constraints constraints,
-                               const Path& path) {
+Sequence PathPlanner::sequence(AgentIndex agent, const AgentSequencing& order,
+                               Constraints constraints, const Path& path) {
   if (order.goals) return order.sequences.prefix;
   return realized_sequence(free_goals(agent, order, constraints), path);
 }
 
-std::optional<Split> PathPlanner::sequence_split(AgentIndex agent, const AgentOrder& order,
+std::optional<Split> PathPlanner::sequence_split(AgentIndex agent, const AgentSequencing& order,
                                                  Constraints constraints, const Path& path) {
   if (order.goals) return std::nullopt;
   const SequenceStages& goals = free_goals(agent, order, constraints);
@@ -74,7 +74,7 @@ PathPlanner::Constraints PathPlanner::on_path(Constraints constraints) {
   return on_path_;
 }
 
-SequenceStages& PathPlanner::free_goals(AgentIndex agent, const AgentOrder& order,
+SequenceStages& PathPlanner::free_goals(AgentIndex agent, const AgentSequencing& order,
                                         Constraints constraints) {
   if (std::ranges::none_of(constraints, is_about_sequence))
     return free_goals(agent, order.sequences);

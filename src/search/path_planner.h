@@ -18,8 +18,8 @@
 
 namespace grove::detail {
 
-// Plans one agent under an AgentOrder: through its goals where the order is fixed, else choosing
-// the order. Workspace of one thread: reuse it, do not share it.
+// Plans one agent under an AgentSequencing: through its goals where the order is fixed, else
+// choosing the order. Workspace of one thread: reuse it, do not share it.
 class PathPlanner {
  public:
   // `problem` and `stops` must outlive this; `stops` may be shared with others of the same thread.
@@ -29,28 +29,28 @@ class PathPlanner {
               std::unique_ptr<AgentPlanner> free = nullptr, bool repeatable = false);
 
   // As AgentPlanner::find, with the agent's constraints of all kinds in the query.
-  PathOutcome find(AgentIndex agent, const AgentOrder& order, PathQuery query, const Limits& limits,
-                   Path& path);
+  PathOutcome find(AgentIndex agent, const AgentSequencing& order, PathQuery query,
+                   const Limits& limits, Path& path);
 
   // As MddBuilder::build.
-  MddBuilder::Outcome optimal_paths(AgentIndex agent, const AgentOrder& order,
+  MddBuilder::Outcome optimal_paths(AgentIndex agent, const AgentSequencing& order,
                                     std::span<const Constraint> constraints, Time cost,
                                     std::size_t most_nodes, const Limits& limits, Mdd& paths);
 
   // As TimeExpandedGraphs::make.
-  TimeExpandedGraphs::Outcome timed_graph(AgentIndex agent, const AgentOrder& order,
+  TimeExpandedGraphs::Outcome timed_graph(AgentIndex agent, const AgentSequencing& order,
                                           std::span<const Constraint> constraints, Time most_cost,
                                           std::size_t most_nodes, const Limits& limits,
                                           AgentGraph& graph);
 
   // A sequence that `path`, which must realize one that the order and the constraints leave, visits
   // its stops in.
-  Sequence sequence(AgentIndex agent, const AgentOrder& order,
+  Sequence sequence(AgentIndex agent, const AgentSequencing& order,
                     std::span<const Constraint> constraints, const Path& path);
 
   // A split of the class that the order and the constraints leave, on the next stop of `path`,
   // which must obey both; none if they leave no choice.
-  std::optional<Split> sequence_split(AgentIndex agent, const AgentOrder& order,
+  std::optional<Split> sequence_split(AgentIndex agent, const AgentSequencing& order,
                                       std::span<const Constraint> constraints, const Path& path);
 
   // Calls of find(), and labels expanded by them, so far.
@@ -66,7 +66,8 @@ class PathPlanner {
  private:
   using Constraints = std::span<const Constraint>;
 
-  SequenceStages& free_goals(AgentIndex agent, const AgentOrder& order, Constraints constraints);
+  SequenceStages& free_goals(AgentIndex agent, const AgentSequencing& order,
+                             Constraints constraints);
   SequenceStages& free_goals(AgentIndex agent, const SequenceClass& work);
   Constraints on_path(Constraints constraints);
 

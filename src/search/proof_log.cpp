@@ -9,7 +9,8 @@ namespace grove::detail {
 namespace {
 
 // What a tree fixes of an agent's order, as demands.
-void add_order(AgentIndex agent, const AgentOrder& order, std::vector<AgentConstraint>& demands) {
+void add_order(AgentIndex agent, const AgentSequencing& order,
+               std::vector<AgentConstraint>& demands) {
   const SequenceClass& sequences = order.sequences;
   const auto add = [&](std::size_t number, Stop stop, ConstraintKind kind) {
     const auto at = static_cast<Time>(number);

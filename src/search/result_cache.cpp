@@ -45,7 +45,7 @@ SubproblemTable::Known WorkerCache::known(Id id) const {
   return found == found_.costs.end() ? common_->situations.known(id) : found->second;
 }
 
-const Mdd* WorkerCache::paths(Id id, AgentIndex agent, const AgentOrder& order,
+const Mdd* WorkerCache::paths(Id id, AgentIndex agent, const AgentSequencing& order,
                               std::span<const Constraint> constraints, Time cost,
                               const Limits& limits) {
   ++sets_asked_;

@@ -99,7 +99,7 @@ class WorkerCache {
   std::int64_t numbering() const { return common_->number; }
 
   // As those of Situations.
-  Id id(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints) {
+  Id id(AgentIndex agent, const AgentSequencing& order, std::span<const Constraint> constraints) {
     ++asked_;
     return common_->situations.id(agent, order, constraints);
   }
@@ -113,7 +113,7 @@ class WorkerCache {
   void merge(Id id, SubproblemTable::Known known) { found_.costs[id] = known; }
 
   // As MddCache::find; valid until take_found().
-  const Mdd* paths(Id id, AgentIndex agent, const AgentOrder& order,
+  const Mdd* paths(Id id, AgentIndex agent, const AgentSequencing& order,
                    std::span<const Constraint> constraints, Time cost, const Limits& limits);
 
   // As those of Excesses. Partners and groups come in any order, perhaps more than once.

@@ -62,7 +62,7 @@ NodePtr SequenceForest::next_root() {
   return root;
 }
 
-std::shared_ptr<const AgentOrder>& SequenceForest::slot(AgentIndex agent, std::uint32_t rank) {
+std::shared_ptr<const AgentSequencing>& SequenceForest::slot(AgentIndex agent, std::uint32_t rank) {
   auto& ranks = orders_[agent];
   if (ranks.size() <= rank) ranks.resize(rank + 1);
   return ranks[rank];
@@ -93,8 +93,8 @@ bool SequenceForest::plan_order(AgentIndex agent, std::uint32_t rank) {
     throw std::logic_error("internal error: a sequence of finite cost has no path");
   PackedPath packed(instance.world(), path_);
   others_.add(path_);
-  slot(agent, rank) = std::make_shared<const AgentOrder>(
-      AgentOrder{{sequence, 0}, std::move(goals), std::move(packed)});
+  slot(agent, rank) = std::make_shared<const AgentSequencing>(
+      AgentSequencing{{sequence, 0}, std::move(goals), std::move(packed)});
   return true;
 }
 

@@ -30,7 +30,7 @@ class SequenceForest : public Forest {
   std::int64_t rtsp_calls() const override { return sequences_.rtsp_calls(); }
 
  private:
-  std::shared_ptr<const AgentOrder>& slot(AgentIndex agent, std::uint32_t rank);
+  std::shared_ptr<const AgentSequencing>& slot(AgentIndex agent, std::uint32_t rank);
   bool plan_missing_orders(const JointSequence& joint);
   bool plan_order(AgentIndex agent, std::uint32_t rank);
   void avoid(AgentIndex agent, const PackedSteps& path);
@@ -41,7 +41,7 @@ class SequenceForest : public Forest {
   std::vector<CostMatrix> matrices_;
   KBestJointSequences sequences_;
   std::optional<JointSequence> pending_;  // taken from sequences_, not yet a tree
-  std::vector<std::vector<std::shared_ptr<const AgentOrder>>> orders_;  // by agent, then rank
+  std::vector<std::vector<std::shared_ptr<const AgentSequencing>>> orders_;  // by agent, then rank
   FixedOrderSipp low_level_;
   ConflictAvoidanceTable others_;
   Path path_;

@@ -29,7 +29,7 @@ SingleTree::SingleTree(const Problem& problem, AgentStopsCache& stops, NodePool&
 NodePtr SingleTree::next_root() {
   if (!tree_.empty()) return nullptr;
   ConflictAvoidanceTable others(problem_.instance.world());
-  std::vector<std::shared_ptr<const AgentOrder>> orders;
+  std::vector<std::shared_ptr<const AgentSequencing>> orders;
   Path path;
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent) {
     SequenceStages goals(stops_.of(agent), SequenceClass());
@@ -38,8 +38,8 @@ NodePtr SingleTree::next_root() {
     if (outcome != PathOutcome::kFound)
       throw std::logic_error("internal error: an agent that can reach all its cells has no path");
     others.add(path);
-    orders.push_back(std::make_shared<const AgentOrder>(
-        AgentOrder{{}, std::nullopt, PackedPath(problem_.instance.world(), path)}));
+    orders.push_back(std::make_shared<const AgentSequencing>(
+        AgentSequencing{{}, std::nullopt, PackedPath(problem_.instance.world(), path)}));
   }
   planner_.reset();
   Tree& tree = tree_.emplace_back(Tree{&problem_.instance.world(), &pool_, 0, std::move(orders)});

@@ -12,7 +12,7 @@ namespace grove::detail {
 namespace {
 
 // Of a key: see key_begun().
-constexpr std::size_t kBytesBeforeConstraints = sizeof(const AgentOrder*) + sizeof(AgentIndex);
+constexpr std::size_t kBytesBeforeConstraints = sizeof(const AgentSequencing*) + sizeof(AgentIndex);
 
 std::size_t place_of(SubproblemTable::Id id) {
   return static_cast<std::size_t>(id) / Sharded<int>::kParts;
@@ -32,7 +32,7 @@ Value taken_from(std::string_view& bytes) {
 }
 
 // The beginning of a key: its constraints are to follow. The calling thread's, until it asks again.
-std::string& key_begun(AgentIndex agent, const AgentOrder& order) {
+std::string& key_begun(AgentIndex agent, const AgentSequencing& order) {
   thread_local std::string key;
   key.clear();
   append(&order, key);
@@ -42,14 +42,14 @@ std::string& key_begun(AgentIndex agent, const AgentOrder& order) {
 
 AgentSubproblem situation_of(std::string_view key) {
   AgentSubproblem situation;
-  situation.order = taken_from<const AgentOrder*>(key);
+  situation.order = taken_from<const AgentSequencing*>(key);
   situation.agent = taken_from<AgentIndex>(key);
   situation.constraints.bytes = key;
   return situation;
 }
 
 // Of values, not of addresses: the same in every run, so that tables are of the same size.
-std::uint64_t hash_of(const AgentOrder& order, std::string_view key) {
+std::uint64_t hash_of(const AgentSequencing& order, std::string_view key) {
   std::uint64_t hash = order.sequences.forbidden_next;
   for (const Stop stop : order.sequences.prefix) hash = hash_combine(hash, stop);
   key.remove_prefix(sizeof &order);
@@ -74,7 +74,7 @@ void add_to_canonical(std::vector<Constraint>& constraints, const Constraint& mo
   if (at == constraints.end() || *at != more) constraints.insert(at, more);
 }
 
-SubproblemTable::Id SubproblemTable::id(AgentIndex agent, const AgentOrder& order,
+SubproblemTable::Id SubproblemTable::id(AgentIndex agent, const AgentSequencing& order,
                                         std::span<const Constraint> constraints) {
   GROVE_ASSERT(std::ranges::is_sorted(constraints, {}, key_of),
                "constraints are in canonical order");
@@ -89,7 +89,7 @@ SubproblemTable::Id SubproblemTable::id(const AgentSubproblem& situation) {
   return id_of_key(*situation.order, key);
 }
 
-SubproblemTable::Id SubproblemTable::id_of_key(const AgentOrder& order, std::string_view key) {
+SubproblemTable::Id SubproblemTable::id_of_key(const AgentSequencing& order, std::string_view key) {
   const std::uint64_t hash = hash_of(order, key);
   const std::size_t number = hash >> (64 - Sharded<Part>::kBits);
   const Id at = parts_.with(number, [&](Part& part) {

@@ -19,7 +19,7 @@ namespace grove::detail {
 
 // As below, as a value.
 struct AgentSubproblem {
-  const AgentOrder* order = nullptr;
+  const AgentSequencing* order = nullptr;
   AgentIndex agent = -1;
   PackedConstraints constraints;  // in canonical order
 };
@@ -42,7 +42,7 @@ class SubproblemTable {
 
   // The number of a situation. `constraints` must be in canonical order, see canonical(). `order`
   // must outlive this object.
-  Id id(AgentIndex agent, const AgentOrder& order, std::span<const Constraint> constraints);
+  Id id(AgentIndex agent, const AgentSequencing& order, std::span<const Constraint> constraints);
   Id id(const AgentSubproblem& situation);
 
   // What has this number.
@@ -73,7 +73,7 @@ class SubproblemTable {
     std::size_t bytes() const;
   };
 
-  Id id_of_key(const AgentOrder& order, std::string_view key);
+  Id id_of_key(const AgentSequencing& order, std::string_view key);
 
   Sharded<Part> parts_;  // an Id is the place in a part and the part's number
   std::atomic<std::size_t> bytes_{0};

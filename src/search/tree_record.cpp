@@ -14,7 +14,7 @@
 namespace grove::detail {
 namespace {
 
-TreeRecord::Order record_of(const World& world, const AgentOrder& order) {
+TreeRecord::Order record_of(const World& world, const AgentSequencing& order) {
   const PackedSteps path = order.path.view();
   return {order.sequences, order.goals.has_value(), path.steps,
           std::vector(path.words, path.words + packed_words(world, path.steps))};
@@ -78,7 +78,7 @@ Trees::Order Trees::order_of(AgentIndex agent, const TreeRecord::Order& record) 
   };
   const auto found = std::ranges::find_if(known, same);
   if (found != known.end()) return *found;
-  return known.emplace_back(std::make_shared<const AgentOrder>(made(agent, record)));
+  return known.emplace_back(std::make_shared<const AgentSequencing>(made(agent, record)));
 }
 
 // Of a path through the goals, which takes `known` steps at most.
@@ -91,7 +91,7 @@ Time Trees::least_cost(const GoalSequence& goals, std::uint32_t known) {
   return outcome == PathOutcome::kFound ? static_cast<Time>(path.size()) - 1 : kNever;
 }
 
-AgentOrder Trees::made(AgentIndex agent, const TreeRecord::Order& record) {
+AgentSequencing Trees::made(AgentIndex agent, const TreeRecord::Order& record) {
   const Instance& instance = problem_.instance;
   const Path path = path_of(record, instance, agent);
   if (record.fixed)

@@ -15,7 +15,7 @@ namespace grove::detail {
 
 // All that a tree fixes, and its root's paths. A value.
 struct TreeRecord {
-  // See AgentOrder.
+  // See AgentSequencing.
   struct Order {
     SequenceClass sequences;
     bool fixed = false;                // the goals follow from the complete prefix
@@ -49,11 +49,11 @@ class Trees {
   std::size_t size() const { return trees_.size(); }
 
  private:
-  using Order = std::shared_ptr<const AgentOrder>;
+  using Order = std::shared_ptr<const AgentSequencing>;
 
   Order order_of(AgentIndex agent, const TreeRecord::Order& record);
   Time least_cost(const GoalSequence& goals, std::uint32_t known);
-  AgentOrder made(AgentIndex agent, const TreeRecord::Order& record);
+  AgentSequencing made(AgentIndex agent, const TreeRecord::Order& record);
 
   const Problem& problem_;
   AgentStopsCache& stops_;

@@ -23,7 +23,7 @@ class FrontierTest : public ::testing::Test {
     Tree& tree = trees_.emplace_back();
     tree.world = &instance_.world();
     tree.pool = &pool_;
-    tree.orders.push_back(std::make_shared<const AgentOrder>(AgentOrder{
+    tree.orders.push_back(std::make_shared<const AgentSequencing>(AgentSequencing{
         {}, GoalSequence(instance_, distances_, 0, {}), PackedPath(instance_.grid(), path)}));
     return Node::root(tree);
   }

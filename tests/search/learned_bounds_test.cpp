@@ -90,7 +90,7 @@ TEST(Facts, AreNewsOnce) {
 // Two trees in which the first agent has one order, and the second agent another in each.
 struct TwoTrees {
   TwoTrees() {
-    for (int i = 0; i < 3; ++i) orders.push_back(std::make_shared<AgentOrder>());
+    for (int i = 0; i < 3; ++i) orders.push_back(std::make_shared<AgentSequencing>());
     trees[0].number = 4;
     trees[0].orders = {orders[0], orders[1]};
     trees[1].number = 7;
@@ -103,7 +103,7 @@ struct TwoTrees {
                                    memory.situations.id(1, *orders[second], demands));
   }
 
-  std::vector<std::shared_ptr<const AgentOrder>> orders;
+  std::vector<std::shared_ptr<const AgentSequencing>> orders;
   std::array<Tree, 2> trees;
   TreeIndex known;
   SharedCache memory;

@@ -45,9 +45,9 @@ class NodeTest : public ::testing::Test {
 
   void add_order(AgentIndex agent, const Sequence& sequence, const Path& path) {
     SequenceClass sequences{sequence, 0};
-    tree_.orders.push_back(std::make_shared<const AgentOrder>(
-        AgentOrder{std::move(sequences), goals_in_order(problem_, agent, sequence),
-                   PackedPath(instance_.grid(), path)}));
+    tree_.orders.push_back(std::make_shared<const AgentSequencing>(
+        AgentSequencing{std::move(sequences), goals_in_order(problem_, agent, sequence),
+                        PackedPath(instance_.grid(), path)}));
   }
 
   NodePtr child(const NodePtr& parent, AgentIndex agent, Time barred, const Path& path, Cost cost) {

@@ -69,7 +69,7 @@ class SplitClasses : public ::testing::TestWithParam<bool> {
   Problem problem_{instance_, Limits()};
   AgentStopsCache stops_{instance_, problem_.distances};
   PathPlanner planner_{problem_, stops_};
-  AgentOrder open_{{}, std::nullopt, PackedPath()};
+  AgentSequencing open_{{}, std::nullopt, PackedPath()};
   Path path_;
 };
 

@@ -68,7 +68,7 @@ class Groups : public ::testing::Test {
     return situations_.id(agent, order_, list);
   }
 
-  const AgentOrder order_;
+  const AgentSequencing order_;
   SubproblemTable situations_;
   DependencyTable excesses_{situations_};
 };

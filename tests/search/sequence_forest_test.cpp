@@ -57,7 +57,7 @@ TEST_F(ForestTest, NextBoundNeverExceedsTheNextTree) {
 
 TEST_F(ForestTest, TreesShareTheOrdersTheyHaveInCommon) {
   SequenceForest forest(problem_, pool_, RtspBackend::kAuto, limits_);
-  std::set<const AgentOrder*> orders;
+  std::set<const AgentSequencing*> orders;
   while (const NodePtr root = forest.next_root())
     for (const auto& order : root->tree().orders) orders.insert(order.get());
   EXPECT_EQ(orders.size(), 6u + 2u);

@@ -26,13 +26,13 @@ std::vector<Constraint> random_constraints(std::mt19937& random) {
 
 TEST(SubproblemTable, AreTheSameIfAgentOrderAndConstraintsAre) {
   std::mt19937 random(3);
-  const std::vector<AgentOrder> orders(2);
+  const std::vector<AgentSequencing> orders(2);
   SubproblemTable situations;
-  using Key = std::tuple<AgentIndex, const AgentOrder*, std::vector<Constraint>>;
+  using Key = std::tuple<AgentIndex, const AgentSequencing*, std::vector<Constraint>>;
   std::map<SubproblemTable::Id, Key> keys;
   for (int round = 0; round < 3000; ++round) {
     const auto agent = static_cast<AgentIndex>(random() % 3);
-    const AgentOrder& order = orders[random() % 2];
+    const AgentSequencing& order = orders[random() % 2];
     const auto constraints = random_constraints(random);
     const SubproblemTable::Id id = situations.id(agent, order, constraints);
     const Key key{agent, &order, constraints};
@@ -51,12 +51,12 @@ TEST(SubproblemTable, AreTheSameIfAgentOrderAndConstraintsAre) {
     EXPECT_EQ(situations.known(id).at_least, id);
   }
   EXPECT_GT(keys.size(), 500u);
-  EXPECT_GT(situations.bytes(), keys.size() * (sizeof(AgentIndex) + sizeof(AgentOrder*)));
+  EXPECT_GT(situations.bytes(), keys.size() * (sizeof(AgentIndex) + sizeof(AgentSequencing*)));
 }
 
 TEST(SubproblemTable, KeepTheStrongerStatement) {
   SubproblemTable situations;
-  const AgentOrder order;
+  const AgentSequencing order;
   const SubproblemTable::Id id = situations.id(0, order, {});
   situations.merge(id, {5, false});
   situations.merge(id, {3, false});
@@ -67,7 +67,7 @@ TEST(SubproblemTable, KeepTheStrongerStatement) {
 }
 
 TEST(SubproblemTable, AreNumberedAlikeForAllThreads) {
-  const std::vector<AgentOrder> orders(1);
+  const std::vector<AgentSequencing> orders(1);
   SubproblemTable situations;
   constexpr int kThreads = 4;
   std::vector<std::vector<SubproblemTable::Id>> ids(kThreads);

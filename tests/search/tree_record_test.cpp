@@ -75,8 +75,8 @@ class TreeRecords : public ::testing::Test {
 };
 
 TEST_F(TreeRecords, MakeTreesOfAFixedOrderAgain) {
-  std::set<const AgentOrder*> orders;
-  std::set<const AgentOrder*> orders_again;
+  std::set<const AgentSequencing*> orders;
+  std::set<const AgentSequencing*> orders_again;
   std::vector<NodePtr> kept;
   for (const NodePtr& root : fixed_roots(20)) {
     const NodePtr again =

@@ -20,8 +20,8 @@ class ScarceFrontier : public ::testing::Test {
     Path path;
     for (Cell cell = 0; cell <= bound; ++cell) path.push_back(cell);
     trees_.push_back({&instance_.world(), &pool_, 0, {}});
-    trees_.back().orders.push_back(std::make_shared<const AgentOrder>(
-        AgentOrder{{}, std::nullopt, PackedPath(instance_.world(), path)}));
+    trees_.back().orders.push_back(std::make_shared<const AgentSequencing>(
+        AgentSequencing{{}, std::nullopt, PackedPath(instance_.world(), path)}));
     return Node::root(trees_.back());
   }
 
