@@ -234,7 +234,7 @@ NodePtr Brancher::child(const NodeView& view, const NodePtr& parent, const Agent
   std::vector<NewPath> paths;
   for (std::size_t i = 0; i < side.agents.size(); ++i)
     paths.push_back({side.agents[i], &side.paths[i]});
-  Change change;
+  NodeDelta change;
   change.added = demand;
   change.paths = paths;
   change.cost = view.node()->cost() + side.increase;

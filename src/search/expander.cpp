@@ -90,7 +90,7 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
     }
     if (bound >= cutoff) return expansion;
     if (bound > node->bound()) {
-      Change change;
+      NodeDelta change;
       change.cost = node->cost();
       change.bound = bound;
       change.conflicts = node->conflicts();

@@ -17,13 +17,13 @@ Cost cost_of_root(const Tree& tree) {
 }  // namespace
 
 NodePtr Node::root(const Tree& tree) {
-  Change change;
+  NodeDelta change;
   change.cost = change.bound = cost_of_root(tree);
   void* memory = tree.pool->allocate(bytes(*tree.world, change.paths));
   return NodePtr(new (memory) Node(nullptr, tree, change));
 }
 
-NodePtr Node::child(const NodePtr& parent, const Change& change) {
+NodePtr Node::child(const NodePtr& parent, const NodeDelta& change) {
   const Tree& tree = parent->tree();
   const World& world = *tree.world;
   void* memory = tree.pool->allocate(bytes(world, change.paths));

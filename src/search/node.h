@@ -77,7 +77,7 @@ struct NewPath {
 };
 
 // What a child adds to its parent.
-struct Change {
+struct NodeDelta {
   AgentConstraint added;           // agent -1: no constraint
   std::span<const NewPath> paths;  // of the agents that do not go on as they did
   Cost cost = 0;                   // the sum of all agents' costs then
@@ -95,7 +95,7 @@ class Node {
   // The root of `tree`, no constraints.
   static NodePtr root(const Tree& tree);
   // Its bound is the greatest of its parent's, its cost and the one given.
-  static NodePtr child(const NodePtr& parent, const Change& change);
+  static NodePtr child(const NodePtr& parent, const NodeDelta& change);
 
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
@@ -144,7 +144,7 @@ class Node {
   };
   static_assert(sizeof(PathHead) == sizeof(std::uint64_t));
 
-  Node(NodePtr parent, const Tree& tree, const Change& change)
+  Node(NodePtr parent, const Tree& tree, const NodeDelta& change)
       : path_count_(static_cast<std::uint32_t>(change.paths.size())),
         parent_(std::move(parent)),
         tree_(&tree),

@@ -53,7 +53,7 @@ NodePtr node_of(const NodeRecord& record, const NodePtr& root, const Instance& i
   check(record, *root, instance);
   NodePtr node = root;
   for (const AgentConstraint& constraint : record.constraints) {
-    Change change;
+    NodeDelta change;
     change.added = constraint;
     node = Node::child(node, change);
   }
@@ -65,7 +65,7 @@ NodePtr node_of(const NodeRecord& record, const NodePtr& root, const Instance& i
                                                       instance.agent(walk.agent).start, paths[i]);
     changed.push_back({walk.agent, &paths[i]});
   }
-  Change change;
+  NodeDelta change;
   change.paths = changed;
   change.cost = record.cost;
   change.bound = record.bound;

@@ -88,7 +88,7 @@ NodePtr NodeView::node_with_current_paths() const {
   if (rerouted_.empty()) return node_;
   std::vector<NewPath> paths;
   for (AgentIndex agent : rerouted_) paths.push_back({agent, &paths_[agent]});
-  Change change;
+  NodeDelta change;
   change.paths = paths;
   change.cost = node_->cost();
   return Node::child(node_, change);

@@ -17,7 +17,7 @@ struct TwoAgents : testing::NodeAtHand {
   // A child in which agent 0 takes this path, at what the node says to cost.
   NodePtr child(const Path& path, Cost cost, const AgentConstraint& added = {}) {
     const NewPath taken{0, &path};
-    Change change;
+    NodeDelta change;
     change.added = added;
     change.paths = {&taken, 1};
     change.cost = cost;

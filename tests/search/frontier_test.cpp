@@ -117,7 +117,7 @@ TEST_F(FrontierTest, PrunesOnlyFromTheGivenBoundOn) {
 
 TEST_F(FrontierTest, TakesThePromisingWithinOmegaOnly) {
   const auto with_conflicts = [&](Time bound, std::uint32_t conflicts) {
-    Change change;
+    NodeDelta change;
     change.cost = bound;
     change.conflicts = conflicts;
     return Node::child(node(bound), change);

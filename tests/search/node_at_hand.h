@@ -44,7 +44,7 @@ struct NodeAtHand {
     }
     std::vector<NewPath> taken;
     for (const Path& path : paths) taken.push_back({static_cast<AgentIndex>(taken.size()), &path});
-    Change change;
+    NodeDelta change;
     change.paths = taken;
     change.cost = root->cost();
     view.enter(Node::child(root, change), all);

@@ -53,7 +53,7 @@ class NodeTest : public ::testing::Test {
   NodePtr child(const NodePtr& parent, AgentIndex agent, Time barred, const Path& path, Cost cost) {
     const AgentConstraint added{agent, {1, kNoCell, barred, barred}};
     const NewPath changed{agent, &path};
-    Change change;
+    NodeDelta change;
     change.added = added;
     change.paths = {&changed, 1};
     change.cost = cost;
@@ -104,12 +104,12 @@ TEST_F(NodeTest, AChangeMayBeOfManyPathsOrNone) {
   const Path first{0, 0, 1, 2};
   const Path second{4, 4, 4, 5, 6, 5};
   const std::array<NewPath, 2> both{{{1, &second}, {0, &first}}};
-  Change change;
+  NodeDelta change;
   change.paths = both;
   change.cost = 8;
   change.conflicts = 3;
   const NodePtr node = Node::child(root_, change);
-  Change raise;
+  NodeDelta raise;
   raise.cost = 8;
   raise.bound = 11;
   raise.bounded = true;
@@ -133,7 +133,7 @@ TEST_F(NodeTest, AChangeMayBeOfManyPathsOrNone) {
 }
 
 TEST_F(NodeTest, WhereOneRestsTheOthersAreBarred) {
-  Change change;
+  NodeDelta change;
   change.added = {0, {2, kNoCell, 0, 4, ConstraintKind::kRestBy}};
   change.cost = 5;
   const NodePtr node = Node::child(root_, change);

@@ -27,8 +27,8 @@ class ScarceFrontier : public ::testing::Test {
 
   // Does `change` to a frontier with a node open and one taken, letting each of its allocations
   // fail in turn; after each failure `holds` must be true. Returns how many failed.
-  template <class Change, class Holds>
-  int fail_everywhere(Change change, Holds holds) {
+  template <class NodeDelta, class Holds>
+  int fail_everywhere(NodeDelta change, Holds holds) {
     for (int at = 0;; ++at) {
       Frontier frontier;
       frontier.push(node(3));
