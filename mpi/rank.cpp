@@ -20,7 +20,7 @@ constexpr std::int64_t kCachedOnlyNodes = 2;
 constexpr std::size_t kNodesInAPart = 500;
 constexpr double kBytesPerMegabyte = 1e6;
 
-// What a rank with these open nodes can spare; see Frontier::take_spare().
+// What a rank with these open nodes can spare; see Frontier::take_for_transfer().
 std::vector<message::Spare> spare_of(const std::vector<Frontier::Level>& levels, bool keeps_next) {
   std::vector<message::Spare> spare;
   for (std::size_t i = 0; i < levels.size(); ++i) {
@@ -135,7 +135,8 @@ void Rank::take_over_held() {
 void Rank::give(const message::Order& order) {
   if (order.to_idle) others_wait();
   const bool keeps = !order.to_idle || keeps_next();
-  const auto nodes = nodes_.frontier.take_spare(static_cast<std::size_t>(order.count), keeps);
+  const auto nodes =
+      nodes_.frontier.take_for_transfer(static_cast<std::size_t>(order.count), keeps);
   message::Batch batch;
   batch.era = era_;
   for (const NodePtr& node : nodes) batch.nodes.push_back(record_of(*node));
@@ -174,7 +175,7 @@ void Rank::release(const message::Release& covered) {
 
 void Rank::accept(const message::Entrust& entrusted) {
   push(entrusted.nodes, {});
-  nodes_.frontier.note_evicted(entrusted.evicted_bound);
+  nodes_.frontier.record_evicted_bound(entrusted.evicted_bound);
   ++entrusted_;
   superior_.urge();
 }

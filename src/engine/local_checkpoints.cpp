@@ -51,7 +51,7 @@ bool restore(CheckpointReader& checkpoint, const Instance& instance, RunState& r
   if (!roots) return false;
   while (const auto next = checkpoint.next())
     nodes.push(node_of(*next, roots->at(next->tree), instance));
-  nodes.frontier.note_evicted(checkpoint.header().evicted_bound);
+  nodes.frontier.record_evicted_bound(checkpoint.header().evicted_bound);
   run.restored();
   return true;
 }

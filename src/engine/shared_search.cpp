@@ -56,7 +56,7 @@ NodePtr SharedSearch::take() {
 NodePtr SharedSearch::take_open() {
   NodePtr node;
   if (plan_is_wanted())
-    node = frontier_.take_promising(omega_, ledger_.lower_bound(), cost_per_conflict_);
+    node = frontier_.take_by_estimate(omega_, ledger_.lower_bound(), cost_per_conflict_);
   return node ? node : frontier_.take();
 }
 
@@ -86,7 +86,7 @@ void SharedSearch::finish(const NodePtr& node, Expansion expansion, int worker) 
       unfinished_ = nullptr;
   }
   if (expansion.stopped || expansion.unfinished) {
-    frontier_.give_back(node);
+    frontier_.reinsert(node);
     return;
   }
   ++nodes_.expanded;

@@ -28,9 +28,9 @@ class LabelPlanes {
  public:
   // Forgets all labels.
   void begin_search(int slots) {
-    if (touched_groups_ > kGroupsKept) give_back();
+    if (touched_groups_ > kGroupsKept) reinsert();
     if (static_cast<std::size_t>(slots) > capacity_) {
-      give_back();
+      reinsert();
       // Tight at first, since memory may be short; but reservations grow path by path.
       const std::size_t tight =
           static_cast<std::size_t>(slots) + static_cast<std::size_t>(slots) / 8 + kSpare;
@@ -39,7 +39,7 @@ class LabelPlanes {
                                                   kMostPlanesPerPiece);
     }
     if (++stamp_ == 0) {
-      give_back();
+      reinsert();
       by_state_.clear();
       stamp_ = 1;
     }
@@ -100,7 +100,7 @@ class LabelPlanes {
   std::size_t groups() const { return capacity_ / kGroup + 1; }
   std::size_t piece_bytes() const { return planes_per_piece_ * capacity_ * sizeof(Label); }
 
-  void give_back() {
+  void reinsert() {
     pieces_.clear();
     touched_groups_ = 0;
   }

@@ -56,7 +56,7 @@ NodePtr Frontier::take() {
 }
 
 // Within a bound the node of fewest conflicts is first, so only the first ones compete.
-NodePtr Frontier::take_promising(Omega omega, Cost lower_bound, double per_conflict) {
+NodePtr Frontier::take_by_estimate(Omega omega, Cost lower_bound, double per_conflict) {
   const std::lock_guard lock(mutex_);
   const auto expected = [&](const auto& rank) {
     return static_cast<double>(rank.first) +
@@ -82,7 +82,7 @@ NodePtr Frontier::take_locked(std::map<Cost, std::vector<Open>>::iterator best) 
 }
 
 // Until enough are found; a heap's last half holds none of its better ones.
-std::vector<NodePtr> Frontier::take_spare(std::size_t count, bool keeps_next) {
+std::vector<NodePtr> Frontier::take_for_transfer(std::size_t count, bool keeps_next) {
   const std::lock_guard lock(mutex_);
   std::vector<NodePtr> spare;
   spare.reserve(std::min(count, open_count_));
@@ -108,7 +108,7 @@ void Frontier::settle(const NodePtr& node) {
   release_locked(node);
 }
 
-void Frontier::give_back(NodePtr node) {
+void Frontier::reinsert(NodePtr node) {
   const std::lock_guard lock(mutex_);
   push_locked(node);
   release_locked(node);
@@ -190,7 +190,7 @@ Frontier::Snapshot Frontier::snapshot() const {
   return snapshot;
 }
 
-void Frontier::note_evicted(Cost bound) {
+void Frontier::record_evicted_bound(Cost bound) {
   const std::lock_guard lock(mutex_);
   evicted_ = std::min(evicted_, bound);
 }

@@ -30,15 +30,15 @@ class Frontier {
   // Like take(), among the open nodes whose bound is within omega of `lower_bound`: the one below
   // which the cheapest plan is expected, if each conflict costs `per_conflict`. Null when there is
   // none. O(distinct bounds within omega).
-  NodePtr take_promising(Omega omega, Cost lower_bound, double per_conflict);
+  NodePtr take_by_estimate(Omega omega, Cost lower_bound, double per_conflict);
   // Takes up to `count` nodes for another frontier, beginning with the best bound: of each bound
   // half of the open nodes, the worse ones; if `keeps_next`, not the node that take() would. Settle
   // them when they count there.
-  std::vector<NodePtr> take_spare(std::size_t count, bool keeps_next);
+  std::vector<NodePtr> take_for_transfer(std::size_t count, bool keeps_next);
   // A taken node has been replaced by what it led to (push that first), or pruned.
   void settle(const NodePtr& node);
   // A taken node goes back unexpanded.
-  void give_back(NodePtr node);
+  void reinsert(NodePtr node);
   // Drops every open node whose bound is at least `bound`, which an incumbent costs; returns how
   // many.
   std::size_t prune(Cost bound);
@@ -61,7 +61,7 @@ class Frontier {
   };
   Snapshot snapshot() const;
   // Something of this bound was given up elsewhere, and is now this frontier's to remember.
-  void note_evicted(Cost bound);
+  void record_evicted_bound(Cost bound);
 
   // Empties the frontier without giving its nodes up, for when their pool is about to go: releasing
   // millions of nodes one by one takes seconds.

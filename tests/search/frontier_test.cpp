@@ -58,7 +58,7 @@ TEST_F(FrontierTest, CountsTakenNodesAsLive) {
 TEST_F(FrontierTest, SpareNodesCountUntilTheyAreSettled) {
   for (const Time bound : {3, 3, 3, 3, 5, 8}) frontier_.push(node(bound));
   EXPECT_EQ(frontier_.levels(2), (std::vector<Frontier::Level>{{3, 4}, {5, 1}}));
-  const auto spare = frontier_.take_spare(3, true);
+  const auto spare = frontier_.take_for_transfer(3, true);
   ASSERT_EQ(spare.size(), 3);
   EXPECT_EQ(spare[1]->bound(), 3);
   EXPECT_EQ(spare[2]->bound(), 5);
@@ -74,9 +74,9 @@ TEST_F(FrontierTest, SpareNodesCountUntilTheyAreSettled) {
 
 TEST_F(FrontierTest, TheNodeThatIsNextIsNotSpare) {
   frontier_.push(node(2));
-  EXPECT_TRUE(frontier_.take_spare(5, true).empty());
+  EXPECT_TRUE(frontier_.take_for_transfer(5, true).empty());
   frontier_.push(node(7));
-  EXPECT_EQ(frontier_.take_spare(5, true).front()->bound(), 7);
+  EXPECT_EQ(frontier_.take_for_transfer(5, true).front()->bound(), 7);
   EXPECT_EQ(frontier_.take()->bound(), 2);
   EXPECT_EQ(frontier_.take(), nullptr);
 }
@@ -85,8 +85,8 @@ TEST_F(FrontierTest, WhoIsAtANodeCanSpareTheNext) {
   frontier_.push(node(2));
   const NodePtr taken = frontier_.take();
   frontier_.push(node(3));
-  EXPECT_TRUE(frontier_.take_spare(5, true).empty());
-  const auto spare = frontier_.take_spare(5, false);
+  EXPECT_TRUE(frontier_.take_for_transfer(5, true).empty());
+  const auto spare = frontier_.take_for_transfer(5, false);
   ASSERT_EQ(spare.size(), 1);
   EXPECT_EQ(spare.front()->bound(), 3);
   EXPECT_EQ(frontier_.bound(), 2);
@@ -101,7 +101,7 @@ TEST_F(FrontierTest, TwoTakenNodesOfOneBoundAreTwo) {
   const NodePtr second = frontier_.take();
   frontier_.settle(first);
   EXPECT_EQ(frontier_.bound(), 1);
-  frontier_.give_back(second);
+  frontier_.reinsert(second);
   EXPECT_EQ(frontier_.bound(), 1);
   EXPECT_EQ(frontier_.open(), 1u);
 }
@@ -127,13 +127,13 @@ TEST_F(FrontierTest, TakesThePromisingWithinOmegaOnly) {
   const NodePtr too_dear = with_conflicts(7, 0);
   for (const NodePtr& pushed : {crowded, promising, too_dear}) frontier_.push(pushed);
   const Omega half = Omega::parse("0.5");
-  const NodePtr taken = frontier_.take_promising(half, 4, 1);
+  const NodePtr taken = frontier_.take_by_estimate(half, 4, 1);
   EXPECT_EQ(taken, promising);
   EXPECT_EQ(frontier_.bound(), 4);
   frontier_.settle(taken);
-  EXPECT_EQ(frontier_.take_promising(half, 4, 1), crowded);
-  EXPECT_EQ(frontier_.take_promising(half, 4, 1), nullptr);
-  EXPECT_EQ(frontier_.take_promising(Omega::infinite(), 4, 1), too_dear);
+  EXPECT_EQ(frontier_.take_by_estimate(half, 4, 1), crowded);
+  EXPECT_EQ(frontier_.take_by_estimate(half, 4, 1), nullptr);
+  EXPECT_EQ(frontier_.take_by_estimate(Omega::infinite(), 4, 1), too_dear);
 }
 
 TEST_F(FrontierTest, EvictsTheWorstAndKeepsTheirLeastBound) {

@@ -73,7 +73,7 @@ TEST_F(ScarceFrontier, LosesNothingWhenTakingFails) {
 
 TEST_F(ScarceFrontier, LosesNothingWhenGivingBackFails) {
   const int failures =
-      fail_everywhere([](Frontier& frontier, const NodePtr& taken) { frontier.give_back(taken); },
+      fail_everywhere([](Frontier& frontier, const NodePtr& taken) { frontier.reinsert(taken); },
                       [](const Frontier& frontier) { return frontier.bound() == 3; });
   EXPECT_GT(failures, 0);
 }
