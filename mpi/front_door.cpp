@@ -91,7 +91,7 @@ std::optional<Solution> solve(const Instance& instance, const Options& options,
           detail::RunObserver& listener = rank == 0 ? observer : silent;
           const detail::SharedProblem shared(inner, limits, search.threads, memory);
           const detail::Problem& problem = shared.problem();
-          answer = answer_without_search(problem, search, limits, listener);
+          answer = presolve(problem, search, limits, listener);
           const bool all_search = least(answer ? 0 : 1, communicator) == 1;
           if (all_search) {
             detail::MpiTransport network(communicator);

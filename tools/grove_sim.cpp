@@ -152,7 +152,7 @@ class Study {
     const Limits unlimited;
     const Problem problem(loaded_.instance, unlimited);
     RunObserver silent;
-    if (answer_without_search(problem, options_, unlimited, silent))
+    if (presolve(problem, options_, unlimited, silent))
       throw InputError(a_.solve.instance.name(), "",
                        "has no plan, as is seen without a search; expected something to search");
     begin_with_plan(problem);

@@ -158,8 +158,7 @@ void say_of_destinations_alone(Stats& stats) {
 Solution choose_and_solve(const Instance& instance, const SolveOptions& options,
                           const Limits& limits, RunObserver& observer, Told& told) {
   const Problem problem(instance, limits, options.threads);
-  if (auto answer = answer_without_search(problem, options, limits, observer))
-    return std::move(*answer);
+  if (auto answer = presolve(problem, options, limits, observer)) return std::move(*answer);
   const auto destinations = choose_destinations(problem, options.tuning.visitor_steps, limits);
   if (!destinations && limits.stop_requested()) return stopped(options, limits);
   if (!destinations)

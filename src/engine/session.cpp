@@ -128,7 +128,7 @@ struct Kept {
 
 // Is there an answer to be searched for?
 bool is_searched(const Problem& problem) {
-  return problem.distances.complete() && !evident_infeasibility(problem);
+  return problem.distances.complete() && !presolve_infeasibility(problem);
 }
 
 Solution unknown(const SolveOptions& options, const std::string& reason) {

@@ -130,11 +130,11 @@ Solution stopped_before_search(const Instance& instance, const SolveOptions& opt
 
 }  // namespace
 
-std::optional<Solution> answer_without_search(const Problem& problem, const SolveOptions& options,
-                                              const Limits& limits, RunObserver& observer) {
+std::optional<Solution> presolve(const Problem& problem, const SolveOptions& options,
+                                 const Limits& limits, RunObserver& observer) {
   if (!problem.distances.complete())
     return stopped_before_search(problem.instance, options, limits, observer);
-  const auto reason = evident_infeasibility(problem);
+  const auto reason = presolve_infeasibility(problem);
   if (!reason) return std::nullopt;
   observer.on_infeasible(*reason);
   return without_search(options, Status::kInfeasible, "reason", *reason);
@@ -145,8 +145,7 @@ Solution solve(const Problem& problem, const SolveOptions& options, const Limits
   RunObserver silent;
   RunObserver& watcher = observer ? *observer : silent;
   try {
-    if (auto answer = answer_without_search(problem, options, limits, watcher))
-      return std::move(*answer);
+    if (auto answer = presolve(problem, options, limits, watcher)) return std::move(*answer);
     return search(problem, options, limits, watcher);
   } catch (const std::bad_alloc&) {  // before the search: nothing is known yet
     limits.memory_exhausted();

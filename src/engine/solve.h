@@ -73,7 +73,7 @@ Solution solve(const Problem& problem, const SolveOptions& options, const Limits
 
 // The answer where there is no search to be made: the instance is seen to have no plan, or limits
 // struck before `problem` was complete. None: search. For engines.
-std::optional<Solution> answer_without_search(const Problem& problem, const SolveOptions& options,
-                                              const Limits& limits, RunObserver& observer);
+std::optional<Solution> presolve(const Problem& problem, const SolveOptions& options,
+                                 const Limits& limits, RunObserver& observer);
 
 }  // namespace grove::detail

@@ -183,7 +183,7 @@ std::optional<std::string> stuck_in_a_corridor(const Problem& problem) {
 
 }  // namespace
 
-std::optional<std::string> evident_infeasibility(const Problem& problem) {
+std::optional<std::string> presolve_infeasibility(const Problem& problem) {
   if (auto reason = unreachable_cell(problem)) return reason;
   if (auto reason = agent_without_an_order(problem)) return reason;
   if (auto reason = no_room_to_rest(problem)) return reason;

@@ -339,7 +339,7 @@ void descend(const TinyInstance& tiny, const Instance& instance, std::uint64_t s
   const Techniques techniques = random_techniques(random);
   const Limits limits;
   const Problem problem(instance, limits);
-  if (const auto reason = evident_infeasibility(problem)) fail(tiny, *reason, techniques, seed);
+  if (const auto reason = presolve_infeasibility(problem)) fail(tiny, *reason, techniques, seed);
   AgentStopsCache stops(instance, problem.distances);
   NodePool pool;
   SingleTree forest(problem, stops, pool, limits);

@@ -123,7 +123,7 @@ TEST(Destinations, AreTheCheapestDistinctOnes) {
     const Instance instance = mg_instance(seed);
     const Problem problem(instance, Limits());
     RunObserver silent;
-    if (!has_free_end(instance) || answer_without_search(problem, {}, Limits(), silent)) continue;
+    if (!has_free_end(instance) || presolve(problem, {}, Limits(), silent)) continue;
     const auto destinations = choose_destinations(problem, Tuning().visitor_steps, Limits());
     ASSERT_TRUE(destinations);
     ++chosen;
@@ -289,7 +289,7 @@ TEST(AdaptationB, IsOptimalForItsDestinations) {
     const Instance instance = mg_instance(seed);
     const Problem problem(instance, Limits());
     RunObserver silent;
-    if (!has_free_end(instance) || answer_without_search(problem, {}, Limits(), silent)) continue;
+    if (!has_free_end(instance) || presolve(problem, {}, Limits(), silent)) continue;
     const auto [solution, stopped] = run(Method::kCtsCbsB, instance, {});
     if (stopped) continue;
     const auto destinations = choose_destinations(problem, Tuning().visitor_steps, Limits());

@@ -53,7 +53,7 @@ struct Search {
 };
 
 bool searchable(const Instance& instance) {
-  return !evident_infeasibility(Problem(instance, Limits()));
+  return !presolve_infeasibility(Problem(instance, Limits()));
 }
 
 TEST(PrimalSearch, EveryPlanIsValid) {

@@ -12,7 +12,7 @@ using testing::AgentSpec;
 
 bool evident(const std::vector<std::string>& rows, const std::vector<AgentSpec>& agents) {
   const Instance instance = testing::instance_of(rows, agents);
-  return evident_infeasibility(Problem(instance, Limits())).has_value();
+  return presolve_infeasibility(Problem(instance, Limits())).has_value();
 }
 
 TEST(EvidentInfeasibility, SeesCellsWithoutAWay) {
@@ -31,7 +31,7 @@ TEST(EvidentInfeasibility, SeesThatNoWayLeadsOn) {
     for (const Place task : tasks)
       builder.add_task("t" + roadmap.name(task), task, std::vector<std::string>{"a"});
     const Instance instance = std::move(builder).build();
-    return evident_infeasibility(Problem(instance, Limits())).has_value();
+    return presolve_infeasibility(Problem(instance, Limits())).has_value();
   };
   EXPECT_FALSE(evident_for(2, {0, 1}));
   EXPECT_FALSE(evident_for(std::nullopt, {2, 1, 0}));

@@ -74,7 +74,7 @@ TEST(JointGroups, SayWhatTryingAllWaysSays) {
     if (instance.agent_count() < 2) continue;
     Limits limits;
     const Problem problem(instance, limits);
-    if (evident_infeasibility(problem)) continue;
+    if (presolve_infeasibility(problem)) continue;
     Below s(tiny, seed);
     std::vector<AgentIndex> group(s.all.begin(), s.all.end());
     std::shuffle(group.begin(), group.end(), s.random);

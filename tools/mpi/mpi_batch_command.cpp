@@ -240,7 +240,7 @@ class BatchRun {
   std::optional<Solution> solve_with(const Instance& instance, const Limits& limits,
                                      RunObserver& observer, const Poll& poll) {
     const Problem problem(instance, limits, options_.threads);
-    auto answer = answer_without_search(problem, options_, limits, observer);
+    auto answer = presolve(problem, options_, limits, observer);
     const auto found = batch::gather(*agreement_, answer ? "an answer" : "", poll);
     if (std::ranges::count(found, "") < farm_->ranks()) {
       if (farm_->rank() != 0) return std::nullopt;

@@ -139,7 +139,7 @@ class Run {
   std::optional<Solution> solve_with(RunObserver& observer) {
     const SharedProblem shared(loaded_->instance, limits_, options_.threads, *memory_);
     const Problem& problem = shared.problem();
-    const auto answer = answer_without_search(problem, options_, limits_, observer);
+    const auto answer = presolve(problem, options_, limits_, observer);
     const auto found = session_.gather(answer ? "an answer" : "");
     if (std::ranges::count(found, "") == session_.ranks()) {
       auto solution = solve_by_all(problem, observer);
