@@ -38,44 +38,44 @@
 namespace grove::detail {
 namespace {
 
-constexpr BoardNode kStuck = -1;
+constexpr PebbleNode kStuck = -1;
 
 // From a crossing, or a dead end, to the next. Ways between crossings are there twice.
 struct Way {
-  BoardNode from = Board::kNone;  // kNone: the board is nothing but this way
-  std::vector<BoardNode> nodes;   // the other end included
+  PebbleNode from = PebbleGraph::kNone;  // kNone: the board is nothing but this way
+  std::vector<PebbleNode> nodes;         // the other end included
 
   int length() const { return static_cast<int>(nodes.size()); }
-  BoardNode before_end() const { return nodes.size() > 1 ? nodes[nodes.size() - 2] : from; }
+  PebbleNode before_end() const { return nodes.size() > 1 ? nodes[nodes.size() - 2] : from; }
 };
 
 // What does not depend on who is where.
 class Crossings {
  public:
-  Crossings(const Board& board, int free, bool may_follow)
+  Crossings(const PebbleGraph& board, int free, bool may_follow)
       : board_(board), free_(free), may_follow_(may_follow), joined_(board.size()) {
     std::iota(joined_.begin(), joined_.end(), 0);
     find_ways();
     for (const Way& way : ways_)
       if (is_between(way) && way.length() <= free_ + 2 - need(way.from) - need(way.nodes.back()))
         joined_[root(way.from)] = root(way.nodes.back());
-    for (BoardNode node = 0; node < board.size(); ++node) joined_[node] = root(node);
+    for (PebbleNode node = 0; node < board.size(); ++node) joined_[node] = root(node);
     for (const Way& way : ways_) add_nodes_near(way);
     std::ranges::sort(near_);
   }
 
-  const Board& board() const { return board_; }
+  const PebbleGraph& board() const { return board_; }
   int free() const { return free_; }
   const std::vector<Way>& ways() const { return ways_; }
-  bool is_crossing(BoardNode node) const {
+  bool is_crossing(PebbleNode node) const {
     return board_.is_on_ring(node) || board_.neighbors(node).size() > 2;
   }
-  int need(BoardNode crossing) const { return may_follow_ && board_.is_on_ring(crossing) ? 1 : 2; }
+  int need(PebbleNode crossing) const { return may_follow_ && board_.is_on_ring(crossing) ? 1 : 2; }
   // The number of all crossings that are joined to this one.
-  BoardNode crowd(BoardNode crossing) const { return joined_[crossing]; }
+  PebbleNode crowd(PebbleNode crossing) const { return joined_[crossing]; }
   // How far from it who is not stuck is at most.
-  int most_steps(BoardNode crossing) const { return free_ + 1 - need(crossing); }
-  bool is_reached(BoardNode crowd_there, BoardNode node) const {
+  int most_steps(PebbleNode crossing) const { return free_ + 1 - need(crossing); }
+  bool is_reached(PebbleNode crowd_there, PebbleNode node) const {
     return (is_crossing(node) && crowd(node) == crowd_there) ||
            std::ranges::binary_search(near_, std::pair(node, crowd_there));
   }
@@ -84,48 +84,48 @@ class Crossings {
 
  private:
   bool is_between(const Way& way) const {
-    return way.from != Board::kNone && is_crossing(way.nodes.back());
+    return way.from != PebbleGraph::kNone && is_crossing(way.nodes.back());
   }
-  BoardNode root(BoardNode node) {
-    BoardNode root = board_.region(node);
+  PebbleNode root(PebbleNode node) {
+    PebbleNode root = board_.region(node);
     while (joined_[root] != root) root = joined_[root] = joined_[joined_[root]];
     return root;
   }
   void find_ways() {
-    for (BoardNode node = 0; node < board_.size(); ++node)
+    for (PebbleNode node = 0; node < board_.size(); ++node)
       if (is_crossing(node))
-        for (const BoardNode next : board_.neighbors(node))
+        for (const PebbleNode next : board_.neighbors(node))
           if (board_.is_bridge(node, next)) ways_.push_back(way(node, next));
     if (!ways_.empty()) return;
-    for (BoardNode node = 0; node < board_.size() && ways_.empty(); ++node)
+    for (PebbleNode node = 0; node < board_.size() && ways_.empty(); ++node)
       if (!is_crossing(node) && board_.neighbors(node).size() < 2)
-        ways_.push_back(way(Board::kNone, node));
+        ways_.push_back(way(PebbleGraph::kNone, node));
   }
-  Way way(BoardNode from, BoardNode next) const {
+  Way way(PebbleNode from, PebbleNode next) const {
     Way way{from, {next}};
     while (!is_crossing(way.nodes.back())) {
       const auto neighbors = board_.neighbors(way.nodes.back());
       const auto on =
-          std::ranges::find_if(neighbors, [&](BoardNode n) { return n != way.before_end(); });
+          std::ranges::find_if(neighbors, [&](PebbleNode n) { return n != way.before_end(); });
       if (on == neighbors.end()) break;
       way.nodes.push_back(*on);
     }
     return way;
   }
   void add_nodes_near(const Way& way) {
-    if (way.from == Board::kNone) return;
-    const BoardNode crowd_there = crowd(way.from);
+    if (way.from == PebbleGraph::kNone) return;
+    const PebbleNode crowd_there = crowd(way.from);
     for (int t = 1; t <= std::min(way.length(), most_steps(way.from)); ++t)
       near_.emplace_back(way.nodes[t - 1], crowd_there);
   }
 
-  const Board& board_;
+  const PebbleGraph& board_;
   const int free_;
   const bool may_follow_;
   std::vector<Way> ways_;
-  std::vector<BoardNode> joined_;  // by node; while ways are looked at, a forest of regions
+  std::vector<PebbleNode> joined_;  // by node; while ways are looked at, a forest of regions
   // Nodes beside a crossing, and the crowd that reaches them from there.
-  std::vector<std::pair<BoardNode, BoardNode>> near_;
+  std::vector<std::pair<PebbleNode, PebbleNode>> near_;
 };
 
 // Who belongs where in an arrangement.
@@ -139,7 +139,7 @@ class Membership {
     std::vector<int> counts;
     for (const AgentIndex agent : arrangement) counts.push_back(agent == kNobody ? 1 : 0);
     free_ = board().sums(std::move(counts));
-    for (BoardNode node = 0; node < board().size(); ++node)
+    for (PebbleNode node = 0; node < board().size(); ++node)
       if (!is_free(node) && crossings.is_crossing(node) && !is_held(node))
         crowds_[node] = crossings.crowd(node);
     for (const Way& way : crossings.ways()) add_those_near(way);
@@ -148,46 +148,47 @@ class Membership {
   }
 
   // Of who is on a node; kStuck: of none.
-  BoardNode crowd(BoardNode node) const { return crowds_[node]; }
+  PebbleNode crowd(PebbleNode node) const { return crowds_[node]; }
   // Those who are stuck on a way, in order.
-  const std::vector<std::vector<BoardNode>>& queues() const { return queues_; }
+  const std::vector<std::vector<PebbleNode>>& queues() const { return queues_; }
   // How many nodes beyond this one, as seen from the way, are free?
   int free_before(const Way& way) const {
-    return way.from == Board::kNone
+    return way.from == PebbleGraph::kNone
                ? 0
                : crossings_.free() - board().beyond(way.from, way.nodes.front(), free_);
   }
-  bool is_free(BoardNode node) const { return arrangement_[node] == kNobody; }
+  bool is_free(PebbleNode node) const { return arrangement_[node] == kNobody; }
 
  private:
-  const Board& board() const { return crossings_.board(); }
+  const PebbleGraph& board() const { return crossings_.board(); }
 
   // All that is free is ahead of it.
-  bool is_held_by(BoardNode node, BoardNode next) const {
+  bool is_held_by(PebbleNode node, PebbleNode next) const {
     return crossings_.need(node) == 2 && board().is_bridge(node, next) &&
            board().beyond(node, next, free_) == crossings_.free();
   }
-  bool is_held(BoardNode node) const {
+  bool is_held(PebbleNode node) const {
     return std::ranges::any_of(board().neighbors(node),
-                               [&](BoardNode next) { return is_held_by(node, next); });
+                               [&](PebbleNode next) { return is_held_by(node, next); });
   }
   void add_those_near(const Way& way) {
-    if (way.from == Board::kNone) return;
-    const BoardNode crowd_there = crossings_.crowd(way.from);
+    if (way.from == PebbleGraph::kNone) return;
+    const PebbleNode crowd_there = crossings_.crowd(way.from);
     int steps_less_free = -free_before(way);
-    for (const BoardNode node : way.nodes) {
+    for (const PebbleNode node : way.nodes) {
       if (is_free(node)) continue;
       if (++steps_less_free > 1 - crossings_.need(way.from)) return;
       crowds_[node] = crowd_there;
     }
   }
-  bool is_stuck(BoardNode node) const { return !is_free(node) && crowds_[node] == kStuck; }
+  bool is_stuck(PebbleNode node) const { return !is_free(node) && crowds_[node] == kStuck; }
   void find_queue(std::size_t number) {
     const Way& way = crossings_.ways()[number];
-    std::vector<BoardNode>& queue = queues_[number];
-    if (way.from != Board::kNone && is_stuck(way.from) && is_held_by(way.from, way.nodes.front()))
+    std::vector<PebbleNode>& queue = queues_[number];
+    if (way.from != PebbleGraph::kNone && is_stuck(way.from) &&
+        is_held_by(way.from, way.nodes.front()))
       queue.push_back(way.from);
-    for (const BoardNode node : way.nodes)
+    for (const PebbleNode node : way.nodes)
       if (is_stuck(node) && (!crossings_.is_crossing(node) || is_held_by(node, way.before_end())))
         queue.push_back(node);
   }
@@ -195,15 +196,15 @@ class Membership {
   const Crossings& crossings_;
   const Arrangement& arrangement_;
   std::vector<int> free_;  // sums
-  std::vector<BoardNode> crowds_;
-  std::vector<std::vector<BoardNode>> queues_;  // by way
+  std::vector<PebbleNode> crowds_;
+  std::vector<std::vector<PebbleNode>> queues_;  // by way
 };
 
 // Each agent that belongs to a crowd, with the crowd.
-std::vector<std::pair<AgentIndex, BoardNode>> crowds_of(const Arrangement& arrangement,
-                                                        const Membership& membership) {
-  std::vector<std::pair<AgentIndex, BoardNode>> crowds;
-  for (BoardNode node = 0; node < static_cast<BoardNode>(arrangement.size()); ++node)
+std::vector<std::pair<AgentIndex, PebbleNode>> crowds_of(const Arrangement& arrangement,
+                                                         const Membership& membership) {
+  std::vector<std::pair<AgentIndex, PebbleNode>> crowds;
+  for (PebbleNode node = 0; node < static_cast<PebbleNode>(arrangement.size()); ++node)
     if (membership.crowd(node) != kStuck)
       crowds.emplace_back(arrangement[node], membership.crowd(node));
   std::ranges::sort(crowds);
@@ -214,16 +215,16 @@ std::vector<std::pair<AgentIndex, BoardNode>> crowds_of(const Arrangement& arran
 std::vector<std::vector<AgentIndex>> queues_of(const Arrangement& arrangement,
                                                const Membership& membership) {
   std::vector<std::vector<AgentIndex>> queues;
-  for (const std::vector<BoardNode>& queue : membership.queues()) {
+  for (const std::vector<PebbleNode>& queue : membership.queues()) {
     queues.emplace_back();
-    for (const BoardNode node : queue) queues.back().push_back(arrangement[node]);
+    for (const PebbleNode node : queue) queues.back().push_back(arrangement[node]);
   }
   return queues;
 }
 
 class CrowdReach : public Reach {
  public:
-  CrowdReach(const Board& board, const Arrangement& start, bool may_follow)
+  CrowdReach(const PebbleGraph& board, const Arrangement& start, bool may_follow)
       : start_(start),
         crossings_(board, static_cast<int>(std::ranges::count(start, kNobody)), may_follow),
         now_(crossings_, start_),
@@ -234,7 +235,7 @@ class CrowdReach : public Reach {
       if (crossings_.is_first(crossings_.ways()[way])) look_along(way);
   }
 
-  bool has(BoardNode from, BoardNode to) const override {
+  bool has(PebbleNode from, PebbleNode to) const override {
     if (now_.crowd(from) != kStuck) return crossings_.is_reached(now_.crowd(from), to);
     const auto nodes_before = nodes_before_on(held_on(from), to);
     if (!nodes_before) return false;
@@ -256,14 +257,14 @@ class CrowdReach : public Reach {
     int nodes_before = 0;
   };
 
-  const Way& held_on(BoardNode node) const { return crossings_.ways()[spots_[node].way]; }
+  const Way& held_on(PebbleNode node) const { return crossings_.ways()[spots_[node].way]; }
   // Before the first that is no crossing.
   int nodes_before(const Way& way) const {
-    return way.from == Board::kNone
+    return way.from == PebbleGraph::kNone
                ? 0
                : sizes_.front() - crossings_.board().beyond(way.from, way.nodes.front(), sizes_);
   }
-  std::optional<int> nodes_before_on(const Way& way, BoardNode node) const {
+  std::optional<int> nodes_before_on(const Way& way, PebbleNode node) const {
     if (node == way.from) return nodes_before(way) - 1;
     if (node == way.nodes.back()) return nodes_before(way) + way.length() - 1;
     if (crossings_.is_crossing(node) || &held_on(node) != &way) return std::nullopt;
@@ -274,13 +275,13 @@ class CrowdReach : public Reach {
     const Way& way = crossings_.ways()[number];
     int nodes = nodes_before(way);
     int free = now_.free_before(way);
-    for (const BoardNode node : way.nodes) {
+    for (const PebbleNode node : way.nodes) {
       if (!crossings_.is_crossing(node)) spots_[node] = {number, nodes};
       agents_before_[node] = nodes - free;
       ++nodes;
       if (now_.is_free(node)) ++free;
     }
-    for (const BoardNode node : now_.queues()[number])
+    for (const PebbleNode node : now_.queues()[number])
       if (crossings_.is_crossing(node)) {
         spots_[node].way = number;
         agents_before_[node] = node == way.from
@@ -299,7 +300,8 @@ class CrowdReach : public Reach {
 
 }  // namespace
 
-std::unique_ptr<Reach> crowd_reach(const Board& board, const Arrangement& start, bool may_follow) {
+std::unique_ptr<Reach> reachable_with_room(const PebbleGraph& board, const Arrangement& start,
+                                           bool may_follow) {
   return std::make_unique<CrowdReach>(board, start, may_follow);
 }
 

@@ -27,7 +27,7 @@
 #include <map>
 #include <vector>
 
-#include "search/crowding.h"
+#include "search/pebble_motion.h"
 
 namespace grove::detail {
 namespace {
@@ -188,7 +188,7 @@ std::optional<std::string> presolve_infeasibility(const Problem& problem) {
   if (auto reason = agent_without_an_order(problem)) return reason;
   if (auto reason = no_room_to_rest(problem)) return reason;
   if (auto reason = stuck_in_a_corridor(problem)) return reason;
-  return crowd_infeasibility(problem.instance);
+  return pebble_motion_infeasibility(problem.instance);
 }
 
 }  // namespace grove::detail

@@ -29,10 +29,10 @@ namespace {
 
 constexpr std::size_t kMostSearched = 7;  // nodes: 5,040 arrangements
 
-std::vector<AgentIndex> those_on(const std::vector<BoardNode>& nodes,
+std::vector<AgentIndex> those_on(const std::vector<PebbleNode>& nodes,
                                  const Arrangement& arrangement) {
   std::vector<AgentIndex> agents;
-  for (const BoardNode node : nodes) agents.push_back(arrangement[node]);
+  for (const PebbleNode node : nodes) agents.push_back(arrangement[node]);
   return agents;
 }
 
@@ -70,8 +70,8 @@ bool is_even(const std::vector<AgentIndex>& a, const std::vector<AgentIndex>& b)
 // A few nodes, all of which are taken or all but one: everything that comes of an arrangement.
 class SmallPart {
  public:
-  SmallPart(const Board& board, std::vector<BoardNode> nodes) : nodes_(std::move(nodes)) {
-    for (const BoardNode node : nodes_) {
+  SmallPart(const PebbleGraph& board, std::vector<PebbleNode> nodes) : nodes_(std::move(nodes)) {
+    for (const PebbleNode node : nodes_) {
       neighbors_.emplace_back();
       for (std::size_t i = 0; i < nodes_.size(); ++i)
         if (std::ranges::count(board.neighbors(node), nodes_[i]) > 0)
@@ -126,29 +126,29 @@ class SmallPart {
       }
   }
 
-  const std::vector<BoardNode> nodes_;
+  const std::vector<PebbleNode> nodes_;
   std::vector<std::vector<std::size_t>> neighbors_;
   std::vector<std::vector<std::size_t>> circles_;
 };
 
 class RingReach : public Reach {
  public:
-  RingReach(const Board& board, const Arrangement& start)
+  RingReach(const PebbleGraph& board, const Arrangement& start)
       : nodes_(board.blocks().front().nodes), start_(those_on(nodes_, start)) {}
-  bool has(BoardNode, BoardNode) const override { return true; }
+  bool has(PebbleNode, PebbleNode) const override { return true; }
   bool has(const Arrangement& arrangement) const override {
     return are_in_the_same_order(start_, those_on(nodes_, arrangement));
   }
 
  private:
-  const std::vector<BoardNode> nodes_;
+  const std::vector<PebbleNode> nodes_;
   const std::vector<AgentIndex> start_;
 };
 
 class FixedReach : public Reach {
  public:
   explicit FixedReach(const Arrangement& start) : start_(start) {}
-  bool has(BoardNode from, BoardNode to) const override { return from == to; }
+  bool has(PebbleNode from, PebbleNode to) const override { return from == to; }
   bool has(const Arrangement& arrangement) const override { return arrangement == start_; }
 
  private:
@@ -158,28 +158,28 @@ class FixedReach : public Reach {
 // The root is free, and nobody follows.
 class OneFreeReach : public Reach {
  public:
-  OneFreeReach(const Board& board, const Arrangement& start) : board_(board), start_(start) {}
+  OneFreeReach(const PebbleGraph& board, const Arrangement& start) : board_(board), start_(start) {}
 
-  bool has(BoardNode from, BoardNode to) const override {
+  bool has(PebbleNode from, PebbleNode to) const override {
     return std::ranges::binary_search(board_.block(from).nodes, to);
   }
   bool has(const Arrangement& arrangement) const override {
     const Arrangement then = with_free_root(arrangement);
     return std::ranges::all_of(board_.blocks(),
-                               [&](const Board::Block& block) { return has(block, then); });
+                               [&](const PebbleGraph::Block& block) { return has(block, then); });
   }
 
  private:
   Arrangement with_free_root(Arrangement arrangement) const {
     auto free =
-        static_cast<BoardNode>(std::ranges::find(arrangement, kNobody) - arrangement.begin());
+        static_cast<PebbleNode>(std::ranges::find(arrangement, kNobody) - arrangement.begin());
     for (; free != 0; free = board_.parent(free))
       std::swap(arrangement[free], arrangement[board_.parent(free)]);
     return arrangement;
   }
   // The free node comes in by the first.
-  bool has(const Board::Block& block, const Arrangement& then) const {
-    const std::vector<BoardNode> others(block.nodes.begin() + 1, block.nodes.end());
+  bool has(const PebbleGraph::Block& block, const Arrangement& then) const {
+    const std::vector<PebbleNode> others(block.nodes.begin() + 1, block.nodes.end());
     const auto a = those_on(others, start_);
     const auto b = those_on(others, then);
     if (!are_the_same(a, b)) return false;
@@ -192,17 +192,17 @@ class OneFreeReach : public Reach {
     return SmallPart(board_, block.nodes).leads(from, to);
   }
 
-  const Board& board_;
+  const PebbleGraph& board_;
   const Arrangement start_;
 };
 
 // No node is free.
 class FullReach : public Reach {
  public:
-  FullReach(const Board& board, const Arrangement& start) : board_(board), start_(start) {
-    for (BoardNode node = 0; node < board.size(); ++node)
+  FullReach(const PebbleGraph& board, const Arrangement& start) : board_(board), start_(start) {
+    for (PebbleNode node = 0; node < board.size(); ++node)
       regions_[board.region(node)].nodes.push_back(node);
-    for (const Board::Block& block : board.blocks()) {
+    for (const PebbleGraph::Block& block : board.blocks()) {
       if (block.nodes.size() < 3) continue;
       Region& region = regions_[board.region(block.nodes.back())];
       ++region.blocks;
@@ -212,7 +212,7 @@ class FullReach : public Reach {
     }
   }
 
-  bool has(BoardNode from, BoardNode to) const override {
+  bool has(PebbleNode from, PebbleNode to) const override {
     return board_.region(from) == board_.region(to);
   }
   bool has(const Arrangement& arrangement) const override {
@@ -222,7 +222,7 @@ class FullReach : public Reach {
 
  private:
   struct Region {
-    std::vector<BoardNode> nodes;  // rising: of a ring, in order
+    std::vector<PebbleNode> nodes;  // rising: of a ring, in order
     int blocks = 0;
     bool is_ring = false;
     bool has_odd_rings_only = true;
@@ -238,14 +238,15 @@ class FullReach : public Reach {
     return SmallPart(board_, region.nodes).leads(start_, then);
   }
 
-  const Board& board_;
+  const PebbleGraph& board_;
   const Arrangement start_;
-  std::map<BoardNode, Region> regions_;
+  std::map<PebbleNode, Region> regions_;
 };
 
 }  // namespace
 
-std::unique_ptr<Reach> packed_reach(const Board& board, const Arrangement& start, bool may_follow) {
+std::unique_ptr<Reach> reachable_without_room(const PebbleGraph& board, const Arrangement& start,
+                                              bool may_follow) {
   const auto free = std::ranges::count(start, kNobody);
   if (free == 0 && !may_follow) return std::make_unique<FixedReach>(start);
   if (board.is_ring()) return std::make_unique<RingReach>(board, start);
@@ -253,11 +254,12 @@ std::unique_ptr<Reach> packed_reach(const Board& board, const Arrangement& start
   return std::make_unique<OneFreeReach>(board, start);
 }
 
-std::unique_ptr<Reach> reach_of(const Board& board, const Arrangement& start, bool may_follow) {
+std::unique_ptr<Reach> reach_of(const PebbleGraph& board, const Arrangement& start,
+                                bool may_follow) {
   const auto free = std::ranges::count(start, kNobody);
   const bool has_room = free > 1 || (free == 1 && may_follow);
-  return has_room && !board.is_ring() ? crowd_reach(board, start, may_follow)
-                                      : packed_reach(board, start, may_follow);
+  return has_room && !board.is_ring() ? reachable_with_room(board, start, may_follow)
+                                      : reachable_without_room(board, start, may_follow);
 }
 
 }  // namespace grove::detail

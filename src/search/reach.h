@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/instance.h"
-#include "search/board.h"
+#include "search/pebble_graph.h"
 
 namespace grove::detail {
 
@@ -19,16 +19,19 @@ class Reach {
  public:
   virtual ~Reach() = default;
   // Is there one in which who is on `from` now is on `to`?
-  virtual bool has(BoardNode from, BoardNode to) const = 0;
+  virtual bool has(PebbleNode from, PebbleNode to) const = 0;
   // Is this one of them? Of the same agents.
   virtual bool has(const Arrangement& arrangement) const = 0;
 };
 
 // `board` must outlive it. If a node is free, the board's root must be.
-std::unique_ptr<Reach> reach_of(const Board& board, const Arrangement& start, bool may_follow);
+std::unique_ptr<Reach> reach_of(const PebbleGraph& board, const Arrangement& start,
+                                bool may_follow);
 
 // Of these boards the argument stands at the head of the .cpp of the same name.
-std::unique_ptr<Reach> crowd_reach(const Board& board, const Arrangement& start, bool may_follow);
-std::unique_ptr<Reach> packed_reach(const Board& board, const Arrangement& start, bool may_follow);
+std::unique_ptr<Reach> reachable_with_room(const PebbleGraph& board, const Arrangement& start,
+                                           bool may_follow);
+std::unique_ptr<Reach> reachable_without_room(const PebbleGraph& board, const Arrangement& start,
+                                              bool may_follow);
 
 }  // namespace grove::detail

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "search/crowding.h"
+#include "search/pebble_motion.h"
 #include "tests/fuzz/random.h"
 #include "tests/fuzz/random_crowd.h"
 #include "tests/oracle/arrangements.h"
@@ -100,7 +100,7 @@ class TinyCrowds {
   void ask(const Instance& instance, bool is_possible) {
     ++asked_;
     if (!is_possible) ++impossible_;
-    const auto reason = crowd_infeasibility(instance);
+    const auto reason = pebble_motion_infeasibility(instance);
     if (reason.has_value() != is_possible) return;
     ++wrong_;
     fmt::print("seed {}: WRONG: {}\n{}", seed_, reason ? *reason : "there is no plan",
@@ -125,7 +125,7 @@ class KnownCrowds {
     using Clock = std::chrono::steady_clock;
     const KnownCrowd crowd = known_crowd(seed);
     const auto began = Clock::now();
-    const auto reason = crowd_infeasibility(crowd.instance);
+    const auto reason = pebble_motion_infeasibility(crowd.instance);
     slowest_ = std::max(slowest_, std::chrono::duration<double>(Clock::now() - began).count());
     ++(crowd.has_plan ? possible_ : impossible_);
     most_agents_ = std::max(most_agents_, crowd.instance.agent_count());

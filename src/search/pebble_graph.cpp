@@ -4,7 +4,7 @@
 // as does the edge to its parent. So does every edge: each counts for the block of its lower end.
 // The tree's edges of a block join all of it, so it is bipartite if its other edges join nodes of
 // even and odd depth.
-#include "search/board.h"
+#include "search/pebble_graph.h"
 
 #include <algorithm>
 #include <utility>
@@ -21,7 +21,8 @@ std::vector<Place> places_around(const World& world, Place place) {
   return around;
 }
 
-Board::Board(const World& world, std::vector<Place> part, Place root) : part_(std::move(part)) {
+PebbleGraph::PebbleGraph(const World& world, std::vector<Place> part, Place root)
+    : part_(std::move(part)) {
   std::ranges::sort(part_);
   nodes_.assign(part_.size(), kNone);
   number(world, root);
@@ -31,26 +32,26 @@ Board::Board(const World& world, std::vector<Place> part, Place root) : part_(st
   find_regions();
 }
 
-BoardNode Board::node(Place place) const {
+PebbleNode PebbleGraph::node(Place place) const {
   const auto found = std::ranges::lower_bound(part_, place);
   return found == part_.end() || *found != place ? kNone : nodes_[found - part_.begin()];
 }
 
-void Board::join(const World& world) {
+void PebbleGraph::join(const World& world) {
   for (const Place place : places_) {
     for (const Place other : places_around(world, place)) neighbors_.add(node(other));
     neighbors_.end_row();
   }
 }
 
-void Board::number(const World& world, Place root) {
+void PebbleGraph::number(const World& world, Place root) {
   struct Level {
-    BoardNode node;
+    PebbleNode node;
     std::vector<Place> around;
   };
   std::vector<Level> way;
-  const auto visit = [&](Place place, BoardNode parent, int depth) {
-    const BoardNode node = size();
+  const auto visit = [&](Place place, PebbleNode parent, int depth) {
+    const PebbleNode node = size();
     nodes_[std::ranges::lower_bound(part_, place) - part_.begin()] = node;
     places_.push_back(place);
     parents_.push_back(parent);
@@ -71,17 +72,17 @@ void Board::number(const World& world, Place root) {
 }
 
 // Backwards, so that all below a node comes before it.
-void Board::find_blocks() {
-  std::vector<BoardNode> highest(size());  // that an edge leads to from a node or below it
-  for (BoardNode node = 0; node < size(); ++node) {
+void PebbleGraph::find_blocks() {
+  std::vector<PebbleNode> highest(size());  // that an edge leads to from a node or below it
+  for (PebbleNode node = 0; node < size(); ++node) {
     highest[node] = node;
-    for (const BoardNode other : neighbors(node))
+    for (const PebbleNode other : neighbors(node))
       if (other != parent(node)) highest[node] = std::min(highest[node], other);
   }
-  for (BoardNode node = size() - 1; node > 0; --node)
+  for (PebbleNode node = size() - 1; node > 0; --node)
     highest[parent(node)] = std::min(highest[parent(node)], highest[node]);
   block_of_.assign(size(), -1);
-  for (BoardNode node = 1; node < size(); ++node) {
+  for (PebbleNode node = 1; node < size(); ++node) {
     const bool begins = highest[node] >= parent(node);
     if (begins) blocks_.push_back({.nodes = {parent(node)}});
     block_of_[node] =
@@ -90,10 +91,10 @@ void Board::find_blocks() {
   }
 }
 
-void Board::count_ways() {
-  for (BoardNode node = 1; node < size(); ++node) {
+void PebbleGraph::count_ways() {
+  for (PebbleNode node = 1; node < size(); ++node) {
     Block& block = blocks_[block_of_[node]];
-    for (const BoardNode other : neighbors(node)) {
+    for (const PebbleNode other : neighbors(node)) {
       if (other > node) continue;
       ++block.ways;
       if ((depths_[node] - depths_[other]) % 2 == 0) block.is_bipartite = false;
@@ -101,10 +102,10 @@ void Board::count_ways() {
   }
 }
 
-void Board::find_regions() {
+void PebbleGraph::find_regions() {
   regions_.assign(size(), 0);
   is_on_ring_.assign(size(), 0);
-  for (BoardNode node = 1; node < size(); ++node) {
+  for (PebbleNode node = 1; node < size(); ++node) {
     if (hangs(node)) {
       regions_[node] = node;
       continue;
@@ -114,8 +115,8 @@ void Board::find_regions() {
   }
 }
 
-std::vector<int> Board::sums(std::vector<int> values) const {
-  for (BoardNode node = size() - 1; node > 0; --node) values[parent(node)] += values[node];
+std::vector<int> PebbleGraph::sums(std::vector<int> values) const {
+  for (PebbleNode node = size() - 1; node > 0; --node) values[parent(node)] += values[node];
   return values;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Examples; tests/fuzz/crowds.cpp holds it against everything that tiny crowds can come to.
-#include "search/crowding.h"
+#include "search/pebble_motion.h"
 
 #include <gtest/gtest.h>
 
@@ -18,10 +18,10 @@ using testing::AgentSpec;
 using Rows = std::vector<std::string>;
 
 std::string reason(const Instance& instance) {
-  return crowd_infeasibility(instance).value_or("");
+  return pebble_motion_infeasibility(instance).value_or("");
 }
 bool is_seen(const Instance& instance) {
-  return crowd_infeasibility(instance).has_value();
+  return pebble_motion_infeasibility(instance).has_value();
 }
 
 // Agents on all cells but `free`, row by row, and at the end so as well; but the first two change

@@ -12,6 +12,6 @@ namespace grove::detail {
 // Why the instance has no plan, as a sentence for a person; none if that cannot be seen here. Where
 // every step can be undone and every agent has a goal none means that it has one, if each place is
 // connected with the starts of those who must visit it.
-std::optional<std::string> crowd_infeasibility(const Instance& instance);
+std::optional<std::string> pebble_motion_infeasibility(const Instance& instance);
 
 }  // namespace grove::detail

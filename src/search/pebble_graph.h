@@ -10,38 +10,38 @@
 
 namespace grove::detail {
 
-using BoardNode = std::int32_t;
+using PebbleNode = std::int32_t;
 
 // Places that a way leads between, whatever its direction, numbered from 0 in the order of a
 // depth-first search: a node's parent is less than the node. Immutable.
-class Board {
+class PebbleGraph {
  public:
-  static constexpr BoardNode kNone = -1;
+  static constexpr PebbleNode kNone = -1;
 
   // `part`: all the places of one connected part. Its `root` gets number 0.
-  Board(const World& world, std::vector<Place> part, Place root);
+  PebbleGraph(const World& world, std::vector<Place> part, Place root);
 
-  BoardNode size() const { return static_cast<BoardNode>(places_.size()); }
-  Place place(BoardNode node) const { return places_[node]; }
+  PebbleNode size() const { return static_cast<PebbleNode>(places_.size()); }
+  Place place(PebbleNode node) const { return places_[node]; }
   // kNone of other parts.
-  BoardNode node(Place place) const;
-  std::span<const BoardNode> neighbors(BoardNode node) const { return neighbors_[node]; }
-  BoardNode parent(BoardNode node) const { return parents_[node]; }
+  PebbleNode node(Place place) const;
+  std::span<const PebbleNode> neighbors(PebbleNode node) const { return neighbors_[node]; }
+  PebbleNode parent(PebbleNode node) const { return parents_[node]; }
   // A single circle.
   bool is_ring() const { return blocks_.size() == 1 && blocks_.front().is_ring(); }
 
   // Without a bridge its ends are in different parts.
-  bool is_bridge(BoardNode a, BoardNode b) const {
+  bool is_bridge(PebbleNode a, PebbleNode b) const {
     return a == parent(b) ? hangs(b) : b == parent(a) && hangs(a);
   }
   // Of two nodes with the same one a circle passes through both, without using a way twice.
-  BoardNode region(BoardNode node) const { return regions_[node]; }
+  PebbleNode region(PebbleNode node) const { return regions_[node]; }
   // And there are others of its region.
-  bool is_on_ring(BoardNode node) const { return is_on_ring_[node] != 0; }
+  bool is_on_ring(PebbleNode node) const { return is_on_ring_[node] != 0; }
 
   // What no single node cuts in parts; a bridge is one.
   struct Block {
-    std::vector<BoardNode> nodes;  // rising; the first is the one nearest to the root
+    std::vector<PebbleNode> nodes;  // rising; the first is the one nearest to the root
     int ways = 0;
     bool is_bipartite = true;
 
@@ -49,12 +49,12 @@ class Board {
   };
   const std::vector<Block>& blocks() const { return blocks_; }
   // The block that leads to the root.
-  const Block& block(BoardNode node) const { return blocks_[block_of_[node]]; }
+  const Block& block(PebbleNode node) const { return blocks_[block_of_[node]]; }
 
   // By node: the sum of `values` over it and all below it. And what lies beyond the bridge from a
   // to b, by these sums.
   std::vector<int> sums(std::vector<int> values) const;
-  int beyond(BoardNode a, BoardNode b, const std::vector<int>& sums) const {
+  int beyond(PebbleNode a, PebbleNode b, const std::vector<int>& sums) const {
     return a == parent(b) ? sums[b] : sums.front() - sums[a];
   }
 
@@ -65,17 +65,17 @@ class Board {
   void count_ways();
   void find_regions();
   // By a bridge, from its parent.
-  bool hangs(BoardNode node) const { return block(node).nodes.size() == 2; }
+  bool hangs(PebbleNode node) const { return block(node).nodes.size() == 2; }
 
-  std::vector<Place> part_;       // rising
-  std::vector<BoardNode> nodes_;  // by position in part_
+  std::vector<Place> part_;        // rising
+  std::vector<PebbleNode> nodes_;  // by position in part_
   std::vector<Place> places_;
-  std::vector<BoardNode> parents_;  // kNone of the root
+  std::vector<PebbleNode> parents_;  // kNone of the root
   std::vector<int> depths_;
   CsrArray neighbors_;
   std::vector<Block> blocks_;
   std::vector<std::int32_t> block_of_;  // -1 of the root
-  std::vector<BoardNode> regions_;
+  std::vector<PebbleNode> regions_;
   std::vector<std::uint8_t> is_on_ring_;
 };
 

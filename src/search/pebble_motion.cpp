@@ -12,9 +12,9 @@
 // That takes a look at all places, and is spared where there is plenty of room: if at least k + 3
 // places of a connected part have three neighbours or more, k being the number of agents. For with
 // m free places there are k + m; ways between crossings on which somebody may be stuck, or that may
-// part crowds (crowd_reach.cpp), have m - 2 places or more with two neighbours, which leaves k + 2
-// others.
-#include "search/crowding.h"
+// part crowds (reachable_with_room.cpp), have m - 2 places or more with two neighbours, which
+// leaves k + 2 others.
+#include "search/pebble_motion.h"
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@
 #include <utility>
 #include <vector>
 
-#include "search/board.h"
+#include "search/pebble_graph.h"
 #include "search/reach.h"
 
 namespace grove::detail {
@@ -108,8 +108,8 @@ class Crowd {
 
   std::optional<Place> out_of_reach(const Agent& agent) const {
     const auto is_reached = [&](Place place) {
-      const BoardNode node = board_.node(place);
-      return node != Board::kNone && reach_->has(board_.node(start(agent)), node);
+      const PebbleNode node = board_.node(place);
+      return node != PebbleGraph::kNone && reach_->has(board_.node(start(agent)), node);
     };
     for (const TaskIndex task : agent.stops)
       if (!is_reached(instance_.task(task).cell)) return instance_.task(task).cell;
@@ -128,7 +128,7 @@ class Crowd {
 
   const Instance& instance_;
   const std::vector<AgentIndex> agents_;
-  const Board board_;
+  const PebbleGraph board_;
   Arrangement start_;
   std::unique_ptr<Reach> reach_;
 };
@@ -156,7 +156,7 @@ Crowd crowd_on(const std::vector<Place>& part, const Instance& instance,
 
 }  // namespace
 
-std::optional<std::string> crowd_infeasibility(const Instance& instance) {
+std::optional<std::string> pebble_motion_infeasibility(const Instance& instance) {
   Parts parts(instance);
   std::vector<Place> part;
   std::vector<AgentIndex> on;  // made when it is needed
