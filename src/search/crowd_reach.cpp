@@ -131,7 +131,7 @@ class Crossings {
 // Who belongs where in an arrangement.
 class Membership {
  public:
-  Membership(const Crossings& crossings, const Arrangement& arrangement)
+  Membership(const Crossings& crossings, const PebbleConfiguration& arrangement)
       : crossings_(crossings),
         arrangement_(arrangement),
         crowds_(arrangement.size(), kStuck),
@@ -194,14 +194,14 @@ class Membership {
   }
 
   const Crossings& crossings_;
-  const Arrangement& arrangement_;
+  const PebbleConfiguration& arrangement_;
   std::vector<int> free_;  // sums
   std::vector<PebbleNode> crowds_;
   std::vector<std::vector<PebbleNode>> queues_;  // by way
 };
 
 // Each agent that belongs to a crowd, with the crowd.
-std::vector<std::pair<AgentIndex, PebbleNode>> crowds_of(const Arrangement& arrangement,
+std::vector<std::pair<AgentIndex, PebbleNode>> crowds_of(const PebbleConfiguration& arrangement,
                                                          const Membership& membership) {
   std::vector<std::pair<AgentIndex, PebbleNode>> crowds;
   for (PebbleNode node = 0; node < static_cast<PebbleNode>(arrangement.size()); ++node)
@@ -212,7 +212,7 @@ std::vector<std::pair<AgentIndex, PebbleNode>> crowds_of(const Arrangement& arra
 }
 
 // Those who are stuck, way by way.
-std::vector<std::vector<AgentIndex>> queues_of(const Arrangement& arrangement,
+std::vector<std::vector<AgentIndex>> queues_of(const PebbleConfiguration& arrangement,
                                                const Membership& membership) {
   std::vector<std::vector<AgentIndex>> queues;
   for (const std::vector<PebbleNode>& queue : membership.queues()) {
@@ -222,9 +222,9 @@ std::vector<std::vector<AgentIndex>> queues_of(const Arrangement& arrangement,
   return queues;
 }
 
-class CrowdReach : public Reach {
+class CrowdReach : public ReachableConfigurations {
  public:
-  CrowdReach(const PebbleGraph& board, const Arrangement& start, bool may_follow)
+  CrowdReach(const PebbleGraph& board, const PebbleConfiguration& start, bool may_follow)
       : start_(start),
         crossings_(board, static_cast<int>(std::ranges::count(start, kNobody)), may_follow),
         now_(crossings_, start_),
@@ -243,7 +243,7 @@ class CrowdReach : public Reach {
     return free_before >= 0 && free_before <= crossings_.free();
   }
 
-  bool has(const Arrangement& arrangement) const override {
+  bool has(const PebbleConfiguration& arrangement) const override {
     const Membership then(crossings_, arrangement);
     return crowds_of(start_, now_) == crowds_of(arrangement, then) &&
            queues_of(start_, now_) == queues_of(arrangement, then);
@@ -290,7 +290,7 @@ class CrowdReach : public Reach {
       }
   }
 
-  const Arrangement start_;
+  const PebbleConfiguration start_;
   const Crossings crossings_;
   const Membership now_;
   const std::vector<int> sizes_;  // sums
@@ -300,8 +300,9 @@ class CrowdReach : public Reach {
 
 }  // namespace
 
-std::unique_ptr<Reach> reachable_with_room(const PebbleGraph& board, const Arrangement& start,
-                                           bool may_follow) {
+std::unique_ptr<ReachableConfigurations> reachable_with_room(const PebbleGraph& board,
+                                                             const PebbleConfiguration& start,
+                                                             bool may_follow) {
   return std::make_unique<CrowdReach>(board, start, may_follow);
 }
 

@@ -30,7 +30,7 @@ namespace {
 constexpr std::size_t kMostSearched = 7;  // nodes: 5,040 arrangements
 
 std::vector<AgentIndex> those_on(const std::vector<PebbleNode>& nodes,
-                                 const Arrangement& arrangement) {
+                                 const PebbleConfiguration& arrangement) {
   std::vector<AgentIndex> agents;
   for (const PebbleNode node : nodes) agents.push_back(arrangement[node]);
   return agents;
@@ -83,7 +83,7 @@ class SmallPart {
     }
   }
 
-  bool leads(const Arrangement& from, const Arrangement& to) const {
+  bool leads(const PebbleConfiguration& from, const PebbleConfiguration& to) const {
     const std::vector<AgentIndex> end = those_on(nodes_, to);
     std::set<std::vector<AgentIndex>> seen{those_on(nodes_, from)};
     std::vector<std::vector<AgentIndex>> open(seen.begin(), seen.end());
@@ -131,12 +131,12 @@ class SmallPart {
   std::vector<std::vector<std::size_t>> circles_;
 };
 
-class RingReach : public Reach {
+class RingReach : public ReachableConfigurations {
  public:
-  RingReach(const PebbleGraph& board, const Arrangement& start)
+  RingReach(const PebbleGraph& board, const PebbleConfiguration& start)
       : nodes_(board.blocks().front().nodes), start_(those_on(nodes_, start)) {}
   bool has(PebbleNode, PebbleNode) const override { return true; }
-  bool has(const Arrangement& arrangement) const override {
+  bool has(const PebbleConfiguration& arrangement) const override {
     return are_in_the_same_order(start_, those_on(nodes_, arrangement));
   }
 
@@ -145,32 +145,33 @@ class RingReach : public Reach {
   const std::vector<AgentIndex> start_;
 };
 
-class FixedReach : public Reach {
+class FixedReach : public ReachableConfigurations {
  public:
-  explicit FixedReach(const Arrangement& start) : start_(start) {}
+  explicit FixedReach(const PebbleConfiguration& start) : start_(start) {}
   bool has(PebbleNode from, PebbleNode to) const override { return from == to; }
-  bool has(const Arrangement& arrangement) const override { return arrangement == start_; }
+  bool has(const PebbleConfiguration& arrangement) const override { return arrangement == start_; }
 
  private:
-  const Arrangement start_;
+  const PebbleConfiguration start_;
 };
 
 // The root is free, and nobody follows.
-class OneFreeReach : public Reach {
+class OneFreeReach : public ReachableConfigurations {
  public:
-  OneFreeReach(const PebbleGraph& board, const Arrangement& start) : board_(board), start_(start) {}
+  OneFreeReach(const PebbleGraph& board, const PebbleConfiguration& start)
+      : board_(board), start_(start) {}
 
   bool has(PebbleNode from, PebbleNode to) const override {
     return std::ranges::binary_search(board_.block(from).nodes, to);
   }
-  bool has(const Arrangement& arrangement) const override {
-    const Arrangement then = with_free_root(arrangement);
+  bool has(const PebbleConfiguration& arrangement) const override {
+    const PebbleConfiguration then = with_free_root(arrangement);
     return std::ranges::all_of(board_.blocks(),
                                [&](const PebbleGraph::Block& block) { return has(block, then); });
   }
 
  private:
-  Arrangement with_free_root(Arrangement arrangement) const {
+  PebbleConfiguration with_free_root(PebbleConfiguration arrangement) const {
     auto free =
         static_cast<PebbleNode>(std::ranges::find(arrangement, kNobody) - arrangement.begin());
     for (; free != 0; free = board_.parent(free))
@@ -178,7 +179,7 @@ class OneFreeReach : public Reach {
     return arrangement;
   }
   // The free node comes in by the first.
-  bool has(const PebbleGraph::Block& block, const Arrangement& then) const {
+  bool has(const PebbleGraph::Block& block, const PebbleConfiguration& then) const {
     const std::vector<PebbleNode> others(block.nodes.begin() + 1, block.nodes.end());
     const auto a = those_on(others, start_);
     const auto b = those_on(others, then);
@@ -186,20 +187,21 @@ class OneFreeReach : public Reach {
     if (a == b) return true;
     if (block.is_ring()) return are_in_the_same_order(a, b);
     if (block.nodes.size() > kMostSearched) return !block.is_bipartite || is_even(a, b);
-    Arrangement from = start_;
-    Arrangement to = then;
+    PebbleConfiguration from = start_;
+    PebbleConfiguration to = then;
     from[block.nodes.front()] = to[block.nodes.front()] = kNobody;
     return SmallPart(board_, block.nodes).leads(from, to);
   }
 
   const PebbleGraph& board_;
-  const Arrangement start_;
+  const PebbleConfiguration start_;
 };
 
 // No node is free.
-class FullReach : public Reach {
+class FullReach : public ReachableConfigurations {
  public:
-  FullReach(const PebbleGraph& board, const Arrangement& start) : board_(board), start_(start) {
+  FullReach(const PebbleGraph& board, const PebbleConfiguration& start)
+      : board_(board), start_(start) {
     for (PebbleNode node = 0; node < board.size(); ++node)
       regions_[board.region(node)].nodes.push_back(node);
     for (const PebbleGraph::Block& block : board.blocks()) {
@@ -215,7 +217,7 @@ class FullReach : public Reach {
   bool has(PebbleNode from, PebbleNode to) const override {
     return board_.region(from) == board_.region(to);
   }
-  bool has(const Arrangement& arrangement) const override {
+  bool has(const PebbleConfiguration& arrangement) const override {
     return std::ranges::all_of(regions_,
                                [&](const auto& region) { return has(region.second, arrangement); });
   }
@@ -228,7 +230,7 @@ class FullReach : public Reach {
     bool has_odd_rings_only = true;
   };
 
-  bool has(const Region& region, const Arrangement& then) const {
+  bool has(const Region& region, const PebbleConfiguration& then) const {
     const auto a = those_on(region.nodes, start_);
     const auto b = those_on(region.nodes, then);
     if (!are_the_same(a, b)) return false;
@@ -239,14 +241,15 @@ class FullReach : public Reach {
   }
 
   const PebbleGraph& board_;
-  const Arrangement start_;
+  const PebbleConfiguration start_;
   std::map<PebbleNode, Region> regions_;
 };
 
 }  // namespace
 
-std::unique_ptr<Reach> reachable_without_room(const PebbleGraph& board, const Arrangement& start,
-                                              bool may_follow) {
+std::unique_ptr<ReachableConfigurations> reachable_without_room(const PebbleGraph& board,
+                                                                const PebbleConfiguration& start,
+                                                                bool may_follow) {
   const auto free = std::ranges::count(start, kNobody);
   if (free == 0 && !may_follow) return std::make_unique<FixedReach>(start);
   if (board.is_ring()) return std::make_unique<RingReach>(board, start);
@@ -254,8 +257,9 @@ std::unique_ptr<Reach> reachable_without_room(const PebbleGraph& board, const Ar
   return std::make_unique<OneFreeReach>(board, start);
 }
 
-std::unique_ptr<Reach> reach_of(const PebbleGraph& board, const Arrangement& start,
-                                bool may_follow) {
+std::unique_ptr<ReachableConfigurations> reach_of(const PebbleGraph& board,
+                                                  const PebbleConfiguration& start,
+                                                  bool may_follow) {
   const auto free = std::ranges::count(start, kNobody);
   const bool has_room = free > 1 || (free == 1 && may_follow);
   return has_room && !board.is_ring() ? reachable_with_room(board, start, may_follow)

@@ -120,8 +120,8 @@ class Crowd {
     return std::ranges::all_of(
         agents_, [&](AgentIndex agent) { return instance_.agent(agent).goal.has_value(); });
   }
-  Arrangement goals() const {
-    Arrangement goals(start_.size(), kNobody);
+  PebbleConfiguration goals() const {
+    PebbleConfiguration goals(start_.size(), kNobody);
     for (const AgentIndex agent : agents_) goals[board_.node(*instance_.agent(agent).goal)] = agent;
     return goals;
   }
@@ -129,8 +129,8 @@ class Crowd {
   const Instance& instance_;
   const std::vector<AgentIndex> agents_;
   const PebbleGraph board_;
-  Arrangement start_;
-  std::unique_ptr<Reach> reach_;
+  PebbleConfiguration start_;
+  std::unique_ptr<ReachableConfigurations> reach_;
 };
 
 std::vector<AgentIndex> agents_by_place(const Instance& instance) {
