@@ -43,7 +43,7 @@ struct SolveOptions {
   // same run, limits aside.
   std::uint64_t seed = 0;
   // Technique::kPrimal is not used with kFixed.
-  Techniques techniques = Techniques::usual();
+  Techniques techniques = Techniques::defaults();
   Tuning tuning = {};
   std::optional<Plan> start = std::nullopt;  // the first incumbent, a valid plan
   Checkpoints checkpoints = {};

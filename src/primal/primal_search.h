@@ -35,7 +35,7 @@ class PrimalSearch {
 
   // All must outlive this; `stops` may be shared with other searches of the same thread.
   PrimalSearch(const Problem& problem, AgentStopsCache& stops, std::uint64_t seed,
-               Techniques techniques = Techniques::usual(), const Tuning& tuning = {});
+               Techniques techniques = Techniques::defaults(), const Tuning& tuning = {});
   ~PrimalSearch();
 
   // Goes on for about a millisecond (or one call of the low level, where that is longer). Returns a

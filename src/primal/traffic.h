@@ -19,7 +19,7 @@ class Traffic {
  public:
   // `world` and `tuning` must outlive this. `usual`: traffic of so much makes a step twice as dear,
   // or more by the tuned numbers.
-  Traffic(const World& world, double usual, const Tuning& tuning);
+  Traffic(const World& world, double defaults, const Tuning& tuning);
 
   // What is known counts for so many times what it did.
   void fade(double left);

@@ -11,7 +11,7 @@ Techniques Techniques::all() {
   return set;
 }
 
-Techniques Techniques::usual() {
+Techniques Techniques::defaults() {
   return all().without(Technique::kSequenceSplits);
 }
 

@@ -68,7 +68,7 @@ class Techniques {
   }
   static Techniques all();
   // What a run uses unless told otherwise: all that paid when it was measured.
-  static Techniques usual();
+  static Techniques defaults();
 
   bool has(Technique t) const { return (bits_ & bit(t)) != 0; }
   Techniques with(Technique t) const { return Techniques(bits_ | bit(t)); }

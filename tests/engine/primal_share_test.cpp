@@ -149,7 +149,7 @@ TEST(PrimalShare, WhileThePlanIsFarWorkInVainLeavesItAsMuchAsTheTree) {
 
 TEST(PrimalShare, ASearchThatExpectsAPlanIsDueAndNotCharged) {
   const Setting s(crowd());
-  const Setting expecting(crowd(), Techniques::usual());
+  const Setting expecting(crowd(), Techniques::defaults());
   ASSERT_TRUE(expecting.primal.expects_plan());
   PrimalShare share = settled(s.primal, 12);
   share.primal_worked(expecting.primal, kLong);

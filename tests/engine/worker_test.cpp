@@ -94,14 +94,14 @@ TEST(Worker, CountsTheWorkOfATurn) {
 
 TEST(Worker, LooksForAPlanFirstWhereTheRootIsLarge) {
   for (const Technique without : {Technique::kPrimal, Technique::kBypass}) {
-    Search s(Techniques::usual().without(without), large_crowd());
+    Search s(Techniques::defaults().without(without), large_crowd());
     Worker worker = s.worker();
     EXPECT_EQ(Search::job_of(worker.choose()),
               without == Technique::kPrimal ? Job::kExpand : Job::kPrimal);
   }
-  Search small(Techniques::usual());
+  Search small(Techniques::defaults());
   EXPECT_EQ(Search::job_of(small.worker().choose()), Job::kExpand);
-  Search fixed(Techniques::usual(), large_crowd());
+  Search fixed(Techniques::defaults(), large_crowd());
   fixed.options.policy = Policy::kFixed;
   EXPECT_EQ(Search::job_of(fixed.worker().choose()), Job::kExpand) << "plain CBS";
 }
@@ -125,7 +125,7 @@ std::vector<Plan> found_by(Search& s, int number, int turns) {
 
 TEST(Worker, EachNumberLooksForPlansFromAnotherSeed) {
   const auto paths = [](int number) {
-    Search s(Techniques::usual(), large_crowd());
+    Search s(Techniques::defaults(), large_crowd());
     s.nodes.frontier.take();  // nothing to expand
     std::vector<Path> all;
     for (const Plan& plan : found_by(s, number, 40))
@@ -138,11 +138,11 @@ TEST(Worker, EachNumberLooksForPlansFromAnotherSeed) {
 }
 
 TEST(Worker, LooksForPlansCheaperThanTheIncumbent) {
-  Search s(Techniques::usual(), large_crowd());
+  Search s(Techniques::defaults(), large_crowd());
   s.nodes.frontier.take();
   const std::vector<Plan> plans = found_by(s, 0, 40);
   ASSERT_GT(plans.size(), 1u);
-  Search knowing(Techniques::usual(), large_crowd());
+  Search knowing(Techniques::defaults(), large_crowd());
   knowing.nodes.frontier.take();
   knowing.ledger.incumbent = plans.front();
   for (const Plan& plan : found_by(knowing, 0, 40)) EXPECT_LT(plan.cost, plans.front().cost);

@@ -112,7 +112,7 @@ Techniques random_techniques(Random& random) {
       return any;
     }
     default:
-      return Techniques::usual();
+      return Techniques::defaults();
   }
 }
 
@@ -154,9 +154,9 @@ Tuning random_tuning(Random& random) {
     std::visit(
         [&](auto at) {
           using Number = std::remove_cvref_t<decltype(tuning.*at)>;
-          const double usual = static_cast<double>(Tuning().*at);
-          const double some =
-              random.pick<double>({t.least, usual / 8, usual / 2, 2 * usual, 8 * usual});
+          const double defaults = static_cast<double>(Tuning().*at);
+          const double some = random.pick<double>(
+              {t.least, defaults / 8, defaults / 2, 2 * defaults, 8 * defaults});
           tuning.*at = static_cast<Number>(std::clamp(some, t.least, t.most));
         },
         t.place);
@@ -185,7 +185,7 @@ std::string FuzzCase::to_text() const {
   if (options.threads != 1) text += fmt::format("threads {}\n", options.threads);
   if (options.deterministic) text += "deterministic yes\n";
   for (const auto& [t, name] : kTechniques)
-    if (options.techniques.has(t) != Techniques::usual().has(t))
+    if (options.techniques.has(t) != Techniques::defaults().has(t))
       text += fmt::format("{} {}\n", options.techniques.has(t) ? "with" : "without", name);
   if (options.node_memory != SolveOptions::kUnlimited)
     text += fmt::format("node-memory {}\n", options.node_memory);

@@ -169,7 +169,7 @@ class Trial {
     options.omega = Omega::from_double(0);
     options.policy = Policy::kFree;
     options.techniques =
-        Techniques::usual().without(Technique::kPrimal).without(Technique::kJointSearch);
+        Techniques::defaults().without(Technique::kPrimal).without(Technique::kJointSearch);
     if (seed % 2 != 0) return;
     options.tuning.lagrangian_agents = 1;
     options.tuning.lagrangian_begins_work = 0;

@@ -134,7 +134,7 @@ void expect_optima(Policy policy, Techniques techniques) {
     const Instance instance =
         random_crowd({.size = 8, .obstacles = 20, .agents = 5, .tasks = 5}, seed);
     const Solution alone =
-        solve(instance, poor(1, Policy::kFree, Techniques::usual()), LimitOfHangs());
+        solve(instance, poor(1, Policy::kFree, Techniques::defaults()), LimitOfHangs());
     ASSERT_EQ(alone.status, Status::kOptimal);
     for (const int ranks : {2, 3})
       for (const int threads : {1, 2}) {
@@ -182,7 +182,7 @@ TEST(Threads, FindPricesForEachOther) {
       random_crowd({.size = 20, .obstacles = 20, .agents = 120, .tasks = 0}, 1);
   std::int64_t prices = 0;
   for (const int threads : {1, 2}) {
-    SolveOptions options = poor(threads, Policy::kFree, Techniques::usual());
+    SolveOptions options = poor(threads, Policy::kFree, Techniques::defaults());
     options.tuning.lagrangian_begins_work = 0;
     options.tuning.lagrangian_share_work = 1000;
     ThreadNetwork network(3, 5, 1);

@@ -120,7 +120,7 @@ class Asker : public RunObserver {
     options.omega = Omega();
     options.policy = options_.policy;
     options.rtsp = options_.rtsp;
-    options.techniques = Techniques::usual().without(Technique::kPrimal);
+    options.techniques = Techniques::defaults().without(Technique::kPrimal);
     const auto reader = checkpoint();
     options.resume = reader.get();
     const Solution solution = solve(instance_, options, limits);

@@ -26,7 +26,7 @@ using testing::instance_of;
 // A search with what it needs.
 struct Search {
   explicit Search(const Instance& the_instance, std::uint64_t seed = 0,
-                  Techniques techniques = Techniques::usual(), const Tuning& tuning = {})
+                  Techniques techniques = Techniques::defaults(), const Tuning& tuning = {})
       : instance(the_instance),
         problem(instance, limits),
         stops(instance, problem.distances),
@@ -125,7 +125,7 @@ TEST(PrimalSearch, WhoFailsIsPlannedBeforeThoseInItsWay) {
   for (const bool keeps : {false, true}) {
     Tuning tuning;
     if (keeps) tuning.planning_labels_to_keep = 0;
-    Search search(instance, 0, Techniques::usual().without(Technique::kConfigurations), tuning);
+    Search search(instance, 0, Techniques::defaults().without(Technique::kConfigurations), tuning);
     const std::vector<Plan> plans = search.plans(1);
     ASSERT_FALSE(plans.empty());
     EXPECT_EQ(search.primal.source(), PlanSource::kPriorities);
@@ -144,7 +144,8 @@ TEST(PrimalSearch, EveryPlanIsValidInAHurry) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Instance instance = fuzz::random_instance(seed).build();
     if (!searchable(instance)) continue;
-    Search search(instance, seed, Techniques::usual().without(Technique::kConfigurations), tuning);
+    Search search(instance, seed, Techniques::defaults().without(Technique::kConfigurations),
+                  tuning);
     if (!search.plans(6).empty()) ++solved;
     if (HasFailure()) return;
   }
@@ -193,7 +194,7 @@ TEST(PrimalSearch, PricesHelpAndAreHeededAlikeTwice) {
   tuning.priced_gap = 1;
   std::vector<std::int64_t> work[2];
   for (auto& counts : work) {
-    Search search(instance, 1, Techniques::usual(), tuning);
+    Search search(instance, 1, Techniques::defaults(), tuning);
     for (const int rounds : {0, 15, 60}) {
       const auto prices = testing::prices_of(instance, search.stops, rounds);
       EXPECT_EQ(prices == nullptr, rounds == 0);
@@ -208,7 +209,7 @@ TEST(PrimalSearch, PricesHelpAndAreHeededAlikeTwice) {
   EXPECT_NE(without.primal.work(), work[0].back());
 
   tuning.priced_gap = 0;  // no plan is so near
-  Search too_far(instance, 1, Techniques::usual(), tuning);
+  Search too_far(instance, 1, Techniques::defaults(), tuning);
   too_far.primal.use(testing::prices_of(instance, too_far.stops, 60));
   too_far.plans(300);
   EXPECT_EQ(too_far.primal.work(), without.primal.work());
@@ -222,7 +223,7 @@ TEST(PrimalSearch, EveryPlanByPricesIsValid) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Instance instance = fuzz::random_instance(seed).build();
     if (!searchable(instance)) continue;
-    Search search(instance, seed, Techniques::usual(), tuning);
+    Search search(instance, seed, Techniques::defaults(), tuning);
     const auto prices = testing::prices_of(instance, search.stops, 12);
     priced += prices != nullptr;
     search.plans(2);
@@ -243,8 +244,9 @@ TEST(PrimalSearch, GoesOnFromPlansThatAreLittleWorse) {
     Tuning descent;
     descent.worse_plans = 0;
     const Cost by_descent =
-        Search(instance, seed, Techniques::usual(), descent).plans(250).back().cost;
-    const Cost by_walk = Search(instance, seed, Techniques::usual(), walk).plans(250).back().cost;
+        Search(instance, seed, Techniques::defaults(), descent).plans(250).back().cost;
+    const Cost by_walk =
+        Search(instance, seed, Techniques::defaults(), walk).plans(250).back().cost;
     better += by_walk < by_descent;
     worse += by_walk > by_descent;
   }
@@ -364,7 +366,7 @@ TEST(PrimalSearch, APlanOfAnotherSearchDoesNotEndPrioritisedPlanning) {
     const Plan dear = [&] {
       Tuning tuning;
       tuning.planning_head_start = 1;
-      Search donor(instance, seed, Techniques::usual(), tuning);
+      Search donor(instance, seed, Techniques::defaults(), tuning);
       std::vector<Plan> plans;
       while (plans.empty()) plans = donor.plans(1);
       EXPECT_NE(donor.primal.source(), PlanSource::kNeighborhood);

@@ -114,7 +114,7 @@ TEST(Expander, BoundsAHardNodeInTurnsAsAtOneGo) {
 
   int turns = 0;
   Expansion in_turns;
-  Expander expander(problem, stops, {Techniques::usual(), 0});
+  Expander expander(problem, stops, {Techniques::defaults(), 0});
   do {
     in_turns = expander.expand(root, kInfiniteCost, limits);
     expander.publish();
@@ -123,7 +123,7 @@ TEST(Expander, BoundsAHardNodeInTurnsAsAtOneGo) {
   EXPECT_GT(turns, 2);
 
   // Who once had to forget leaves nothing for later.
-  Expander other(problem, stops, {Techniques::usual(), 0});
+  Expander other(problem, stops, {Techniques::defaults(), 0});
   other.turn_to(std::make_shared<SharedCache>(SharedCache::Successor{}));
   const Expansion at_once = other.expand(root, kInfiniteCost, limits);
   ASSERT_FALSE(at_once.unfinished);
@@ -183,7 +183,7 @@ TEST(Expander, ServesTwoWorkersAsIfEachHadItsOwn) {
         expander_of(0).counts().situations +
             (&expander_of(0) == &expander_of(1) ? 0 : expander_of(1).counts().situations));
   };
-  const SearchOptions options{Techniques::usual(), 0};
+  const SearchOptions options{Techniques::defaults(), 0};
   std::deque<Expander> own;
   for (int i = 0; i < 2; ++i) own.emplace_back(problem, stops, options);
   const auto with_own = situations_asked([&](std::size_t i) -> Expander& { return own[i]; }, false);

@@ -27,7 +27,7 @@ struct Begun {
         forest(problem, stops, pool, limits),
         root(forest.next_root()),
         cutoff(root->cost() + kSlack),
-        expander(problem, stops, {Techniques::usual(), 0}) {
+        expander(problem, stops, {Techniques::defaults(), 0}) {
     nodes.push_back(root);
     for (std::size_t i = 0; i < nodes.size() && nodes.size() < 16; ++i)
       for (NodePtr& child : expand(expander, nodes[i]).children) nodes.push_back(std::move(child));
@@ -76,9 +76,9 @@ TEST(Findings, WhoeverIsToldExpandsTheSameWithLessWork) {
     told += static_cast<int>(findings.size());
     for (const NodePtr& node : s.nodes) {
       AgentStopsCache stops = s.stops;
-      Expander of_told(s.problem, stops, {Techniques::usual(), 0});
+      Expander of_told(s.problem, stops, {Techniques::defaults(), 0});
       merge(findings, s.nodes, *of_told.memory());
-      Expander ignorant(s.problem, stops, {Techniques::usual(), 0});
+      Expander ignorant(s.problem, stops, {Techniques::defaults(), 0});
       const Outcome there = outcome(s.expand(of_told, node));
       EXPECT_EQ(there, outcome(s.expand(s.expander, node))) << "seed " << seed;
       s.expand(ignorant, node);

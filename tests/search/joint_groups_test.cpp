@@ -20,7 +20,7 @@ using Known = JointGroups::Known;
 constexpr std::size_t kMostWays = 1500;
 
 SearchOptions options_of(std::uint64_t seed) {
-  SearchOptions options{Techniques::usual(), seed, true};
+  SearchOptions options{Techniques::defaults(), seed, true};
   if (seed % 3 == 0) options.techniques = options.techniques.without(Technique::kStrongBranching);
   if (seed % 4 == 0) options.techniques = options.techniques.with(Technique::kSequenceSplits);
   return options;

@@ -23,7 +23,7 @@ struct Process {
         stops(instance, problem.distances),
         forest(problem, stops, pool, limits),
         root(forest.next_root()),
-        expander(problem, stops, {Techniques::usual(), 0}) {
+        expander(problem, stops, {Techniques::defaults(), 0}) {
     expander.memory()->take_new_entries();
     trees.add(root->tree());
   }

@@ -17,10 +17,10 @@ namespace grove::detail::testing {
 
 struct NodeAtHand {
   NodeAtHand(const std::vector<std::string>& rows, const std::vector<AgentSpec>& agents,
-             const SearchOptions& search_options = {Techniques::usual(), 0, true})
+             const SearchOptions& search_options = {Techniques::defaults(), 0, true})
       : NodeAtHand(instance_of(rows, agents), search_options) {}
   explicit NodeAtHand(Instance given,
-                      const SearchOptions& search_options = {Techniques::usual(), 0, true})
+                      const SearchOptions& search_options = {Techniques::defaults(), 0, true})
       : options(search_options),
         instance(std::move(given)),
         problem(instance, limits),

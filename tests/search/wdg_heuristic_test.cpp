@@ -113,15 +113,15 @@ TEST(WdgHeuristic, KnowThatAGroupCostsMoreThoughNoPairDoes) {
   const std::vector<AgentSpec> three{
       {{2, 2}, Position{1, 1}}, {{3, 0}, Position{1, 2}}, {{2, 0}, Position{2, 2}}};
   Bounded with(rows, three);
-  Bounded without(rows, three, {Techniques::usual().without(Technique::kClusters), 0, true});
+  Bounded without(rows, three, {Techniques::defaults().without(Technique::kClusters), 0, true});
   EXPECT_EQ(without.excess(), 0);
   EXPECT_EQ(with.excess(), 2);
 }
 
 // Where a search by splits ends after its first node, joint search goes on.
 TEST(WdgHeuristic, AreSettledByJointSearchWhereSplitsDoNotEnd) {
-  SearchOptions options{Techniques::usual().without({Technique::kTraversal, Technique::kTarget}), 0,
-                        true};
+  SearchOptions options{Techniques::defaults().without({Technique::kTraversal, Technique::kTarget}),
+                        0, true};
   options.tuning.pair_expansions = 1;
   Bounded with(kDoor, kHeadOn, options);
   Bounded below(kDoor, kHeadOn, options);

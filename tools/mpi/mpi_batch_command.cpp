@@ -71,15 +71,15 @@ struct BatchArguments {
 // What results depend on. By default the machine decides about memory: then it does not count.
 batch::Settings settings_of(const CLI::App& app, const BatchArguments& a) {
   std::string options;
-  const auto add = [&](const char* option, const std::string& value, const std::string& usual) {
-    if (value != usual)
+  const auto add = [&](const char* option, const std::string& value, const std::string& defaults) {
+    if (value != defaults)
       options += fmt::format("{}{} {}", options.empty() ? "" : " ", option, value);
   };
-  const SolveArguments usual;
+  const SolveArguments defaults;
   const std::string omega = solve_options(a.solve).omega.to_string();
-  add("--omega", omega, solve_options(usual).omega.to_string());
-  add("--policy", a.solve.policy, usual.policy);
-  add("--rtsp", a.solve.rtsp, usual.rtsp);
+  add("--omega", omega, solve_options(defaults).omega.to_string());
+  add("--policy", a.solve.policy, defaults.policy);
+  add("--rtsp", a.solve.rtsp, defaults.rtsp);
   add("--with", fmt::format("{}", fmt::join(a.solve.with, ",")), "");
   add("--without", fmt::format("{}", fmt::join(a.solve.without, ",")), "");
   add("--ranks-per-instance", std::to_string(a.ranks_per_instance), "1");

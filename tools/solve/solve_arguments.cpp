@@ -72,7 +72,7 @@ CLI::Validator technique_of(Techniques known) {
 }
 
 Techniques techniques_of(const SolveArguments& arguments) {
-  Techniques techniques = Techniques::usual();
+  Techniques techniques = Techniques::defaults();
   for (const std::string& name : arguments.with)
     techniques = techniques.with(*parse_technique(name));
   for (const std::string& name : arguments.without)
@@ -156,15 +156,15 @@ void add_method_options(CLI::App& app, SolveArguments& a) {
   add_integer(
       app, "--seed", a.seed, kSeeds,
       "breaks ties among conflicts and guides the search for plans: another seed, another run");
-  const Techniques unusual = Techniques::all().without(Techniques::usual());
+  const Techniques unusual = Techniques::all().without(Techniques::defaults());
   app.add_option("--without", a.without,
                  "do without a technique of the search, for ablation studies; several with commas. "
                  "Techniques change how fast the search is, never what it proves: " +
-                     names_of(Techniques::usual()))
+                     names_of(Techniques::defaults()))
       ->type_name("TECHNIQUE")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(technique_of(Techniques::usual()));
+      ->check(technique_of(Techniques::defaults()));
   app.add_option(
          "--with", a.with,
          "use a technique that is not used by default, in the same way: " + names_of(unusual))
