@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // CTS-CBS (paper, Algorithms 1 and 4) among workers; the proof that it may stop is at the head of
-// search/gate.cpp and holds for any order of expansion. What it asks of those who share a search:
+// search/global_bounds.cpp and holds for any order of expansion. What it asks of those who share a
+// search:
 //
 // *The ledger's two numbers*, the least bound of the live nodes and the bound of the trees not yet
 // instantiated, are read while others work. A tree's root is pushed first and the bound of the

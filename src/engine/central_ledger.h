@@ -12,7 +12,7 @@
 #include "engine/ledger.h"
 #include "engine/live_nodes.h"
 #include "model/limits.h"
-#include "search/gate.h"
+#include "search/global_bounds.h"
 
 namespace grove::detail {
 
@@ -42,7 +42,7 @@ class CentralLedger : public Ledger {
   void add_counts(Stats& stats) const;
 
   // For decisions that are the gate's.
-  const Gate& gate() const { return gate_; }
+  const GlobalBounds& gate() const { return gate_; }
   // Was it proven beside the trees that there is no plan? And why there is none, then.
   bool has_no_joint_plan() const { return ended_beside_; }
   static constexpr std::string_view kNoJointPlan =
@@ -62,7 +62,7 @@ class CentralLedger : public Ledger {
   const Limits& limits_;
   LiveNodes& nodes_;
   Announcements& announcements_;
-  Gate gate_;
+  GlobalBounds gate_;
   std::atomic<Cost> trees_from_;
   std::atomic<bool> out_of_nodes_{false};
   std::atomic<bool> ended_beside_{false};

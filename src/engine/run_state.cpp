@@ -103,7 +103,7 @@ Progress RunState::progress() const {
 }
 
 Solution RunState::conclude() const {
-  const Gate& gate = ledger_.gate();
+  const GlobalBounds& gate = ledger_.gate();
   Solution solution;
   solution.omega = options_.omega;
   solution.plan = gate.incumbent();

@@ -15,7 +15,7 @@
 #include "engine/stop_text.h"
 #include "engine/worker.h"
 #include "search/feasibility.h"
-#include "search/gate.h"
+#include "search/global_bounds.h"
 #include "search/proof_log.h"
 
 namespace grove::detail {
@@ -112,7 +112,7 @@ Solution stopped_before_search(const Instance& instance, const SolveOptions& opt
                                const Limits& limits, RunObserver& observer) {
   Solution solution =
       without_search(options, Status::kUnknown, "stopped_by", stop_text(limits.reason()));
-  Gate gate(instance, options.omega);
+  GlobalBounds gate(instance, options.omega);
   if (options.resume) {
     const CheckpointHeader& before = options.resume->header();
     gate.update(before.lower_bound, before.lower_bound);

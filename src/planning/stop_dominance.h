@@ -36,7 +36,7 @@ class StopDominance {
  private:
   // A label that reaches the stop at `from` or later need not be looked at for the sake of this
   // way, unless the stop is visited at `until` or later.
-  struct Gate {
+  struct GlobalBounds {
     Time from = kNever;
     Time until = 0;
   };
@@ -44,7 +44,7 @@ class StopDominance {
 
   std::vector<std::int32_t> by_stage_;  // the first of its gates
   std::vector<StageId> stages_;         // those that have gates
-  std::vector<Gate> gates_;
+  std::vector<GlobalBounds> gates_;
 };
 
 }  // namespace grove::detail

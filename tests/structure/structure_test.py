@@ -36,7 +36,7 @@ def without_comments_and_strings(text):
 
 
 def includes(text):
-    """The headers of layers that `text` includes: "search/gate.h"."""
+    """The headers of layers that `text` includes: "search/global_bounds.h"."""
     named = re.findall(r'^\s*#\s*include\s*"([\w./]+)"', text, re.M)
     return {name for name in named if name.split("/")[0] in LAYERS}
 
@@ -281,8 +281,8 @@ class TheChecks(unittest.TestCase):
         self.assertEqual(private_headers(cmake), ["a.h", "b.h", "s/d.h"])
 
     def test_named_files(self):
-        text = "`search/gate.cpp`, `./a.py`; `conflicts/mine.cpp`, `x_test.cpp`, `FILE.map`, a.cpp"
-        self.assertEqual(named_files(text), ["search/gate.cpp", "a.py"])
+        text = "`search/global_bounds.cpp`, `./a.py`; `conflicts/mine.cpp`, `x_test.cpp`, `FILE.map`, a.cpp"
+        self.assertEqual(named_files(text), ["search/global_bounds.cpp", "a.py"])
 
     def test_license(self):
         self.assertTrue(has_license("#!/bin/sh\n# SPDX-License-Identifier: MIT\n"))

@@ -14,10 +14,10 @@ namespace grove::detail {
 // Holds the incumbent and the proven lower bound, and alone decides - in integers - when to stop,
 // what to prune and whether a new tree is necessary. The argument is at the head of gate.cpp. All
 // methods may be called from any thread.
-class Gate {
+class GlobalBounds {
  public:
   // `instance` must outlive the gate.
-  Gate(const Instance& instance, Omega omega) : instance_(instance), omega_(omega) {}
+  GlobalBounds(const Instance& instance, Omega omega) : instance_(instance), omega_(omega) {}
 
   // Offers a plan from anywhere: a conflict-free node, a heuristic, a file. It is re-checked from
   // scratch; kept if it is cheaper than the incumbent. True if kept. Throws std::logic_error if the

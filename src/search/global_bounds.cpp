@@ -23,7 +23,7 @@
 // The paper's "OPEN is empty" must mean that no live node exists at all, the popped one included,
 // or every instance would get a needless second root. With w = inf only the first tree is ever
 // built (S-CBS).
-#include "search/gate.h"
+#include "search/global_bounds.h"
 
 #include <fmt/format.h>
 
@@ -35,7 +35,7 @@
 
 namespace grove::detail {
 
-bool Gate::post(Plan plan) {
+bool GlobalBounds::post(Plan plan) {
   {
     const std::lock_guard lock(mutex_);
     if (incumbent_ && incumbent_->cost <= plan.cost) return false;
@@ -53,47 +53,47 @@ bool Gate::post(Plan plan) {
   return true;
 }
 
-void Gate::update(Cost live_bound, Cost next_tree_bound) {
+void GlobalBounds::update(Cost live_bound, Cost next_tree_bound) {
   const std::lock_guard lock(mutex_);
   open_bound_ = std::max(open_bound_, std::min(live_bound, next_tree_bound));
 }
 
-Cost Gate::lower_bound_locked() const {
+Cost GlobalBounds::lower_bound_locked() const {
   return incumbent_ ? std::min(open_bound_, incumbent_->cost) : open_bound_;
 }
 
-Cost Gate::lower_bound() const {
+Cost GlobalBounds::lower_bound() const {
   const std::lock_guard lock(mutex_);
   return lower_bound_locked();
 }
 
-std::optional<Cost> Gate::incumbent_cost() const {
+std::optional<Cost> GlobalBounds::incumbent_cost() const {
   const std::lock_guard lock(mutex_);
   return incumbent_ ? std::optional(incumbent_->cost) : std::nullopt;
 }
 
-std::optional<Plan> Gate::incumbent() const {
+std::optional<Plan> GlobalBounds::incumbent() const {
   const std::lock_guard lock(mutex_);
   return incumbent_;
 }
 
-bool Gate::finished() const {
+bool GlobalBounds::finished() const {
   const std::lock_guard lock(mutex_);
   if (open_bound_ >= kInfiniteCost) return true;
   return incumbent_ && omega_.accepts(incumbent_->cost, lower_bound_locked());
 }
 
-bool Gate::proven_infeasible() const {
+bool GlobalBounds::proven_infeasible() const {
   const std::lock_guard lock(mutex_);
   return !incumbent_ && open_bound_ >= kInfiniteCost;
 }
 
-bool Gate::prunes(Cost bound) const {
+bool GlobalBounds::prunes(Cost bound) const {
   const std::lock_guard lock(mutex_);
   return incumbent_ && bound >= incumbent_->cost;
 }
 
-bool Gate::needs_new_tree(Cost best_live, std::optional<Cost> last_tree_cost) const {
+bool GlobalBounds::needs_new_tree(Cost best_live, std::optional<Cost> last_tree_cost) const {
   if (!last_tree_cost) return true;
   if (omega_.is_infinite()) return false;
   if (best_live >= kInfiniteCost) return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "search/gate.h"
+#include "search/global_bounds.h"
 
 #include <gtest/gtest.h>
 
@@ -22,8 +22,8 @@ Plan plan_of_cost(Time cost) {
   return {cost, {{cost, {}, path}}};
 }
 
-TEST(Gate, KeepsTheCheapestPlan) {
-  Gate gate(instance(), Omega());
+TEST(GlobalBounds, KeepsTheCheapestPlan) {
+  GlobalBounds gate(instance(), Omega());
   EXPECT_TRUE(gate.post(plan_of_cost(7)));
   EXPECT_FALSE(gate.post(plan_of_cost(7)));
   EXPECT_TRUE(gate.post(plan_of_cost(5)));
@@ -31,8 +31,8 @@ TEST(Gate, KeepsTheCheapestPlan) {
   EXPECT_EQ(gate.incumbent_cost(), 5);
 }
 
-TEST(Gate, RefusesWrongPlans) {
-  Gate gate(instance(), Omega());
+TEST(GlobalBounds, RefusesWrongPlans) {
+  GlobalBounds gate(instance(), Omega());
   Plan jump = plan_of_cost(4);
   jump.agents[0].path[2] = 0;
   EXPECT_THROW(gate.post(jump), std::logic_error);
@@ -42,8 +42,8 @@ TEST(Gate, RefusesWrongPlans) {
   EXPECT_FALSE(gate.incumbent_cost());
 }
 
-TEST(Gate, LowerBoundIsTheLeastOfAllAndNeverFalls) {
-  Gate gate(instance(), Omega());
+TEST(GlobalBounds, LowerBoundIsTheLeastOfAllAndNeverFalls) {
+  GlobalBounds gate(instance(), Omega());
   EXPECT_EQ(gate.lower_bound(), 0);
   gate.update(6, 4);
   EXPECT_EQ(gate.lower_bound(), 4);
@@ -54,8 +54,8 @@ TEST(Gate, LowerBoundIsTheLeastOfAllAndNeverFalls) {
   EXPECT_EQ(gate.lower_bound(), 5);
 }
 
-TEST(Gate, FinishesAtOmegaInIntegers) {
-  Gate gate(instance(), Omega::parse("0.1"));
+TEST(GlobalBounds, FinishesAtOmegaInIntegers) {
+  GlobalBounds gate(instance(), Omega::parse("0.1"));
   gate.post(plan_of_cost(11));
   gate.update(9, 20);
   EXPECT_FALSE(gate.finished());
@@ -63,8 +63,8 @@ TEST(Gate, FinishesAtOmegaInIntegers) {
   EXPECT_TRUE(gate.finished());
 }
 
-TEST(Gate, WithoutAPlanItFinishesOnlyWhenNothingIsLeft) {
-  Gate gate(instance(), Omega::infinite());
+TEST(GlobalBounds, WithoutAPlanItFinishesOnlyWhenNothingIsLeft) {
+  GlobalBounds gate(instance(), Omega::infinite());
   gate.update(100, kInfiniteCost);
   EXPECT_FALSE(gate.finished());
   EXPECT_FALSE(gate.proven_infeasible());
@@ -73,8 +73,8 @@ TEST(Gate, WithoutAPlanItFinishesOnlyWhenNothingIsLeft) {
   EXPECT_TRUE(gate.proven_infeasible());
 }
 
-TEST(Gate, WithAPlanAndNothingLeftThePlanIsOptimal) {
-  Gate gate(instance(), Omega());
+TEST(GlobalBounds, WithAPlanAndNothingLeftThePlanIsOptimal) {
+  GlobalBounds gate(instance(), Omega());
   gate.post(plan_of_cost(6));
   gate.update(kInfiniteCost, kInfiniteCost);
   EXPECT_TRUE(gate.finished());
@@ -82,26 +82,26 @@ TEST(Gate, WithAPlanAndNothingLeftThePlanIsOptimal) {
   EXPECT_EQ(gate.lower_bound(), 6);
 }
 
-TEST(Gate, PrunesWhatCannotBeCheaper) {
-  Gate gate(instance(), Omega::parse("0.1"));
+TEST(GlobalBounds, PrunesWhatCannotBeCheaper) {
+  GlobalBounds gate(instance(), Omega::parse("0.1"));
   EXPECT_FALSE(gate.prunes(1000));
   gate.post(plan_of_cost(6));
   EXPECT_TRUE(gate.prunes(6));
   EXPECT_FALSE(gate.prunes(5));
 }
 
-TEST(Gate, AsksForTreesAsAlgorithm4Does) {
-  const Gate exact(instance(), Omega());
+TEST(GlobalBounds, AsksForTreesAsAlgorithm4Does) {
+  const GlobalBounds exact(instance(), Omega());
   EXPECT_TRUE(exact.needs_new_tree(kInfiniteCost, std::nullopt));
   EXPECT_FALSE(exact.needs_new_tree(10, 10));
   EXPECT_TRUE(exact.needs_new_tree(11, 10));
   EXPECT_TRUE(exact.needs_new_tree(kInfiniteCost, 10));
 
-  const Gate bounded(instance(), Omega::parse("0.1"));
+  const GlobalBounds bounded(instance(), Omega::parse("0.1"));
   EXPECT_FALSE(bounded.needs_new_tree(11, 10));
   EXPECT_TRUE(bounded.needs_new_tree(12, 10));
 
-  const Gate sequential(instance(), Omega::infinite());
+  const GlobalBounds sequential(instance(), Omega::infinite());
   EXPECT_TRUE(sequential.needs_new_tree(kInfiniteCost, std::nullopt));
   EXPECT_FALSE(sequential.needs_new_tree(1000, 10));
   EXPECT_FALSE(sequential.needs_new_tree(kInfiniteCost, 10));
