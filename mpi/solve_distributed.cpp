@@ -140,7 +140,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
     if (!heard) sleep(next_look(heard_at, rested + kLeastNap_s, nap) - rested);
   }
   if (!member.coordinator()) return std::nullopt;
-  if (options.proof != nullptr) member.rank().search().lagrangian().write_down(*options.proof);
+  if (options.proof != nullptr) member.rank().search().lagrangian().log_proof(*options.proof);
   return member.coordinator()->conclude();
 }
 

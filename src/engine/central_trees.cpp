@@ -77,12 +77,12 @@ bool CentralTrees::is_due() const {
 
 void CentralTrees::instantiate(const NodePtr& root) {
   announcements_.root(root);
-  if (options_.proof != nullptr) write_down(*root);
+  if (options_.proof != nullptr) log_proof(*root);
   roots_.push_back(root);
   last_cost_ = root->cost();
 }
 
-void CentralTrees::write_down(const Node& root) const {
+void CentralTrees::log_proof(const Node& root) const {
   ProofTree tree{proof_key(root), root.cost(), {}};
   for (const auto& order : root.tree().orders) tree.sequences.push_back(order->sequences.prefix);
   options_.proof->tree(tree);

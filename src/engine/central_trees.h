@@ -46,7 +46,7 @@ class CentralTrees : public TreeSource {
  private:
   bool is_due() const;
   void instantiate(const NodePtr& root);
-  void write_down(const Node& root) const;
+  void log_proof(const Node& root) const;
   void grow();
   bool begin_anew();
 

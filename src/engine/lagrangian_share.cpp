@@ -101,7 +101,7 @@ Cost LagrangianShare::commit(LagrangianBound::Job job) {
   return heard_of_bound();
 }
 
-void LagrangianShare::write_down(ProofLog& proof) const {
+void LagrangianShare::log_proof(ProofLog& proof) const {
   const LagrangianBound* const bound = this->bound();
   if (bound != nullptr && !bound->reasons().empty())
     proof.prices(bound->lower_bound(), bound->reasons());

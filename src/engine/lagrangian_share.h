@@ -24,7 +24,7 @@ class LagrangianShare {
   // `tuning` must outlive this. Until open() it is never due.
   explicit LagrangianShare(const Tuning& tuning) : tuning_(tuning) {}
 
-  // Before the search. `instance` must outlive this. `keeps_reasons`: for write_down().
+  // Before the search. `instance` must outlive this. `keeps_reasons`: for log_proof().
   void open(const Instance& instance, const AgentStopsCache& stops, bool keeps_reasons);
 
   // So much was done beside it.
@@ -44,7 +44,7 @@ class LagrangianShare {
   Pricer pricer(const AgentStopsCache& stops) const;
   int rounds() const { return rounds_; }
   // After the search: why the bound holds.
-  void write_down(ProofLog& proof) const;
+  void log_proof(ProofLog& proof) const;
   // For the search for plans; null: none yet, or the bound is another rank's.
   std::shared_ptr<const DualSolution> price_list() const;
 

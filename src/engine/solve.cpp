@@ -87,7 +87,7 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
   }
   if (workers) workers->add_counts(stats);
   workers.reset();  // their memory may be needed for the answer
-  if (options.proof != nullptr) shared.lagrangian().write_down(*options.proof);
+  if (options.proof != nullptr) shared.lagrangian().log_proof(*options.proof);
   if (begun) checkpoints.write_last();
   run.end();
   Solution solution = run.conclude();

@@ -20,8 +20,8 @@
 #include "proof/lemma_writer.h"
 #include "proof/proof_forest.h"
 #include "proof/proof_parts.h"
+#include "proof/proof_records.h"
 #include "proof/proof_text.h"
-#include "proof/written_down.h"
 
 namespace grove::detail {
 namespace {
@@ -136,7 +136,7 @@ class Making {
 
   const Instance& instance_;
   const std::span<const std::filesystem::path> parts_;
-  WrittenDown written_;
+  ProofRecords written_;
   ProofForest forest_;
   Certificate made_;
 };

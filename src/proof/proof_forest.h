@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "conflicts/conflict.h"
+#include "proof/proof_records.h"
 #include "proof/split_tree.h"
-#include "proof/written_down.h"
 
 namespace grove::detail {
 
@@ -25,7 +25,7 @@ class ForestVisitor {
 class ProofForest {
  public:
   // `written` must outlive this.
-  explicit ProofForest(WrittenDown& written) : written_(written), tree_(written.entries) {}
+  explicit ProofForest(ProofRecords& written) : written_(written), tree_(written.entries) {}
 
   // What it proves, up to `claimed`.
   Cost value(Cost claimed);
@@ -37,7 +37,7 @@ class ProofForest {
   void visit(const Trees& trees, std::size_t agent, std::size_t number, ForestVisitor& visitor);
   void visit(const ProofTree& tree, ForestVisitor& visitor);
 
-  WrittenDown& written_;
+  ProofRecords& written_;
   SplitTree tree_;
   Cost bound_ = 0;
 };

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "proof/written_down.h"
+#include "proof/proof_records.h"
 
 namespace grove::detail {
 

@@ -110,15 +110,15 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
     case Brancher::Outcome::kBranched:
       expansion.branching = brancher_.branching();
       if (proof_ != nullptr && expansion.branching)
-        write_down(*expansion.branching, node, expansion.children, cutoff);
+        log_proof(*expansion.branching, node, expansion.children, cutoff);
       break;
   }
   return expansion;
 }
 
 // A side without a child holds no plan cheaper than the cutoff.
-void Expander::write_down(const Branching& branching, const NodePtr& node,
-                          std::span<const NodePtr> children, Cost cutoff) {
+void Expander::log_proof(const Branching& branching, const NodePtr& node,
+                         std::span<const NodePtr> children, Cost cutoff) {
   const Split& split = branching.split;
   ProofSplit written{proof_key(*node), split, {cutoff, cutoff}};
   for (const NodePtr& child : children)

@@ -110,8 +110,8 @@ class Expander {
 
   void enter(const NodePtr& node);
   Plan plan(const Node& node);
-  void write_down(const Branching& branching, const NodePtr& node,
-                  std::span<const NodePtr> children, Cost cutoff);
+  void log_proof(const Branching& branching, const NodePtr& node, std::span<const NodePtr> children,
+                 Cost cutoff);
 
   const Problem& problem_;
   const Techniques techniques_;

@@ -89,7 +89,7 @@ WdgHeuristic::Outcome WdgHeuristic::find_bound(const NodePtr& node, NodeView& vi
   else
     bound =
         std::min(cutoff, node->cost() + covering_bound(statements, tuning_.covering_steps, limits));
-  if (proof_ != nullptr && bound > node->bound()) write_down_bound(view, statements, bound);
+  if (proof_ != nullptr && bound > node->bound()) log_bound(view, statements, bound);
   return Outcome::kDone;
 }
 
@@ -148,8 +148,7 @@ WdgHeuristic::Outcome WdgHeuristic::solve_conflicting(NodeView& view, Cost slack
       // (Of following the comparison knows nothing.)
       known.exact = *dependence == Dependence::kIndependent && instance_.may_follow();
       known.excess = *dependence == Dependence::kDependent ? 1 : 0;
-      if (proof_ != nullptr && known.excess > 0)
-        write_down_lemma(view, std::array{a, b}, 1, kNoProof, {});
+      if (proof_ != nullptr && known.excess > 0) log_lemma(view, std::array{a, b}, 1, kNoProof, {});
     }
     const bool solved =
         known.exact || solve(view, std::array{a, b}, slack, tuning_.pair_expansions, limits, known);
@@ -229,7 +228,7 @@ bool WdgHeuristic::solve(const NodeView& view, std::span<const AgentIndex> group
   const Cost by_splits = known.excess;
   if (!joint_groups_.settle(view, group, slack, limits, known)) return false;
   if (proof_ != nullptr && known.excess > by_splits)
-    write_down_lemma(view, group, known.excess, kNoProof, {});
+    log_lemma(view, group, known.excess, kNoProof, {});
   return true;
 }
 
@@ -259,7 +258,7 @@ bool WdgHeuristic::solve_by_splits(const NodePtr& node, std::span<const AgentInd
       known.exact = true;
       break;
     }
-    if (proof_ != nullptr && pair_brancher_.branching()) write_down_splits(next, base, closed);
+    if (proof_ != nullptr && pair_brancher_.branching()) log_splits(next, base, closed);
     for (NodePtr& child : children_) open_.push_back({child->cost(), std::move(child)});
   }
   const auto least = std::ranges::min_element(open_, {}, &Open::cost);
@@ -267,14 +266,14 @@ bool WdgHeuristic::solve_by_splits(const NodePtr& node, std::span<const AgentInd
     known.excess = std::max(known.excess, least == open_.end() ? closed : least->cost - base);
   if (proof_ != nullptr && known.excess > known_before) {
     pair_view_.enter(node, group);
-    write_down_lemma(pair_view_, group, known.excess, proof_key(*node), written_);
+    log_lemma(pair_view_, group, known.excess, proof_key(*node), written_);
   }
   open_.clear();
   return true;
 }
 
 // The costs are those of the group beyond what it costs at the beginning, until they are written.
-void WdgHeuristic::write_down_splits(const Open& from, Cost base, Cost closed) {
+void WdgHeuristic::log_splits(const Open& from, Cost base, Cost closed) {
   const Split& split = pair_brancher_.branching()->split;
   ProofSplit written{proof_key(*from.node), split, {closed, closed}};
   for (const NodePtr& child : children_)
@@ -282,9 +281,8 @@ void WdgHeuristic::write_down_splits(const Open& from, Cost base, Cost closed) {
   written_.push_back(written);
 }
 
-void WdgHeuristic::write_down_lemma(const NodeView& view, std::span<const AgentIndex> group,
-                                    Cost excess, ProofKey root,
-                                    std::span<const ProofSplit> splits) {
+void WdgHeuristic::log_lemma(const NodeView& view, std::span<const AgentIndex> group, Cost excess,
+                             ProofKey root, std::span<const ProofSplit> splits) {
   const ProofLemma lemma = lemma_at(view, group, excess);
   std::vector<ProofSplit> of_group(splits.begin(), splits.end());
   for (ProofSplit& split : of_group)
@@ -292,8 +290,8 @@ void WdgHeuristic::write_down_lemma(const NodeView& view, std::span<const AgentI
   proof_->lemma(lemma, root, of_group);
 }
 
-void WdgHeuristic::write_down_bound(const NodeView& view, std::span<const GroupExcess> statements,
-                                    Cost bound) {
+void WdgHeuristic::log_bound(const NodeView& view, std::span<const GroupExcess> statements,
+                             Cost bound) {
   std::vector<ProofExcess> excesses;
   for (const GroupExcess& s : statements)
     excesses.push_back({lemma_at(view, s.agents, s.excess).key(), s.agents, s.excess});

@@ -94,10 +94,10 @@ class WdgHeuristic {
   bool solve_by_splits(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
                        std::int64_t most_expansions, const Limits& limits, Known& known);
   void collect(std::vector<GroupExcess>& statements);
-  void write_down_splits(const Open& from, Cost base, Cost closed);
-  void write_down_lemma(const NodeView& view, std::span<const AgentIndex> group, Cost excess,
-                        ProofKey root, std::span<const ProofSplit> splits);
-  void write_down_bound(const NodeView& view, std::span<const GroupExcess> statements, Cost bound);
+  void log_splits(const Open& from, Cost base, Cost closed);
+  void log_lemma(const NodeView& view, std::span<const AgentIndex> group, Cost excess,
+                 ProofKey root, std::span<const ProofSplit> splits);
+  void log_bound(const NodeView& view, std::span<const GroupExcess> statements, Cost bound);
   std::int64_t work() const { return planner_.work() + joint_groups_.work(); }
 
   const Instance& instance_;

@@ -23,7 +23,7 @@ struct ProofEntry {
 using ProofEntries = std::unordered_map<ProofKey, ProofEntry>;
 
 // All of it, but for the lemmas, of which only the names are kept.
-class WrittenDown : public ProofLog {
+class ProofRecords : public ProofLog {
  public:
   ProofEntries entries;
   std::unordered_set<ProofKey> lemmas;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "proof/written_down.h"
+#include "proof/proof_records.h"
 
 #include <algorithm>
 
@@ -7,16 +7,16 @@
 
 namespace grove::detail {
 
-void WrittenDown::tree(const ProofTree& tree) {
+void ProofRecords::tree(const ProofTree& tree) {
   if (std::ranges::count(trees, tree.root, &ProofTree::root) == 0) trees.push_back(tree);
 }
 
-void WrittenDown::split(const ProofSplit& split) {
+void ProofRecords::split(const ProofSplit& split) {
   entries[split.node].split = split;
 }
 
-void WrittenDown::bound(ProofKey node, Cost cost, Cost bound,
-                        std::span<const ProofExcess> excesses) {
+void ProofRecords::bound(ProofKey node, Cost cost, Cost bound,
+                         std::span<const ProofExcess> excesses) {
   ProofEntry& entry = entries[node];
   entry.cost = std::max(entry.cost, cost);
   if (bound <= entry.bound) return;
@@ -24,22 +24,22 @@ void WrittenDown::bound(ProofKey node, Cost cost, Cost bound,
   entry.excesses.assign(excesses.begin(), excesses.end());
 }
 
-void WrittenDown::lemma(const ProofLemma& lemma, ProofKey /*root*/,
-                        std::span<const ProofSplit> /*splits*/) {
+void ProofRecords::lemma(const ProofLemma& lemma, ProofKey /*root*/,
+                         std::span<const ProofSplit> /*splits*/) {
   lemmas.insert(lemma.key());
 }
 
-void WrittenDown::prices(Cost bound, std::span<const RowMultiplier> rows) {
+void ProofRecords::prices(Cost bound, std::span<const RowMultiplier> rows) {
   if (bound <= priced) return;
   priced = bound;
   priced_rows.assign(rows.begin(), rows.end());
 }
 
-void WrittenDown::joint(Cost bound) {
+void ProofRecords::joint(Cost bound) {
   joined = std::max(joined, bound);
 }
 
-void WrittenDown::drop_what_lacks_lemmas() {
+void ProofRecords::drop_what_lacks_lemmas() {
   const auto is_lost = [&](ProofKey lemma) { return !lemmas.contains(lemma); };
   for (auto& [node, entry] : entries) {
     if (entry.split && entry.split->lemma != kNoProof && is_lost(entry.split->lemma))
