@@ -37,10 +37,10 @@
 
 #include "io/input_error.h"
 #include "model/limits.h"
+#include "proof/active_constraints.h"
 #include "proof/certificate_bytes.h"
 #include "proof/certificate_output.h"
 #include "proof/certificate_reader.h"
-#include "proof/demands_in_force.h"
 #include "proof/kept_parts.h"
 #include "proof/lemma_table.h"
 
@@ -157,7 +157,7 @@ class Deciding : public KeptParts {
   LemmaTable& lemmas_;
   TableLemma statement_;
   bool is_theorem_ = false;
-  DemandsInForce in_force_;
+  ActiveConstraints in_force_;
   std::deque<Level> levels_;
   Needs needs_;  // of the proof that ended last
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "proof/kept_parts.h"
 
-#include "proof/demands_in_force.h"
+#include "proof/active_constraints.h"
 
 namespace grove::detail {
 

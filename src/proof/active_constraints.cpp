@@ -2,7 +2,7 @@
 // "A rest P T" brings "B bar P T inf" for each other agent. They are not counted one by one: by
 // `others`, how often anybody rests so, and `own`, how often the agent itself does. (For agents of
 // whom the proof is not, too: of those no lemma that it may name demands anything.)
-#include "proof/demands_in_force.h"
+#include "proof/active_constraints.h"
 
 #include "model/hash.h"
 
@@ -30,19 +30,20 @@ CertificateDemand demand_of(const CertificateLate& side) {
   return {side.agent, Kind::kNoRest, kSomeGoal, 0, side.time, side.time};
 }
 
-bool DemandsInForce::has(const CertificateDemand& demand) const {
+bool ActiveConstraints::has(const CertificateDemand& demand) const {
   if (times(demand) > 0) return true;
   return is_for_ever(demand) &&
          times(others(demand.p, demand.begin)) > times(own(demand.agent, demand.p, demand.begin));
 }
 
-bool DemandsInForce::has_side(const CertificateDemand& side) const {
+bool ActiveConstraints::has_side(const CertificateDemand& side) const {
   // One of a lemma has brought nothing for others.
   if (side.kind == Kind::kRest) return times(own(side.agent, side.p, side.begin)) > 0;
   return has(side);
 }
 
-bool DemandsInForce::is_of(const CertificateDemand& demand, const CertificateDemand& side) const {
+bool ActiveConstraints::is_of(const CertificateDemand& demand,
+                              const CertificateDemand& side) const {
   if (side.kind == Kind::kRest && is_for_ever(demand))
     return demand.p == side.p && demand.begin == side.begin && demand.agent != side.agent;
   if (side.p != kSomeGoal) return demand == side;
@@ -51,26 +52,26 @@ bool DemandsInForce::is_of(const CertificateDemand& demand, const CertificateDem
          !has(demand);
 }
 
-std::size_t DemandsInForce::Hash::operator()(const CertificateDemand& demand) const {
+std::size_t ActiveConstraints::Hash::operator()(const CertificateDemand& demand) const {
   std::uint64_t hash = static_cast<std::uint64_t>(demand.kind);
   for (const std::int32_t value : {demand.agent, demand.p, demand.q, demand.begin, demand.end})
     hash = hash_combine(hash, static_cast<std::uint64_t>(value));
   return hash;
 }
 
-void DemandsInForce::count(const CertificateDemand& side, int more) {
+void ActiveConstraints::count(const CertificateDemand& side, int more) {
   count_one(side, more);
   if (side.kind != Kind::kRest) return;
   count_one(own(side.agent, side.p, side.begin), more);
   count_one(others(side.p, side.begin), more);
 }
 
-void DemandsInForce::count_one(const CertificateDemand& demand, int more) {
+void ActiveConstraints::count_one(const CertificateDemand& demand, int more) {
   const auto found = counts_.try_emplace(demand, 0).first;
   if ((found->second += more) == 0) counts_.erase(found);
 }
 
-int DemandsInForce::times(const CertificateDemand& demand) const {
+int ActiveConstraints::times(const CertificateDemand& demand) const {
   const auto found = counts_.find(demand);
   return found == counts_.end() ? 0 : found->second;
 }

@@ -13,7 +13,7 @@ namespace grove::detail {
 inline constexpr std::int32_t kSomeGoal = -1;
 CertificateDemand demand_of(const CertificateLate& side);
 
-class DemandsInForce {
+class ActiveConstraints {
  public:
   // Of a lemma.
   void add(const CertificateDemand& demand) { ++counts_[demand]; }
