@@ -9,7 +9,7 @@
 #include "model/random.h"
 #include "model/tuning.h"
 #include "primal/neighborhoods.h"
-#include "primal/path_set.h"
+#include "primal/planned_paths.h"
 #include "primal/router.h"
 
 namespace grove::detail {
@@ -21,7 +21,7 @@ namespace grove::detail {
 class NeighborhoodSearch {
  public:
   // All must outlive this.
-  NeighborhoodSearch(const Problem& problem, Router& router, PathSet& paths, Random& random,
+  NeighborhoodSearch(const Problem& problem, Router& router, PlannedPaths& paths, Random& random,
                      const Tuning& tuning)
       : router_(router),
         paths_(paths),
@@ -60,7 +60,7 @@ class NeighborhoodSearch {
   void restore(const std::vector<AgentIndex>& agents);
 
   Router& router_;
-  PathSet& paths_;
+  PlannedPaths& paths_;
   Random& random_;
   const Tuning& tuning_;
   Neighborhoods neighborhoods_;

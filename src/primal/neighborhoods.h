@@ -8,7 +8,7 @@
 
 #include "model/random.h"
 #include "model/tuning.h"
-#include "primal/path_set.h"
+#include "primal/planned_paths.h"
 #include "primal/router.h"
 #include "search/problem.h"
 
@@ -19,8 +19,8 @@ namespace grove::detail {
 class Neighborhoods {
  public:
   // All must outlive this.
-  Neighborhoods(const Problem& problem, const Router& router, const PathSet& paths, Random& random,
-                const Tuning& tuning)
+  Neighborhoods(const Problem& problem, const Router& router, const PlannedPaths& paths,
+                Random& random, const Tuning& tuning)
       : problem_(problem), router_(router), paths_(paths), random_(random), tuning_(tuning) {}
 
   // The next one, in random order; all agents must have paths. Valid until the next call.
@@ -52,7 +52,7 @@ class Neighborhoods {
 
   const Problem& problem_;
   const Router& router_;
-  const PathSet& paths_;
+  const PlannedPaths& paths_;
   Random& random_;
   const Tuning& tuning_;
   std::array<double, kKinds> weights_{1, 1, 1, 1};

@@ -54,7 +54,7 @@
 #include "primal/configuration_search.h"
 #include "primal/guided_search.h"
 #include "primal/neighborhood_search.h"
-#include "primal/path_set.h"
+#include "primal/planned_paths.h"
 #include "primal/prioritized_planning.h"
 #include "primal/router.h"
 #include "primal/visit_orders.h"
@@ -154,8 +154,8 @@ class PrimalSearch::Impl {
   const int agents_;
   Random random_;
   Router router_;
-  PathSet paths_;    // the plan that is being improved, or none
-  PathSet planned_;  // by prioritised planning
+  PlannedPaths paths_;    // the plan that is being improved, or none
+  PlannedPaths planned_;  // by prioritised planning
   PrioritizedPlanning planning_;
   std::unique_ptr<ConfigurationSearch> configurations_;
   std::unique_ptr<GuidedSearch> guided_;  // while it makes cheaper plans

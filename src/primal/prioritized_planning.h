@@ -8,7 +8,7 @@
 
 #include "model/random.h"
 #include "model/tuning.h"
-#include "primal/path_set.h"
+#include "primal/planned_paths.h"
 #include "primal/router.h"
 
 namespace grove::detail {
@@ -25,7 +25,7 @@ class PrioritizedPlanning {
   };
 
   // All must outlive this.
-  PrioritizedPlanning(const World& world, Router& router, PathSet& paths, Random& random,
+  PrioritizedPlanning(const World& world, Router& router, PlannedPaths& paths, Random& random,
                       const Tuning& tuning)
       : world_(world), router_(router), paths_(paths), random_(random), tuning_(tuning) {}
 
@@ -51,7 +51,7 @@ class PrioritizedPlanning {
 
   const World& world_;
   Router& router_;
-  PathSet& paths_;
+  PlannedPaths& paths_;
   Random& random_;
   const Tuning& tuning_;
   std::vector<AgentIndex> order_;

@@ -11,7 +11,7 @@
 
 #include "model/random.h"
 #include "primal/in_the_way.h"
-#include "primal/path_set.h"
+#include "primal/planned_paths.h"
 #include "primal/router.h"
 
 namespace grove::detail {
@@ -100,7 +100,7 @@ class Repair {
   const Limits& limits_;
   Random random_;
   Router router_;
-  PathSet paths_;
+  PlannedPaths paths_;
   std::deque<AgentIndex> queue_;
   std::int64_t failures_ = 0;
 };

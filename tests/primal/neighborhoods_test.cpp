@@ -40,7 +40,7 @@ struct Planned {
   const Problem problem{instance, Limits()};
   AgentStopsCache stops{instance, problem.distances};
   Router router{problem, stops};
-  PathSet paths{instance};
+  PlannedPaths paths{instance};
   Random random{1};
   const Tuning tuning;
 };

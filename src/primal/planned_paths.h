@@ -12,9 +12,9 @@
 namespace grove::detail {
 
 // Paths that do not collide, by AgentIndex; an agent without one has an empty path.
-class PathSet {
+class PlannedPaths {
  public:
-  explicit PathSet(const Instance& instance)
+  explicit PlannedPaths(const Instance& instance)
       : reservations_(instance.world(), instance.may_follow() ? 0 : 1),
         paths_(static_cast<std::size_t>(instance.agent_count())),
         editions_(paths_.size(), 0) {}
