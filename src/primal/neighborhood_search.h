@@ -10,7 +10,7 @@
 #include "model/tuning.h"
 #include "primal/neighborhoods.h"
 #include "primal/planned_paths.h"
-#include "primal/router.h"
+#include "primal/primal_low_level.h"
 
 namespace grove::detail {
 
@@ -21,8 +21,8 @@ namespace grove::detail {
 class NeighborhoodSearch {
  public:
   // All must outlive this.
-  NeighborhoodSearch(const Problem& problem, Router& router, PlannedPaths& paths, Random& random,
-                     const Tuning& tuning)
+  NeighborhoodSearch(const Problem& problem, PrimalLowLevel& router, PlannedPaths& paths,
+                     Random& random, const Tuning& tuning)
       : router_(router),
         paths_(paths),
         random_(random),
@@ -59,7 +59,7 @@ class NeighborhoodSearch {
   bool find(AgentIndex agent, Cost cutoff, Way& way, const Limits& limits);
   void restore(const std::vector<AgentIndex>& agents);
 
-  Router& router_;
+  PrimalLowLevel& router_;
   PlannedPaths& paths_;
   Random& random_;
   const Tuning& tuning_;

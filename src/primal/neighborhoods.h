@@ -9,7 +9,7 @@
 #include "model/random.h"
 #include "model/tuning.h"
 #include "primal/planned_paths.h"
-#include "primal/router.h"
+#include "primal/primal_low_level.h"
 #include "search/problem.h"
 
 namespace grove::detail {
@@ -19,7 +19,7 @@ namespace grove::detail {
 class Neighborhoods {
  public:
   // All must outlive this.
-  Neighborhoods(const Problem& problem, const Router& router, const PlannedPaths& paths,
+  Neighborhoods(const Problem& problem, const PrimalLowLevel& router, const PlannedPaths& paths,
                 Random& random, const Tuning& tuning)
       : problem_(problem), router_(router), paths_(paths), random_(random), tuning_(tuning) {}
 
@@ -51,7 +51,7 @@ class Neighborhoods {
   void add_visitors(Place place, Time time);
 
   const Problem& problem_;
-  const Router& router_;
+  const PrimalLowLevel& router_;
   const PlannedPaths& paths_;
   Random& random_;
   const Tuning& tuning_;

@@ -55,8 +55,8 @@
 #include "primal/guided_search.h"
 #include "primal/neighborhood_search.h"
 #include "primal/planned_paths.h"
+#include "primal/primal_low_level.h"
 #include "primal/prioritized_planning.h"
-#include "primal/router.h"
 #include "primal/visit_orders.h"
 #include "search/work.h"
 
@@ -153,7 +153,7 @@ class PrimalSearch::Impl {
   bool may_guide_;  // once
   const int agents_;
   Random random_;
-  Router router_;
+  PrimalLowLevel router_;
   PlannedPaths paths_;    // the plan that is being improved, or none
   PlannedPaths planned_;  // by prioritised planning
   PrioritizedPlanning planning_;

@@ -9,7 +9,7 @@
 #include "model/random.h"
 #include "model/tuning.h"
 #include "primal/planned_paths.h"
-#include "primal/router.h"
+#include "primal/primal_low_level.h"
 
 namespace grove::detail {
 
@@ -25,8 +25,8 @@ class PrioritizedPlanning {
   };
 
   // All must outlive this.
-  PrioritizedPlanning(const World& world, Router& router, PlannedPaths& paths, Random& random,
-                      const Tuning& tuning)
+  PrioritizedPlanning(const World& world, PrimalLowLevel& router, PlannedPaths& paths,
+                      Random& random, const Tuning& tuning)
       : world_(world), router_(router), paths_(paths), random_(random), tuning_(tuning) {}
 
   // Takes all paths away and begins; agents must have been met.
@@ -50,7 +50,7 @@ class PrioritizedPlanning {
   void note_labels(std::int64_t labels);
 
   const World& world_;
-  Router& router_;
+  PrimalLowLevel& router_;
   PlannedPaths& paths_;
   Random& random_;
   const Tuning& tuning_;

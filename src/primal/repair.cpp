@@ -12,7 +12,7 @@
 #include "model/random.h"
 #include "primal/in_the_way.h"
 #include "primal/planned_paths.h"
-#include "primal/router.h"
+#include "primal/primal_low_level.h"
 
 namespace grove::detail {
 namespace {
@@ -99,7 +99,7 @@ class Repair {
   const int agents_;
   const Limits& limits_;
   Random random_;
-  Router router_;
+  PrimalLowLevel router_;
   PlannedPaths paths_;
   std::deque<AgentIndex> queue_;
   std::int64_t failures_ = 0;
@@ -114,7 +114,7 @@ std::optional<Plan> repaired(const Problem& problem, AgentStopsCache& stops,
 }
 
 Cost sum_of_own_costs(const Problem& problem, AgentStopsCache& stops, const Limits& limits) {
-  Router router(problem, stops);
+  PrimalLowLevel router(problem, stops);
   Cost sum = 0;
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
     if (router.meet(agent, limits))

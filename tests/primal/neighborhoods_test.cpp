@@ -39,7 +39,7 @@ struct Planned {
   const Instance instance;
   const Problem problem{instance, Limits()};
   AgentStopsCache stops{instance, problem.distances};
-  Router router{problem, stops};
+  PrimalLowLevel router{problem, stops};
   PlannedPaths paths{instance};
   Random random{1};
   const Tuning tuning;

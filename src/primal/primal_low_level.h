@@ -17,10 +17,10 @@
 namespace grove::detail {
 
 // The low level with what it needs of every agent. Each agent chooses the order of its tasks.
-class Router {
+class PrimalLowLevel {
  public:
   // Both must outlive this.
-  Router(const Problem& problem, AgentStopsCache& stops);
+  PrimalLowLevel(const Problem& problem, AgentStopsCache& stops);
 
   // Finds the agent's best path without other agents, or a good one if its sequences are too
   // many to tell; to be called for an agent before any other question about it. Returns false if a

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "primal/router.h"
+#include "primal/primal_low_level.h"
 
 #include <stdexcept>
 #include <utility>
@@ -15,7 +15,7 @@ constexpr std::int64_t kMostPricedLabels = 1 << 18;
 
 }  // namespace
 
-Router::Router(const Problem& problem, AgentStopsCache& stops)
+PrimalLowLevel::PrimalLowLevel(const Problem& problem, AgentStopsCache& stops)
     : problem_(problem),
       stops_(stops),
       low_level_(problem.instance.world()),
@@ -23,13 +23,13 @@ Router::Router(const Problem& problem, AgentStopsCache& stops)
       goals_(problem.instance.agent_count()),
       own_paths_(problem.instance.agent_count()) {}
 
-SequenceStages& Router::goals(AgentIndex agent) {
+SequenceStages& PrimalLowLevel::goals(AgentIndex agent) {
   auto& goals = goals_[agent];
   if (!goals) goals = std::make_unique<SequenceStages>(stops_.of(agent), SequenceClass());
   return *goals;
 }
 
-bool Router::meet(AgentIndex agent, const Limits& limits) {
+bool PrimalLowLevel::meet(AgentIndex agent, const Limits& limits) {
   Path& path = own_paths_[agent];
   if (!path.empty()) return true;
   ++calls_;
@@ -46,7 +46,7 @@ bool Router::meet(AgentIndex agent, const Limits& limits) {
 }
 
 // Where sequences are too many to tell the best one, a good one serves.
-bool Router::follow_good_sequence(AgentIndex agent, const Limits& limits) {
+bool PrimalLowLevel::follow_good_sequence(AgentIndex agent, const Limits& limits) {
   AgentStops& stops = stops_.of(agent);
   const CostMatrix& matrix = stops.cost_to_go().matrix();
   in_order_[agent] = std::make_unique<CostToGo>(CostToGo::in_order(matrix, good_sequence(matrix)));
@@ -56,27 +56,27 @@ bool Router::follow_good_sequence(AgentIndex agent, const Limits& limits) {
   return low_level_.find(goals(agent), query, limits, own_paths_[agent]) == PathOutcome::kFound;
 }
 
-PathOutcome Router::find(AgentIndex agent, const PathQuery& query, const Limits& limits,
-                         Path& path) {
+PathOutcome PrimalLowLevel::find(AgentIndex agent, const PathQuery& query, const Limits& limits,
+                                 Path& path) {
   ++calls_;
   return low_level_.find(goals(agent), query, limits, path);
 }
 
-void Router::use(std::shared_ptr<const DualSolution> prices) {
+void PrimalLowLevel::use(std::shared_ptr<const DualSolution> prices) {
   if (priced_) labels_before_ += priced_->labels();
   prices_ = std::move(prices);
   ++price_changes_;
   priced_.emplace(prices_->multipliers.penalties());
 }
 
-void Router::improve(AgentIndex agent, const ReservationTable& others, Time latest,
-                     const Limits& limits, Path& path) {
+void PrimalLowLevel::improve(AgentIndex agent, const ReservationTable& others, Time latest,
+                             const Limits& limits, Path& path) {
   const Multipliers& multipliers = prices_->multipliers;
   priced_->improve(goals(agent), multipliers.on_finish(agent), others, latest,
                    multipliers.price(agent, path), kMostPricedLabels, limits, path);
 }
 
-Plan Router::plan(const std::vector<Path>& paths) {
+Plan PrimalLowLevel::plan(const std::vector<Path>& paths) {
   Plan plan;
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent) {
     const Path& path = paths[agent];
