@@ -314,8 +314,8 @@ class Session::Impl {
     }
     const Kept later(std::move(rest->instance), limits, options.threads, &now);
     AgentStopsCache stops(now.instance, now.problem.distances);
-    const Cost own_costs = sum_of_own_costs(now.problem, stops, limits);
-    WholePlans plans(observer, now.instance, *old_, commit, later.instance, own_costs);
+    const Cost individual_costs = sum_of_individual_costs(now.problem, stops, limits);
+    WholePlans plans(observer, now.instance, *old_, commit, later.instance, individual_costs);
     Solution solution = solve_from(&rest->plan, affected, later.problem, options, limits, plans);
     return plans.whole(std::move(solution));
   }

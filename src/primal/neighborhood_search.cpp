@@ -84,9 +84,9 @@ Cost NeighborhoodSearch::worse_allowed(Cost cost) {
 bool NeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost most, Way& way,
                                    const Limits& limits) {
   Cost left = most;
-  for (AgentIndex agent : agents) left -= router_.own_cost(agent);
+  for (AgentIndex agent : agents) left -= router_.individual_cost(agent);
   for (AgentIndex agent : agents) {
-    const Cost cutoff = left + router_.own_cost(agent);
+    const Cost cutoff = left + router_.individual_cost(agent);
     if (!find(agent, cutoff, way, limits)) return false;
     paths_.put(agent, std::move(path_));
     path_.clear();

@@ -33,9 +33,9 @@ class NeighborhoodSearch {
   void step(const Limits& limits);
 
   // There is another plan to begin with; alone the agents would cost so much.
-  void begin(Cost own_costs) {
+  void begin(Cost individual_costs) {
     least_ = kInfiniteCost;
-    own_costs_ = own_costs;
+    own_costs_ = individual_costs;
   }
 
   std::int64_t steps() const { return steps_; }

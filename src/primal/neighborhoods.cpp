@@ -74,11 +74,11 @@ void Neighborhoods::add_delayed() {
   const AgentIndex agent = some_delayed_agent();
   if (agent == ReservationTable::kNobody) return;
   add(agent);
-  add_those_in_the_way(agent, router_.own_path(agent), 0);
-  const Time delay = paths_.cost(agent) - router_.own_cost(agent);
+  add_those_in_the_way(agent, router_.individual_path(agent), 0);
+  const Time delay = paths_.cost(agent) - router_.individual_cost(agent);
   for (int tries = 0; tries < tuning_.delayed_starts && !full(); ++tries) {
     const AgentIndex member = chosen_[random_.below(chosen_.size())];
-    add_those_in_the_way(member, router_.own_path(member), random_.below(delay + 1));
+    add_those_in_the_way(member, router_.individual_path(member), random_.below(delay + 1));
   }
 }
 
@@ -86,11 +86,11 @@ AgentIndex Neighborhoods::some_delayed_agent() {
   Cost sum = 0;
   const int agents = problem_.instance.agent_count();
   for (AgentIndex agent = 0; agent < agents; ++agent)
-    sum += paths_.cost(agent) - router_.own_cost(agent);
+    sum += paths_.cost(agent) - router_.individual_cost(agent);
   if (sum <= 0) return ReservationTable::kNobody;
   Cost at = random_.below(sum);
   for (AgentIndex agent = 0; agent < agents; ++agent) {
-    at -= paths_.cost(agent) - router_.own_cost(agent);
+    at -= paths_.cost(agent) - router_.individual_cost(agent);
     if (at < 0) return agent;
   }
   return ReservationTable::kNobody;
@@ -144,7 +144,7 @@ AgentIndex Neighborhoods::some_overpaying_agent() {
 
 const Path& Neighborhoods::wanted_path(AgentIndex agent) const {
   const Path& path = router_.prices()->paths[agent];
-  return path.empty() ? router_.own_path(agent) : path;
+  return path.empty() ? router_.individual_path(agent) : path;
 }
 
 // Breadth first from a place on somebody's path, about the time when it is there.

@@ -44,10 +44,12 @@ class PrimalLowLevel {
   // Is the own path proven to be the best?
   bool knows_best(AgentIndex agent) const { return in_order_[agent] == nullptr; }
   // The agent's best or good path without other agents, and its cost.
-  const Path& own_path(AgentIndex agent) const { return own_paths_[agent]; }
-  Time own_cost(AgentIndex agent) const { return static_cast<Time>(own_paths_[agent].size()) - 1; }
+  const Path& individual_path(AgentIndex agent) const { return own_paths_[agent]; }
+  Time individual_cost(AgentIndex agent) const {
+    return static_cast<Time>(own_paths_[agent].size()) - 1;
+  }
   // The order in which that path visits the agent's stops.
-  Sequence own_order(AgentIndex agent) const {
+  Sequence individual_order(AgentIndex agent) const {
     return realized_sequence(*goals_[agent], own_paths_[agent]);
   }
 

@@ -252,7 +252,7 @@ void PrimalSearch::Impl::meet(const Limits& limits) {
   meeting_work_ += work() - before;
   if (!met) return;
   own_costs_are_least_ = own_costs_are_least_ && router_.knows_best(met_);
-  own_costs_ += router_.own_cost(met_++);
+  own_costs_ += router_.individual_cost(met_++);
   if (met_ < agents_) return;
   begin_round(true);
   if (adopted_) put_all(*std::exchange(adopted_, std::nullopt), PlanSource::kStart);
@@ -262,7 +262,7 @@ void PrimalSearch::Impl::begin_round(bool first) {
   std::vector<std::pair<double, AgentIndex>> keys;
   for (AgentIndex agent = 0; agent < agents_; ++agent) {
     const double spread = first ? 0 : tuning_.order_spread * (random_.unit() - 0.5);
-    keys.emplace_back((1 + spread) * router_.own_cost(agent), agent);
+    keys.emplace_back((1 + spread) * router_.individual_cost(agent), agent);
   }
   std::ranges::sort(keys);
   std::vector<AgentIndex> order;
@@ -355,7 +355,8 @@ void PrimalSearch::Impl::guide(const Limits& limits) {
 // The cheapest orders, as meeting the agents has found them.
 std::vector<Sequence> PrimalSearch::Impl::own_orders() const {
   std::vector<Sequence> orders;
-  for (AgentIndex agent = 0; agent < agents_; ++agent) orders.push_back(router_.own_order(agent));
+  for (AgentIndex agent = 0; agent < agents_; ++agent)
+    orders.push_back(router_.individual_order(agent));
   separate_ends(problem_.instance, orders);
   return orders;
 }

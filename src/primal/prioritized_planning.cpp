@@ -101,7 +101,7 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
 void PrioritizedPlanning::clear_the_way(AgentIndex agent) {
   has_failed_[agent] = true;
   std::vector<bool> gone(order_.size(), false);
-  visit_those_in_the_way(world_, paths_.reservations(), agent, router_.own_path(agent), 0,
+  visit_those_in_the_way(world_, paths_.reservations(), agent, router_.individual_path(agent), 0,
                          [&](AgentIndex other) {
                            gone[other] = true;
                            return true;

@@ -57,7 +57,7 @@ class Repair {
 
  private:
   bool plan(AgentIndex agent) {
-    const PathQuery query{.label_limit = kLabels + kLabelsOfOwn * router_.own_cost(agent),
+    const PathQuery query{.label_limit = kLabels + kLabelsOfOwn * router_.individual_cost(agent),
                           .reservations = &paths_.reservations(),
                           .known_sequences = true};
     Path path;
@@ -73,10 +73,11 @@ class Repair {
       if (std::ranges::find(gone, other) == gone.end()) gone.push_back(other);
       return true;
     };
-    visit_those_in_the_way(world, paths_.reservations(), agent, router_.own_path(agent), 0, note);
+    visit_those_in_the_way(world, paths_.reservations(), agent, router_.individual_path(agent), 0,
+                           note);
     // Again and again: it is more than those.
     if (failures > agents_ / 2 || gone.empty())
-      visit_those_in_the_way(world, paths_.reservations(), agent, router_.own_path(agent),
+      visit_those_in_the_way(world, paths_.reservations(), agent, router_.individual_path(agent),
                              static_cast<Time>(1 + random_.below(kLatest)), note);
     if (gone.empty()) gone = some_planned();
     random_.shuffle(gone);
@@ -113,12 +114,12 @@ std::optional<Plan> repaired(const Problem& problem, AgentStopsCache& stops,
   return Repair(problem, stops, seed, limits).run(paths);
 }
 
-Cost sum_of_own_costs(const Problem& problem, AgentStopsCache& stops, const Limits& limits) {
+Cost sum_of_individual_costs(const Problem& problem, AgentStopsCache& stops, const Limits& limits) {
   PrimalLowLevel router(problem, stops);
   Cost sum = 0;
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
     if (router.meet(agent, limits))
-      sum += router.knows_best(agent) ? router.own_cost(agent)
+      sum += router.knows_best(agent) ? router.individual_cost(agent)
                                       : stops.of(agent).cost_to_go().relaxed_bound();
   return sum;
 }

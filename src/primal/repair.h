@@ -24,6 +24,6 @@ std::optional<Plan> repaired(const Problem& problem, AgentStopsCache& stops,
 
 // What the agents would cost if each were alone: no plan costs less. Of those met before a limit
 // strikes, the others counting nothing.
-Cost sum_of_own_costs(const Problem& problem, AgentStopsCache& stops, const Limits& limits);
+Cost sum_of_individual_costs(const Problem& problem, AgentStopsCache& stops, const Limits& limits);
 
 }  // namespace grove::detail

@@ -97,7 +97,7 @@ TEST(Neighborhoods, PlanThoseAnewWhoOverpay) {
   DualSolution list{Multipliers(instance.world(), instance.agent_count()), {}, {}};
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
     list.prices.push_back(list.multipliers.price(agent, planned.paths.path(agent)));
-    list.paths.push_back(planned.router.own_path(agent));
+    list.paths.push_back(planned.router.individual_path(agent));
   }
   list.prices[kOverpays] -= 10 * Penalties::kUnit;
   planned.router.use(std::make_shared<const DualSolution>(std::move(list)));
