@@ -9,7 +9,7 @@
 
 #include "io/map_file.h"
 #include "io/scenario_file.h"
-#include "primal/configuration_search.h"
+#include "primal/lacam_with_restarts.h"
 #include "primal/visit_orders.h"
 #include "tools/generate/instance_generator.h"
 
@@ -26,8 +26,8 @@ void search_to_first_plans(benchmark::State& state, const Instance& instance) {
   double cost = 0;
   double steps = 0;
   for (auto _ : state) {
-    ConfigurationSearch search(problem, orders, seed++);
-    while (search.run(limits, 1000) == ConfigurationSearch::Outcome::kWorking) {
+    LacamWithRestarts search(problem, orders, seed++);
+    while (search.run(limits, 1000) == LacamWithRestarts::Outcome::kWorking) {
     }
     cost += search.plan() ? static_cast<double>(search.plan()->cost) : 0;
     steps += static_cast<double>(search.configurations());

@@ -29,7 +29,7 @@ class GuidedSearch {
     kStopped,  // a limit struck, or so little memory is left that going on would make one strike
   };
 
-  // `orders` as for ConfigurationSearch. `problem` and `tuning` must outlive this. `mean_cost`: of
+  // `orders` as for LacamWithRestarts. `problem` and `tuning` must outlive this. `mean_cost`: of
   // an agent that is alone.
   GuidedSearch(const Problem& problem, std::vector<Sequence> orders, double mean_cost,
                std::uint64_t seed, const Tuning& tuning);

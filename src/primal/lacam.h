@@ -8,16 +8,16 @@
 #include <vector>
 
 #include "primal/configuration_generator.h"
-#include "primal/configuration_search.h"
 #include "primal/configurations.h"
+#include "primal/lacam_with_restarts.h"
 
 namespace grove::detail {
 
 class Lacam {
  public:
-  using Outcome = ConfigurationSearch::Outcome;
+  using Outcome = LacamWithRestarts::Outcome;
 
-  // As ConfigurationSearch. `guide`: by what agents find their ways, as far as it leads; its fields
+  // As LacamWithRestarts. `guide`: by what agents find their ways, as far as it leads; its fields
   // must outlive this.
   Lacam(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed,
         const LegFields* guide = nullptr);

@@ -51,8 +51,8 @@
 
 #include "model/assert.h"
 #include "model/random.h"
-#include "primal/configuration_search.h"
 #include "primal/guided_search.h"
+#include "primal/lacam_with_restarts.h"
 #include "primal/neighborhood_search.h"
 #include "primal/planned_paths.h"
 #include "primal/primal_low_level.h"
@@ -157,7 +157,7 @@ class PrimalSearch::Impl {
   PlannedPaths paths_;    // the plan that is being improved, or none
   PlannedPaths planned_;  // by prioritised planning
   PrioritizedPlanning planning_;
-  std::unique_ptr<ConfigurationSearch> configurations_;
+  std::unique_ptr<LacamWithRestarts> configurations_;
   std::unique_ptr<GuidedSearch> guided_;  // while it makes cheaper plans
   NeighborhoodSearch neighborhoods_;
 
@@ -305,10 +305,10 @@ void PrimalSearch::Impl::take_over_planned() {
 }
 
 void PrimalSearch::Impl::configure(const Limits& limits) {
-  using Outcome = ConfigurationSearch::Outcome;
+  using Outcome = LacamWithRestarts::Outcome;
   if (!configurations_)
-    configurations_ = std::make_unique<ConfigurationSearch>(problem_, own_orders(), seed_,
-                                                            tuning_.first_joint_steps);
+    configurations_ = std::make_unique<LacamWithRestarts>(problem_, own_orders(), seed_,
+                                                          tuning_.first_joint_steps);
   const std::int64_t before = configurations_->steps();
   const Outcome outcome =
       configurations_->run(limits, std::max<std::int64_t>(1, tuning_.primal_step_work / agents_));

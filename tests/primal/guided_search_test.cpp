@@ -8,7 +8,7 @@
 
 #include "crowd.h"
 #include "first_violation.h"
-#include "primal/configuration_search.h"
+#include "primal/lacam_with_restarts.h"
 #include "primal/visit_orders.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/support/clocks.h"
@@ -31,8 +31,8 @@ struct Trial {
         problem(instance, limits),
         orders(*cheapest_orders(problem, limits)),
         guided(problem, orders, 10, seed, tuning) {
-    ConfigurationSearch search(problem, orders, seed);
-    if (search.run(limits, 20'000) != ConfigurationSearch::Outcome::kFound) return;
+    LacamWithRestarts search(problem, orders, seed);
+    if (search.run(limits, 20'000) != LacamWithRestarts::Outcome::kFound) return;
     first = search.plan();
     guided.learn(*first);
   }

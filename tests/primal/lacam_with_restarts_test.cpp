@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // GROVE_FUZZ_FACTOR multiplies the number of random instances.
-#include "primal/configuration_search.h"
+#include "primal/lacam_with_restarts.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ using testing::AgentSpec;
 using testing::Crowd;
 using testing::instance_of;
 using testing::random_crowd;
-using Outcome = ConfigurationSearch::Outcome;
+using Outcome = LacamWithRestarts::Outcome;
 
 constexpr std::int64_t kWithoutEnd = std::numeric_limits<std::int64_t>::max();
 
@@ -41,7 +41,7 @@ struct Trial {
   const Instance& instance;
   Limits limits;
   Problem problem;
-  ConfigurationSearch search;
+  LacamWithRestarts search;
 };
 
 void expect_valid(const Instance& instance, const std::optional<Plan>& plan) {
@@ -66,18 +66,18 @@ bool same_plan(const Plan& a, const Plan& b) {
          std::ranges::equal(a.agents, b.agents, {}, &AgentPlan::path, &AgentPlan::path);
 }
 
-TEST(ConfigurationSearch, AnAgentAloneWalksItsCheapestOrder) {
+TEST(LacamWithRestarts, AnAgentAloneWalksItsCheapestOrder) {
   EXPECT_EQ(solved_cost(instance_of({"......"}, {{{2, 0}, Position{3, 0}, {{5, 0}, {0, 0}}}})), 9);
   EXPECT_EQ(solved_cost(instance_of({"......"}, {{{2, 0}, {}, {{5, 0}, {0, 0}}}})), 7);
 }
 
-TEST(ConfigurationSearch, WhereEverybodyIsAtHomeNobodyMoves) {
+TEST(LacamWithRestarts, WhereEverybodyIsAtHomeNobodyMoves) {
   EXPECT_EQ(solved_cost(
                 instance_of({".."}, {{{0, 0}, Position{0, 0}, {{0, 0}}}, {{1, 0}, {}, {{1, 0}}}})),
             0);
 }
 
-TEST(ConfigurationSearch, AgentsTurnInARing) {
+TEST(LacamWithRestarts, AgentsTurnInARing) {
   EXPECT_EQ(solved_cost(instance_of({"..", ".."}, {{{0, 0}, Position{1, 0}},
                                                    {{1, 0}, Position{1, 1}},
                                                    {{1, 1}, Position{0, 1}},
@@ -85,37 +85,37 @@ TEST(ConfigurationSearch, AgentsTurnInARing) {
             4);
 }
 
-TEST(ConfigurationSearch, AgentsChangePlacesAtABay) {
+TEST(LacamWithRestarts, AgentsChangePlacesAtABay) {
   solved_cost(
       instance_of({".......", "@@@@@.@"}, {{{0, 0}, Position{6, 0}}, {{2, 0}, Position{0, 0}}}));
 }
 
-TEST(ConfigurationSearch, ATaskAtADeadEndWhereAnotherRests) {
+TEST(LacamWithRestarts, ATaskAtADeadEndWhereAnotherRests) {
   // a1 rests at the end of the dead end before a0 has been there: it must come out again.
   solved_cost(instance_of({"@.@@@@@@@@", "..........", "@.@@@@@@@@", "@.@@@@@@@@"},
                           {{{9, 1}, Position{0, 1}, {{1, 3}}}, {{1, 0}, Position{1, 3}}}));
 }
 
-TEST(ConfigurationSearch, AgentsWithoutADestinationEndOnDifferentStops) {
+TEST(LacamWithRestarts, AgentsWithoutADestinationEndOnDifferentStops) {
   solved_cost(
       instance_of({".....", "....."}, {{{0, 0}, {}, {{3, 0}, {4, 0}}}, {{1, 0}, {}, {{4, 0}}}}));
 }
 
-TEST(ConfigurationSearch, AnUnreachableStopExhaustsIt) {
+TEST(LacamWithRestarts, AnUnreachableStopExhaustsIt) {
   const Instance instance = instance_of({".@."}, {{{0, 0}, Position{0, 0}, {{2, 0}}}});
   EXPECT_EQ(Trial(instance).run(), Outcome::kExhausted);
 }
 
-TEST(ConfigurationSearch, RefusesOrdersThatAreNotComplete) {
+TEST(LacamWithRestarts, RefusesOrdersThatAreNotComplete) {
   const Instance instance = instance_of({"..."}, {{{0, 0}, Position{0, 0}, {{1, 0}, {2, 0}}}});
   const Problem problem(instance, Limits());
   for (const std::vector<Sequence>& orders :
        {std::vector<Sequence>{}, {{0}}, {{0, 0}}, {{0, 2}}, {{0, 1}, {0, 1}}})
-    EXPECT_THROW(ConfigurationSearch(problem, orders, 0), std::invalid_argument);
+    EXPECT_THROW(LacamWithRestarts(problem, orders, 0), std::invalid_argument);
 }
 
 // The oracle decides; the search must find a plan for all that have one, and none else.
-TEST(ConfigurationSearch, SolvesWhatTinyInstancesCanBeSolved) {
+TEST(LacamWithRestarts, SolvesWhatTinyInstancesCanBeSolved) {
   int solved = 0;
   int impossible = 0;
   const std::uint64_t cases = testing::fuzz_rounds(600);
@@ -161,7 +161,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Crowd{.size = 20, .obstacles = 25, .agents = 60, .tasks = 60},
                       Crowd{.agents = 6, .tasks = 70}));
 
-TEST(ConfigurationSearch, TheSeedDecidesAlone) {
+TEST(LacamWithRestarts, TheSeedDecidesAlone) {
   const Instance instance = random_crowd({.agents = 40}, 1);
   Trial whole(instance, 7);
   ASSERT_EQ(whole.run(), Outcome::kFound);
@@ -193,7 +193,7 @@ Instance hopeless() {
                                                                {{4, 0}, Position{4, 0}}});
 }
 
-TEST(ConfigurationSearch, BeginsAnewWhenItTakesLong) {
+TEST(LacamWithRestarts, BeginsAnewWhenItTakesLong) {
   const Instance instance = hopeless();
   Trial run(instance);
   std::int64_t kept = 0;
@@ -207,7 +207,7 @@ TEST(ConfigurationSearch, BeginsAnewWhenItTakesLong) {
   EXPECT_LE(begun_anew, 4);
 }
 
-TEST(ConfigurationSearch, StopsAtLimitsAndGoesOnAfterwards) {
+TEST(LacamWithRestarts, StopsAtLimitsAndGoesOnAfterwards) {
   const Instance instance = random_crowd({.agents = 40}, 2);
   Trial whole(instance);
   ASSERT_EQ(whole.run(), Outcome::kFound);
@@ -227,7 +227,7 @@ TEST(ConfigurationSearch, StopsAtLimitsAndGoesOnAfterwards) {
   }
 }
 
-TEST(ConfigurationSearch, LeavesTheLastMemoryToOthers) {
+TEST(LacamWithRestarts, LeavesTheLastMemoryToOthers) {
   const Instance instance = hopeless();
   Trial run(instance);
   Limits limits;
@@ -236,7 +236,7 @@ TEST(ConfigurationSearch, LeavesTheLastMemoryToOthers) {
   EXPECT_EQ(limits.reason(), StopReason::kNone);
 }
 
-TEST(ConfigurationSearch, StopsAtADeadline) {
+TEST(LacamWithRestarts, StopsAtADeadline) {
   const Instance instance = hopeless();
   Trial run(instance);
   const testing::LimitOfLooks limits(5);

@@ -4,7 +4,7 @@
 // agents on some 120 cells with dead ends 291 were solved with the first seed within 20,000 steps,
 // and 7 of the other 9 with one of two more. As the steps double, a finite space is still
 // exhausted.
-#include "primal/configuration_search.h"
+#include "primal/lacam_with_restarts.h"
 
 #include <algorithm>
 #include <vector>
@@ -13,7 +13,7 @@
 
 namespace grove::detail {
 
-class ConfigurationSearch::Search {
+class LacamWithRestarts::Search {
  public:
   Search(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed,
          std::int64_t first_steps)
@@ -56,26 +56,26 @@ class ConfigurationSearch::Search {
   std::int64_t steps_;     // of the next
 };
 
-ConfigurationSearch::ConfigurationSearch(const Problem& problem, std::span<const Sequence> orders,
-                                         std::uint64_t seed, std::int64_t first_steps)
+LacamWithRestarts::LacamWithRestarts(const Problem& problem, std::span<const Sequence> orders,
+                                     std::uint64_t seed, std::int64_t first_steps)
     : search_(std::make_unique<Search>(problem, orders, seed, first_steps)) {}
-ConfigurationSearch::~ConfigurationSearch() = default;
-ConfigurationSearch::ConfigurationSearch(ConfigurationSearch&&) noexcept = default;
-ConfigurationSearch& ConfigurationSearch::operator=(ConfigurationSearch&&) noexcept = default;
+LacamWithRestarts::~LacamWithRestarts() = default;
+LacamWithRestarts::LacamWithRestarts(LacamWithRestarts&&) noexcept = default;
+LacamWithRestarts& LacamWithRestarts::operator=(LacamWithRestarts&&) noexcept = default;
 
-ConfigurationSearch::Outcome ConfigurationSearch::run(const Limits& limits, std::int64_t slice) {
+LacamWithRestarts::Outcome LacamWithRestarts::run(const Limits& limits, std::int64_t slice) {
   return search_->run(limits, slice);
 }
 
-const std::optional<Plan>& ConfigurationSearch::plan() const {
+const std::optional<Plan>& LacamWithRestarts::plan() const {
   return search_->plan();
 }
 
-std::int64_t ConfigurationSearch::steps() const {
+std::int64_t LacamWithRestarts::steps() const {
   return search_->steps();
 }
 
-std::int64_t ConfigurationSearch::configurations() const {
+std::int64_t LacamWithRestarts::configurations() const {
   return search_->configurations();
 }
 

@@ -18,7 +18,7 @@ namespace grove::detail {
 // Searches for any valid plan, in slices as short as one likes; cheap plans are not its business.
 // Begins anew when it takes long. The same arguments make the same plan, however the work is
 // sliced. One thread at a time.
-class ConfigurationSearch {
+class LacamWithRestarts {
  public:
   enum class Outcome : std::uint8_t {
     kFound,      // there is a plan()
@@ -33,11 +33,11 @@ class ConfigurationSearch {
   // there. Any orders will do; good ones make good plans (visit_orders.h). `problem` must outlive
   // this. It begins anew after `first_steps`, then after twice as many, and so on. Throws
   // std::invalid_argument for an order that is not complete.
-  ConfigurationSearch(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed,
-                      std::int64_t first_steps = Tuning().first_joint_steps);
-  ~ConfigurationSearch();
-  ConfigurationSearch(ConfigurationSearch&&) noexcept;
-  ConfigurationSearch& operator=(ConfigurationSearch&&) noexcept;
+  LacamWithRestarts(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed,
+                    std::int64_t first_steps = Tuning().first_joint_steps);
+  ~LacamWithRestarts();
+  LacamWithRestarts(LacamWithRestarts&&) noexcept;
+  LacamWithRestarts& operator=(LacamWithRestarts&&) noexcept;
 
   // Makes at most `slice` joint steps, each some 0.15 us for every agent. May be called again after
   // kWorking and kStopped.
