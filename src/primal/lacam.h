@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "primal/configuration_generator.h"
 #include "primal/configurations.h"
 #include "primal/lacam_with_restarts.h"
+#include "primal/pibt_generator.h"
 
 namespace grove::detail {
 
@@ -75,7 +75,7 @@ class Lacam {
   const Instance& instance_;
   std::vector<VisitStages> agents_;
   Dice dice_;
-  ConfigurationGenerator generator_;
+  PibtGenerator generator_;
   Configurations configurations_;
   RowBlocks<Age> ages_;
   std::vector<Node> nodes_;  // by Id

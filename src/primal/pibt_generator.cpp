@@ -11,13 +11,13 @@
 // chooses takes its candidates in reverse, away from the other, and pulls it along.
 //
 // Orders (LaCAM's constraints) are reservations made before anybody chooses.
-#include "primal/configuration_generator.h"
+#include "primal/pibt_generator.h"
 
 #include <algorithm>
 
 namespace grove::detail {
 
-ConfigurationGenerator::ConfigurationGenerator(const World& world, std::vector<VisitStages>& agents)
+PibtGenerator::PibtGenerator(const World& world, std::vector<VisitStages>& agents)
     : world_(world),
       agents_(agents),
       now_(world.place_count(), kNobody),
@@ -25,9 +25,9 @@ ConfigurationGenerator::ConfigurationGenerator(const World& world, std::vector<V
       to_(agents.size(), kNoState),
       swaps_(world, agents, now_, to_) {}
 
-std::span<const State> ConfigurationGenerator::step(std::span<const Standing> from,
-                                                    std::span<const AgentIndex> priority,
-                                                    std::span<const Order> orders, Dice& dice) {
+std::span<const State> PibtGenerator::step(std::span<const Standing> from,
+                                           std::span<const AgentIndex> priority,
+                                           std::span<const Order> orders, Dice& dice) {
   from_ = from;
   dice_ = &dice;
   std::ranges::fill(to_, kNoState);
@@ -40,7 +40,7 @@ std::span<const State> ConfigurationGenerator::step(std::span<const Standing> fr
   return done ? std::span<const State>(to_) : std::span<const State>();
 }
 
-bool ConfigurationGenerator::obey(std::span<const Order> orders) {
+bool PibtGenerator::obey(std::span<const Order> orders) {
   return std::ranges::all_of(orders, [&](const Order& order) {
     if (collides(order.agent, order.state)) return false;
     move(order.agent, order.state);
@@ -49,7 +49,7 @@ bool ConfigurationGenerator::obey(std::span<const Order> orders) {
 }
 
 // Finds a state for an agent that has none yet.
-bool ConfigurationGenerator::push(AgentIndex agent) {
+bool PibtGenerator::push(AgentIndex agent) {
   const std::size_t first = candidates_.size();
   rank_candidates(agent);
   const bool moved = try_candidates(agent, first);
@@ -59,7 +59,7 @@ bool ConfigurationGenerator::push(AgentIndex agent) {
 }
 
 // Those from `first` on.
-bool ConfigurationGenerator::try_candidates(AgentIndex agent, std::size_t first) {
+bool PibtGenerator::try_candidates(AgentIndex agent, std::size_t first) {
   const std::size_t end = candidates_.size();
   const AgentIndex partner = swaps_.partner(agent, candidates_[first].state, from_);
   if (partner != kNobody)
@@ -77,12 +77,12 @@ bool ConfigurationGenerator::try_candidates(AgentIndex agent, std::size_t first)
 }
 
 // Brings an agent along to a state that its neighbour has left, if both are free to.
-void ConfigurationGenerator::pull(AgentIndex agent, State state) {
+void PibtGenerator::pull(AgentIndex agent, State state) {
   if (to_[agent] == kNoState && later_[world_.place(state)] == kNobody) move(agent, state);
 }
 
 // Appends them to candidates_, the best first.
-void ConfigurationGenerator::rank_candidates(AgentIndex agent) {
+void PibtGenerator::rank_candidates(AgentIndex agent) {
   const Standing from = from_[agent];
   VisitStages& visits = agents_[agent];
   const auto first = static_cast<std::ptrdiff_t>(candidates_.size());
@@ -101,7 +101,7 @@ void ConfigurationGenerator::rank_candidates(AgentIndex agent) {
             [](const Candidate& a, const Candidate& b) { return a.key < b.key; });
 }
 
-bool ConfigurationGenerator::collides(AgentIndex agent, State state) const {
+bool PibtGenerator::collides(AgentIndex agent, State state) const {
   const Place place = world_.place(state);
   if (later_[place] != kNobody) return true;
   const AgentIndex there = now_[place];
@@ -109,12 +109,12 @@ bool ConfigurationGenerator::collides(AgentIndex agent, State state) const {
          world_.place(to_[there]) == world_.place(from_[agent].state);
 }
 
-void ConfigurationGenerator::move(AgentIndex agent, State state) {
+void PibtGenerator::move(AgentIndex agent, State state) {
   to_[agent] = state;
   later_[world_.place(state)] = agent;
 }
 
-void ConfigurationGenerator::clear() {
+void PibtGenerator::clear() {
   for (const Standing& from : from_) now_[world_.place(from.state)] = kNobody;
   for (State state : to_)
     if (state != kNoState) later_[world_.place(state)] = kNobody;

@@ -18,10 +18,10 @@ struct Order {
 };
 
 // Makes joint steps by priority inheritance with backtracking (PIBT). Workspace of one thread.
-class ConfigurationGenerator {
+class PibtGenerator {
  public:
   // `world` and `agents` must outlive this.
-  ConfigurationGenerator(const World& world, std::vector<VisitStages>& agents);
+  PibtGenerator(const World& world, std::vector<VisitStages>& agents);
 
   // A step from `from` without collisions in which every order is obeyed; agents come earlier in
   // `priority` the more they matter. The result, by agent, holds until the next call; empty if none

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "primal/configuration_generator.h"
+#include "primal/pibt_generator.h"
 
 #include <gtest/gtest.h>
 
@@ -45,12 +45,12 @@ void expect_step(const Grid& grid, std::span<const Standing> from, std::span<con
   }
 }
 
-TEST(ConfigurationGenerator, StepsNeverCollideAndOrdersAreObeyed) {
+TEST(PibtGenerator, StepsNeverCollideAndOrdersAreObeyed) {
   int obeyed = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Instance instance = testing::random_crowd({.agents = 60, .tasks = 40}, seed);
     Crowded crowd(instance);
-    ConfigurationGenerator generator(instance.grid(), crowd.states);
+    PibtGenerator generator(instance.grid(), crowd.states);
     fuzz::Random random(seed);
     Dice dice(seed);
     for (int step = 0; step < 50; ++step) {
@@ -75,11 +75,11 @@ TEST(ConfigurationGenerator, StepsNeverCollideAndOrdersAreObeyed) {
   EXPECT_GT(obeyed, 50);
 }
 
-TEST(ConfigurationGenerator, ImpossibleOrdersGiveNothing) {
+TEST(PibtGenerator, ImpossibleOrdersGiveNothing) {
   const Instance instance =
       instance_of({"..."}, {{{0, 0}, Position{0, 0}}, {{1, 0}, Position{1, 0}}});
   Crowded crowd(instance);
-  ConfigurationGenerator generator(instance.grid(), crowd.states);
+  PibtGenerator generator(instance.grid(), crowd.states);
   Dice dice(0);
   const auto fails = [&](std::vector<Order> orders) {
     return generator.step(crowd.places, crowd.priority, orders, dice).empty();
@@ -90,11 +90,11 @@ TEST(ConfigurationGenerator, ImpossibleOrdersGiveNothing) {
   EXPECT_FALSE(fails({{0, 1}, {1, 2}}));  // one after the other
 }
 
-TEST(ConfigurationGenerator, WhoComesFirstPushesTheOtherAway) {
+TEST(PibtGenerator, WhoComesFirstPushesTheOtherAway) {
   const Instance instance =
       instance_of({"...", "@.@"}, {{{0, 0}, Position{2, 0}}, {{1, 0}, Position{1, 0}}});
   Crowded crowd(instance);
-  ConfigurationGenerator generator(instance.grid(), crowd.states);
+  PibtGenerator generator(instance.grid(), crowd.states);
   Dice dice(0);
   const auto to = generator.step(crowd.places, crowd.priority, {}, dice);
   ASSERT_FALSE(to.empty());
@@ -102,12 +102,12 @@ TEST(ConfigurationGenerator, WhoComesFirstPushesTheOtherAway) {
   EXPECT_NE(to[1], 1);
 }
 
-TEST(ConfigurationGenerator, BacksOffToTheJunctionWhereTwoMustPass) {
+TEST(PibtGenerator, BacksOffToTheJunctionWhereTwoMustPass) {
   // a0 and a1 face each other in the corridor; the only bay is behind a0.
   const Instance instance =
       instance_of({".......", "@.@@@@@"}, {{{2, 0}, Position{6, 0}}, {{3, 0}, Position{0, 0}}});
   Crowded crowd(instance);
-  ConfigurationGenerator generator(instance.grid(), crowd.states);
+  PibtGenerator generator(instance.grid(), crowd.states);
   Dice dice(0);
   const auto to = generator.step(crowd.places, crowd.priority, {}, dice);
   ASSERT_FALSE(to.empty());
