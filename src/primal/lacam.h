@@ -88,7 +88,7 @@ class Lacam {
   Id ranked_ = -1;
   std::vector<AgentIndex> ranking_;  // by priority
   std::vector<AgentIndex> by_way_;   // at the start, the longest way first: breaks ties
-  std::vector<Order> orders_;
+  std::vector<LacamConstraint> orders_;
   std::vector<Standing> places_;
   std::vector<State> next_;
 };

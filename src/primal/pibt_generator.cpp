@@ -27,7 +27,7 @@ PibtGenerator::PibtGenerator(const World& world, std::vector<VisitStages>& agent
 
 std::span<const State> PibtGenerator::step(std::span<const Standing> from,
                                            std::span<const AgentIndex> priority,
-                                           std::span<const Order> orders, Dice& dice) {
+                                           std::span<const LacamConstraint> orders, Dice& dice) {
   from_ = from;
   dice_ = &dice;
   std::ranges::fill(to_, kNoState);
@@ -40,8 +40,8 @@ std::span<const State> PibtGenerator::step(std::span<const Standing> from,
   return done ? std::span<const State>(to_) : std::span<const State>();
 }
 
-bool PibtGenerator::obey(std::span<const Order> orders) {
-  return std::ranges::all_of(orders, [&](const Order& order) {
+bool PibtGenerator::obey(std::span<const LacamConstraint> orders) {
+  return std::ranges::all_of(orders, [&](const LacamConstraint& order) {
     if (collides(order.agent, order.state)) return false;
     move(order.agent, order.state);
     return true;

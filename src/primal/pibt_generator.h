@@ -12,7 +12,7 @@
 namespace grove::detail {
 
 // Where an agent is told to be after the step.
-struct Order {
+struct LacamConstraint {
   AgentIndex agent;
   State state;
 };
@@ -27,7 +27,7 @@ class PibtGenerator {
   // `priority` the more they matter. The result, by agent, holds until the next call; empty if none
   // was found, which is certain only if every agent has an order.
   std::span<const State> step(std::span<const Standing> from, std::span<const AgentIndex> priority,
-                              std::span<const Order> orders, Dice& dice);
+                              std::span<const LacamConstraint> orders, Dice& dice);
 
  private:
   static constexpr AgentIndex kNobody = Swaps::kNobody;
@@ -37,7 +37,7 @@ class PibtGenerator {
     std::int64_t key;
   };
 
-  bool obey(std::span<const Order> orders);
+  bool obey(std::span<const LacamConstraint> orders);
   bool push(AgentIndex agent);
   bool try_candidates(AgentIndex agent, std::size_t first);
   void pull(AgentIndex agent, State state);

@@ -55,7 +55,7 @@ TEST(PibtGenerator, StepsNeverCollideAndOrdersAreObeyed) {
     Dice dice(seed);
     for (int step = 0; step < 50; ++step) {
       random.shuffle(crowd.priority);
-      std::vector<Order> orders;
+      std::vector<LacamConstraint> orders;
       for (int i = random.below(4); i-- > 0;) {
         const Cell here = crowd.places[crowd.priority[i]].state;
         const auto near = instance.grid().neighbors(here);
@@ -66,7 +66,7 @@ TEST(PibtGenerator, StepsNeverCollideAndOrdersAreObeyed) {
       ASSERT_TRUE(!to.empty() || !orders.empty());
       if (to.empty()) continue;
       expect_step(instance.grid(), crowd.places, to);
-      for (const Order& order : orders) EXPECT_EQ(to[order.agent], order.state);
+      for (const LacamConstraint& order : orders) EXPECT_EQ(to[order.agent], order.state);
       obeyed += orders.size() > 1;
       for (std::size_t i = 0; i < to.size(); ++i)
         crowd.places[i] = {to[i], crowd.states[i].after(crowd.places[i].stage, to[i])};
@@ -81,7 +81,7 @@ TEST(PibtGenerator, ImpossibleOrdersGiveNothing) {
   Crowded crowd(instance);
   PibtGenerator generator(instance.grid(), crowd.states);
   Dice dice(0);
-  const auto fails = [&](std::vector<Order> orders) {
+  const auto fails = [&](std::vector<LacamConstraint> orders) {
     return generator.step(crowd.places, crowd.priority, orders, dice).empty();
   };
   EXPECT_TRUE(fails({{0, 1}, {1, 1}}));   // one cell for two
