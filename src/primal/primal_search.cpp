@@ -51,12 +51,12 @@
 
 #include "model/assert.h"
 #include "model/random.h"
-#include "primal/guided_search.h"
 #include "primal/lacam_with_restarts.h"
 #include "primal/neighborhood_search.h"
 #include "primal/planned_paths.h"
 #include "primal/primal_low_level.h"
 #include "primal/prioritized_planning.h"
+#include "primal/traffic_guided_lacam.h"
 #include "primal/visit_orders.h"
 #include "search/work.h"
 
@@ -158,7 +158,7 @@ class PrimalSearch::Impl {
   PlannedPaths planned_;  // by prioritised planning
   PrioritizedPlanning planning_;
   std::unique_ptr<LacamWithRestarts> configurations_;
-  std::unique_ptr<GuidedSearch> guided_;  // while it makes cheaper plans
+  std::unique_ptr<TrafficGuidedLacam> guided_;  // while it makes cheaper plans
   NeighborhoodSearch neighborhoods_;
 
   AgentIndex met_ = 0;  // agents from here on have not been met
@@ -327,14 +327,14 @@ void PrimalSearch::Impl::begin_guiding(const Plan& plan) {
   const double crowded = (1 + tuning_.guided_loss) * static_cast<double>(own_costs_);
   if (!may_guide_ || !may_configure_ || static_cast<double>(plan.cost) < crowded) return;
   may_guide_ = false;
-  guided_ = std::make_unique<GuidedSearch>(problem_, own_orders(),
-                                           static_cast<double>(own_costs_) / agents_,
-                                           random_.below(kSeeds), tuning_);
+  guided_ = std::make_unique<TrafficGuidedLacam>(problem_, own_orders(),
+                                                 static_cast<double>(own_costs_) / agents_,
+                                                 random_.below(kSeeds), tuning_);
   guided_->learn(plan);
 }
 
 void PrimalSearch::Impl::guide(const Limits& limits) {
-  using Outcome = GuidedSearch::Outcome;
+  using Outcome = TrafficGuidedLacam::Outcome;
   const Outcome outcome = guided_->run(limits, tuning_.primal_step_work);
   guided_work_ = guided_->work();
   guided_joint_steps_ = guided_->joint_steps();

@@ -20,7 +20,7 @@ namespace grove::detail {
 
 // Goes round by round: the traffic of the plans so far makes distances, and a search by these makes
 // a plan. In slices as short as one likes. The same calls make the same plans, limits aside.
-class GuidedSearch {
+class TrafficGuidedLacam {
  public:
   enum class Outcome : std::uint8_t {
     kFound,    // a round has ended with a plan(): the next one wants to learn
@@ -31,8 +31,8 @@ class GuidedSearch {
 
   // `orders` as for LacamWithRestarts. `problem` and `tuning` must outlive this. `mean_cost`: of
   // an agent that is alone.
-  GuidedSearch(const Problem& problem, std::vector<Sequence> orders, double mean_cost,
-               std::uint64_t seed, const Tuning& tuning);
+  TrafficGuidedLacam(const Problem& problem, std::vector<Sequence> orders, double mean_cost,
+                     std::uint64_t seed, const Tuning& tuning);
 
   // Begins a round after the traffic of this plan, too.
   void learn(const Plan& plan);

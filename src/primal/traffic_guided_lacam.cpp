@@ -15,7 +15,7 @@
 //
 // No better: traffic of ways planned beforehand, and ten candidates for each joint step of which
 // the best is taken (as in lacam3).
-#include "primal/guided_search.h"
+#include "primal/traffic_guided_lacam.h"
 
 #include <algorithm>
 #include <utility>
@@ -24,8 +24,8 @@
 
 namespace grove::detail {
 
-GuidedSearch::GuidedSearch(const Problem& problem, std::vector<Sequence> orders, double mean_cost,
-                           std::uint64_t seed, const Tuning& tuning)
+TrafficGuidedLacam::TrafficGuidedLacam(const Problem& problem, std::vector<Sequence> orders,
+                                       double mean_cost, std::uint64_t seed, const Tuning& tuning)
     : problem_(problem),
       tuning_(tuning),
       orders_(std::move(orders)),
@@ -40,7 +40,7 @@ GuidedSearch::GuidedSearch(const Problem& problem, std::vector<Sequence> orders,
   }
 }
 
-void GuidedSearch::learn(const Plan& plan) {
+void TrafficGuidedLacam::learn(const Plan& plan) {
   ++learnt_;
   const double weight = 1.0 / static_cast<double>(std::min(learnt_, tuning_.traffic_plans));
   traffic_.fade(1 - weight);
@@ -54,7 +54,7 @@ void GuidedSearch::learn(const Plan& plan) {
   lacam_.reset();
 }
 
-GuidedSearch::Outcome GuidedSearch::run(const Limits& limits, std::int64_t slice) {
+TrafficGuidedLacam::Outcome TrafficGuidedLacam::run(const Limits& limits, std::int64_t slice) {
   const std::int64_t end = work_ + slice;
   for (; next_field_ != fields_.end(); ++next_field_) {
     if (work_ >= end) return Outcome::kWorking;
@@ -63,7 +63,7 @@ GuidedSearch::Outcome GuidedSearch::run(const Limits& limits, std::int64_t slice
   return search(limits, std::max<std::int64_t>(end - work_, 1));
 }
 
-bool GuidedSearch::make_field(const Limits& limits) {
+bool TrafficGuidedLacam::make_field(const Limits& limits) {
   auto& [distance, field] = *next_field_;
   const auto states = static_cast<std::size_t>(problem_.instance.world().state_count());
   const std::size_t bytes = states * sizeof(Time);
@@ -73,7 +73,7 @@ bool GuidedSearch::make_field(const Limits& limits) {
   return true;
 }
 
-GuidedSearch::Outcome GuidedSearch::search(const Limits& limits, std::int64_t slice) {
+TrafficGuidedLacam::Outcome TrafficGuidedLacam::search(const Limits& limits, std::int64_t slice) {
   const std::int64_t agents = problem_.instance.agent_count();
   if (!lacam_) {
     const LegFields fields = leg_fields();
@@ -98,7 +98,7 @@ GuidedSearch::Outcome GuidedSearch::search(const Limits& limits, std::int64_t sl
   return Outcome::kFailed;
 }
 
-LegFields GuidedSearch::leg_fields() const {
+LegFields TrafficGuidedLacam::leg_fields() const {
   const Instance& instance = problem_.instance;
   LegFields fields;
   fields.to_task.resize(static_cast<std::size_t>(instance.task_count()));

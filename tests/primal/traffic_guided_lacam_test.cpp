@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "primal/guided_search.h"
+#include "primal/traffic_guided_lacam.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using testing::Crowd;
 using testing::first_violation;
 using testing::instance_of;
 using testing::random_crowd;
-using Outcome = GuidedSearch::Outcome;
+using Outcome = TrafficGuidedLacam::Outcome;
 
 // The plan of a configuration search, and a guided search that has learnt it.
 struct Trial {
@@ -49,7 +49,7 @@ struct Trial {
   const Instance& instance;
   Problem problem;
   std::vector<Sequence> orders;
-  GuidedSearch guided;
+  TrafficGuidedLacam guided;
   std::optional<Plan> first;
 };
 
@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, GuidedCrowds,
                                            Crowd{.agents = 40, .tasks = 60, .no_destination = 40}));
 
 // Of all kinds: roads, turns, work, agents that idle.
-TEST(GuidedSearch, EveryPlanOfTinyInstancesIsValid) {
+TEST(TrafficGuidedLacam, EveryPlanOfTinyInstancesIsValid) {
   int found = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -107,7 +107,7 @@ TEST(GuidedSearch, EveryPlanOfTinyInstancesIsValid) {
   EXPECT_GT(found, 300);
 }
 
-TEST(GuidedSearch, TheSameHoweverItIsSliced) {
+TEST(TrafficGuidedLacam, TheSameHoweverItIsSliced) {
   const Instance instance = random_crowd({.agents = 50, .tasks = 50}, 1);
   Trial whole(instance, 7);
   Trial sliced(instance, 7);
@@ -117,7 +117,7 @@ TEST(GuidedSearch, TheSameHoweverItIsSliced) {
   EXPECT_EQ(whole.guided.joint_steps(), sliced.guided.joint_steps());
 }
 
-TEST(GuidedSearch, StopsAtADeadlineAndGoesOnAfterwards) {
+TEST(TrafficGuidedLacam, StopsAtADeadlineAndGoesOnAfterwards) {
   const Instance instance = random_crowd({.agents = 50, .tasks = 50}, 2);
   Trial whole(instance);
   Trial stopped(instance);
@@ -128,7 +128,7 @@ TEST(GuidedSearch, StopsAtADeadlineAndGoesOnAfterwards) {
   EXPECT_EQ(costs(whole, 3), costs(stopped, 3));
 }
 
-TEST(GuidedSearch, LeavesTheLastMemoryToOthers) {
+TEST(TrafficGuidedLacam, LeavesTheLastMemoryToOthers) {
 #ifdef GROVE_SANITIZERS_MEMORY
   GTEST_SKIP() << "the sanitizer's own memory fills the limit";
 #endif
