@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "primal/dice.h"
+#include "primal/splitmix64.h"
 
 namespace grove::detail {
 namespace {

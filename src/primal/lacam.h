@@ -74,7 +74,7 @@ class Lacam {
 
   const Instance& instance_;
   std::vector<VisitStages> agents_;
-  Dice dice_;
+  SplitMix64 dice_;
   PibtGenerator generator_;
   Configurations configurations_;
   RowBlocks<Age> ages_;

@@ -49,7 +49,7 @@ class LacamWithRestarts::Search {
 
   const Problem& problem_;
   std::vector<Sequence> orders_;
-  Dice dice_;  // the seeds
+  SplitMix64 dice_;  // the seeds
   std::unique_ptr<Lacam> lacam_;
   std::int64_t steps_made_ = 0;
   std::int64_t left_ = 0;  // steps of this search

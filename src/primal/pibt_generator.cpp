@@ -27,7 +27,8 @@ PibtGenerator::PibtGenerator(const World& world, std::vector<VisitStages>& agent
 
 std::span<const State> PibtGenerator::step(std::span<const Standing> from,
                                            std::span<const AgentIndex> priority,
-                                           std::span<const LacamConstraint> orders, Dice& dice) {
+                                           std::span<const LacamConstraint> orders,
+                                           SplitMix64& dice) {
   from_ = from;
   dice_ = &dice;
   std::ranges::fill(to_, kNoState);

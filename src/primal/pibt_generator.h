@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "primal/configurations.h"
-#include "primal/dice.h"
+#include "primal/splitmix64.h"
 #include "primal/swaps.h"
 
 namespace grove::detail {
@@ -27,7 +27,7 @@ class PibtGenerator {
   // `priority` the more they matter. The result, by agent, holds until the next call; empty if none
   // was found, which is certain only if every agent has an order.
   std::span<const State> step(std::span<const Standing> from, std::span<const AgentIndex> priority,
-                              std::span<const LacamConstraint> orders, Dice& dice);
+                              std::span<const LacamConstraint> orders, SplitMix64& dice);
 
  private:
   static constexpr AgentIndex kNobody = Swaps::kNobody;
@@ -54,7 +54,7 @@ class PibtGenerator {
   std::vector<Candidate> candidates_;  // of those who are choosing, one after the other
   Swaps swaps_;
   std::span<const Standing> from_;
-  Dice* dice_ = nullptr;
+  SplitMix64* dice_ = nullptr;
 };
 
 }  // namespace grove::detail

@@ -52,7 +52,7 @@ class TrafficGuidedLacam {
   const Problem& problem_;
   const Tuning& tuning_;
   std::vector<Sequence> orders_;
-  Dice dice_;  // the seeds
+  SplitMix64 dice_;  // the seeds
   Traffic traffic_;
   std::int64_t learnt_ = 0;                       // plans
   std::map<DistanceView, DistanceField> fields_;  // by the distances that they stand for

@@ -52,7 +52,7 @@ TEST(PibtGenerator, StepsNeverCollideAndOrdersAreObeyed) {
     Crowded crowd(instance);
     PibtGenerator generator(instance.grid(), crowd.states);
     fuzz::Random random(seed);
-    Dice dice(seed);
+    SplitMix64 dice(seed);
     for (int step = 0; step < 50; ++step) {
       random.shuffle(crowd.priority);
       std::vector<LacamConstraint> orders;
@@ -80,7 +80,7 @@ TEST(PibtGenerator, ImpossibleOrdersGiveNothing) {
       instance_of({"..."}, {{{0, 0}, Position{0, 0}}, {{1, 0}, Position{1, 0}}});
   Crowded crowd(instance);
   PibtGenerator generator(instance.grid(), crowd.states);
-  Dice dice(0);
+  SplitMix64 dice(0);
   const auto fails = [&](std::vector<LacamConstraint> orders) {
     return generator.step(crowd.places, crowd.priority, orders, dice).empty();
   };
@@ -95,7 +95,7 @@ TEST(PibtGenerator, WhoComesFirstPushesTheOtherAway) {
       instance_of({"...", "@.@"}, {{{0, 0}, Position{2, 0}}, {{1, 0}, Position{1, 0}}});
   Crowded crowd(instance);
   PibtGenerator generator(instance.grid(), crowd.states);
-  Dice dice(0);
+  SplitMix64 dice(0);
   const auto to = generator.step(crowd.places, crowd.priority, {}, dice);
   ASSERT_FALSE(to.empty());
   EXPECT_EQ(to[0], 1);
@@ -108,7 +108,7 @@ TEST(PibtGenerator, BacksOffToTheJunctionWhereTwoMustPass) {
       instance_of({".......", "@.@@@@@"}, {{{2, 0}, Position{6, 0}}, {{3, 0}, Position{0, 0}}});
   Crowded crowd(instance);
   PibtGenerator generator(instance.grid(), crowd.states);
-  Dice dice(0);
+  SplitMix64 dice(0);
   const auto to = generator.step(crowd.places, crowd.priority, {}, dice);
   ASSERT_FALSE(to.empty());
   EXPECT_EQ(to[0], 1);

@@ -15,9 +15,9 @@ inline std::uint64_t scramble(std::uint64_t x) {
 }
 
 // SplitMix64 itself.
-class Dice {
+class SplitMix64 {
  public:
-  explicit Dice(std::uint64_t seed) : state_(seed) {}
+  explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
 
   std::uint32_t next() {
     const std::uint64_t number = scramble(state_);
