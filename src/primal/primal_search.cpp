@@ -52,7 +52,7 @@
 #include "model/assert.h"
 #include "model/random.h"
 #include "primal/lacam_with_restarts.h"
-#include "primal/neighborhood_search.h"
+#include "primal/lns.h"
 #include "primal/planned_paths.h"
 #include "primal/primal_low_level.h"
 #include "primal/prioritized_planning.h"
@@ -159,7 +159,7 @@ class PrimalSearch::Impl {
   PrioritizedPlanning planning_;
   std::unique_ptr<LacamWithRestarts> configurations_;
   std::unique_ptr<TrafficGuidedLacam> guided_;  // while it makes cheaper plans
-  NeighborhoodSearch neighborhoods_;
+  LargeNeighborhoodSearch neighborhoods_;
 
   AgentIndex met_ = 0;  // agents from here on have not been met
   Cost own_costs_ = 0;  // of those met

@@ -27,7 +27,7 @@
 // 3,921, 100 agents 2,361 and 2,364; room-32-32-4, 60 agents 1,756 and 1,764, 80 agents 2,415 and
 // 2,432; empty-32-32, 200 agents 4,358 and 4,360. Only where all have been in vain for long, 8 s:
 // room, 60 agents, 1,756 and 1,759, 1,646 and 1,646.
-#include "primal/neighborhood_search.h"
+#include "primal/lns.h"
 
 #include <algorithm>
 #include <span>
@@ -40,10 +40,10 @@ constexpr std::int64_t kMostFirstLabels = std::int64_t{1} << 40;
 
 }  // namespace
 
-void NeighborhoodSearch::step(const Limits& limits) {
+void LargeNeighborhoodSearch::step(const Limits& limits) {
   ++steps_;
   const std::vector<AgentIndex>& agents = neighborhoods_.choose();
-  Way& way = choose_way();
+  RepairOperator& way = choose_repair();
   const std::int64_t work_before = router_.work();
   Cost old_cost = 0;
   old_paths_.clear();
@@ -60,15 +60,16 @@ void NeighborhoodSearch::step(const Limits& limits) {
   way.work = tuning_.way_memory * way.work + static_cast<double>(work);
 }
 
-NeighborhoodSearch::Way& NeighborhoodSearch::choose_way() {
-  const std::span<Way> ways(ways_.data(), ways_.size() - (router_.prices() == nullptr ? 1 : 0));
+LargeNeighborhoodSearch::RepairOperator& LargeNeighborhoodSearch::choose_repair() {
+  const std::span<RepairOperator> ways(
+      repair_operators_.data(), repair_operators_.size() - (router_.prices() == nullptr ? 1 : 0));
   if (random_.below(tuning_.neighborhoods_per_trial) == 0) return ways[random_.below(ways.size())];
-  return *std::ranges::max_element(ways, {},
-                                   [](const Way& way) { return (way.gain + 1) / way.work; });
+  return *std::ranges::max_element(
+      ways, {}, [](const RepairOperator& way) { return (way.gain + 1) / way.work; });
 }
 
 // How much more than `cost`, that of the plan as it is, the next one may cost.
-Cost NeighborhoodSearch::worse_allowed(Cost cost) {
+Cost LargeNeighborhoodSearch::worse_allowed(Cost cost) {
   if (cost < least_) {
     least_ = cost;
     in_vain_ = 0;
@@ -81,8 +82,8 @@ Cost NeighborhoodSearch::worse_allowed(Cost cost) {
 }
 
 // False if the agents cannot be planned at `most` or less, at least not in this order.
-bool NeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost most, Way& way,
-                                   const Limits& limits) {
+bool LargeNeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost most,
+                                        RepairOperator& way, const Limits& limits) {
   Cost left = most;
   for (AgentIndex agent : agents) left -= router_.individual_cost(agent);
   for (AgentIndex agent : agents) {
@@ -95,7 +96,8 @@ bool NeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost m
   return true;
 }
 
-bool NeighborhoodSearch::find(AgentIndex agent, Cost cutoff, Way& way, const Limits& limits) {
+bool LargeNeighborhoodSearch::find(AgentIndex agent, Cost cutoff, RepairOperator& way,
+                                   const Limits& limits) {
   const double of_others =
       tuning_.replan_labels + tuning_.replan_labels_of_found * way.labels / way.found;
   const PathQuery query{
@@ -116,7 +118,7 @@ bool NeighborhoodSearch::find(AgentIndex agent, Cost cutoff, Way& way, const Lim
   return true;
 }
 
-void NeighborhoodSearch::restore(const std::vector<AgentIndex>& agents) {
+void LargeNeighborhoodSearch::restore(const std::vector<AgentIndex>& agents) {
   for (AgentIndex agent : agents)
     if (!paths_.path(agent).empty()) paths_.take(agent);
   for (std::size_t i = 0; i < agents.size(); ++i) paths_.put(agents[i], std::move(old_paths_[i]));

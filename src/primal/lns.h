@@ -18,11 +18,11 @@ namespace grove::detail {
 // The new paths stay if they cost no more together; after many that did not help also if all paths
 // cost little more than the best ones met. (MAPF-LNS: Li et al., IJCAI 2021; the low level here
 // chooses the order of the tasks too. Record-to-record travel: Dueck 1993.)
-class NeighborhoodSearch {
+class LargeNeighborhoodSearch {
  public:
   // All must outlive this.
-  NeighborhoodSearch(const Problem& problem, PrimalLowLevel& router, PlannedPaths& paths,
-                     Random& random, const Tuning& tuning)
+  LargeNeighborhoodSearch(const Problem& problem, PrimalLowLevel& router, PlannedPaths& paths,
+                          Random& random, const Tuning& tuning)
       : router_(router),
         paths_(paths),
         random_(random),
@@ -43,7 +43,7 @@ class NeighborhoodSearch {
  private:
   // How an agent is planned: exactly, greedily, or so that it pays least where prices are known;
   // which does better is found out on the way.
-  struct Way {
+  struct RepairOperator {
     int inflation_percent;
     bool priced;
     double gain = 0;                     // of late
@@ -53,10 +53,11 @@ class NeighborhoodSearch {
     std::int64_t first_labels = 20'000;  // a call may take so many before any has found a path
   };
 
-  Way& choose_way();
+  RepairOperator& choose_repair();
   Cost worse_allowed(Cost cost);
-  bool plan_anew(const std::vector<AgentIndex>& agents, Cost most, Way& way, const Limits& limits);
-  bool find(AgentIndex agent, Cost cutoff, Way& way, const Limits& limits);
+  bool plan_anew(const std::vector<AgentIndex>& agents, Cost most, RepairOperator& way,
+                 const Limits& limits);
+  bool find(AgentIndex agent, Cost cutoff, RepairOperator& way, const Limits& limits);
   void restore(const std::vector<AgentIndex>& agents);
 
   PrimalLowLevel& router_;
@@ -64,7 +65,8 @@ class NeighborhoodSearch {
   Random& random_;
   const Tuning& tuning_;
   Neighborhoods neighborhoods_;
-  std::array<Way, 3> ways_{Way{0, false}, Way{30, false}, Way{0, true}};
+  std::array<RepairOperator, 3> repair_operators_{
+      RepairOperator{0, false}, RepairOperator{30, false}, RepairOperator{0, true}};
   Cost own_costs_ = 0;
   Cost least_ = kInfiniteCost;  // of plans met since begin()
   std::int64_t in_vain_ = 0;    // neighbourhoods since then
