@@ -28,9 +28,9 @@ const std::vector<AgentIndex>& Neighborhoods::choose() {
   wanted_ = std::min<std::int64_t>(
       agents, tuning_.fewest_replanned + random_.below(std::max<std::int64_t>(spread, 0) + 1));
   kind_ = choose_kind();
-  if (kind_ == kDelayed) add_delayed();
-  if (kind_ == kOneSpot) add_around_spot();
-  if (kind_ == kOverpaying) add_overpaying();
+  if (kind_ == kAgentBased) add_delayed();
+  if (kind_ == kMapBased) add_around_spot();
+  if (kind_ == kReducedCost) add_by_reduced_cost();
   if (std::ssize(chosen_) < kFew) add_anyone();
   random_.shuffle(chosen_);
   return chosen_;
@@ -52,7 +52,7 @@ Neighborhoods::Kind Neighborhoods::choose_kind() {
     at -= weights_[static_cast<std::size_t>(kind)] + sum * tuning_.least_kind;
     if (at < 0) return static_cast<Kind>(kind);
   }
-  return kAnyone;
+  return kRandom;
 }
 
 void Neighborhoods::reward(Cost gain) {
@@ -105,8 +105,8 @@ void Neighborhoods::add_those_in_the_way(AgentIndex agent, const Path& path, Tim
                          });
 }
 
-void Neighborhoods::add_overpaying() {
-  look_at_prices();
+void Neighborhoods::add_by_reduced_cost() {
+  update_reduced_costs();
   const AgentIndex agent = some_overpaying_agent();
   if (agent == ReservationTable::kNobody) return;
   add(agent);
@@ -117,28 +117,28 @@ void Neighborhoods::add_overpaying() {
   }
 }
 
-void Neighborhoods::look_at_prices() {
+void Neighborhoods::update_reduced_costs() {
   const DualSolution& list = *router_.prices();
   const auto agents = paths_.paths().size();
   if (seen_prices_ != router_.price_changes()) {
     seen_prices_ = router_.price_changes();
-    overpaid_.resize(agents);
+    reduced_cost_.resize(agents);
     seen_editions_.assign(agents, 0);
   }
   for (AgentIndex agent = 0; agent < std::ssize(paths_.paths()); ++agent) {
     if (seen_editions_[agent] == paths_.edition(agent)) continue;
     seen_editions_[agent] = paths_.edition(agent);
-    overpaid_[agent] = std::max<ScaledCost>(
+    reduced_cost_[agent] = std::max<ScaledCost>(
         0, list.multipliers.price(agent, paths_.path(agent)) - list.prices[agent]);
   }
 }
 
 AgentIndex Neighborhoods::some_overpaying_agent() {
-  const ScaledCost sum = std::accumulate(overpaid_.begin(), overpaid_.end(), ScaledCost{0});
+  const ScaledCost sum = std::accumulate(reduced_cost_.begin(), reduced_cost_.end(), ScaledCost{0});
   if (sum <= 0) return ReservationTable::kNobody;
   ScaledCost at = random_.below(sum);
   AgentIndex agent = 0;
-  while ((at -= overpaid_[agent]) >= 0) ++agent;
+  while ((at -= reduced_cost_[agent]) >= 0) ++agent;
   return agent;
 }
 

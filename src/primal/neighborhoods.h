@@ -29,7 +29,7 @@ class Neighborhoods {
   void reward(Cost gain);
 
  private:
-  enum Kind : std::uint8_t { kDelayed, kAnyone, kOneSpot, kOverpaying };
+  enum Kind : std::uint8_t { kAgentBased, kRandom, kMapBased, kReducedCost };
   static constexpr int kKinds = 4;
   static constexpr std::int64_t kFew = 2;  // fewer are filled up with anyone
 
@@ -38,14 +38,14 @@ class Neighborhoods {
   void add(AgentIndex agent);
   bool full() const { return std::ssize(chosen_) >= wanted_; }
   // All of them, or without those that ask for prices where there are none.
-  int kinds() const { return router_.prices() == nullptr ? kOverpaying : kKinds; }
+  int kinds() const { return router_.prices() == nullptr ? kReducedCost : kKinds; }
   void add_anyone();
   void add_delayed();
   AgentIndex some_delayed_agent();
   void add_those_in_the_way(AgentIndex agent, const Path& path, Time late);
-  void add_overpaying();
+  void add_by_reduced_cost();
   AgentIndex some_overpaying_agent();
-  void look_at_prices();
+  void update_reduced_costs();
   const Path& wanted_path(AgentIndex agent) const;
   void add_around_spot();
   void add_visitors(Place place, Time time);
@@ -56,12 +56,12 @@ class Neighborhoods {
   Random& random_;
   const Tuning& tuning_;
   std::array<double, kKinds> weights_{1, 1, 1, 1};
-  Kind kind_ = kAnyone;
+  Kind kind_ = kRandom;
   std::int64_t wanted_ = 0;
   std::int64_t in_vain_ = 0;  // neighbourhoods since one that gained
   std::vector<AgentIndex> chosen_;
   int seen_prices_ = 0;                      // Router::price_changes() then
-  std::vector<ScaledCost> overpaid_;         // by agent: above its price
+  std::vector<ScaledCost> reduced_cost_;     // by agent: above its price
   std::vector<std::int64_t> seen_editions_;  // by agent: of the path of which that is so
   std::vector<Place> queue_;
   std::vector<std::int32_t> seen_at_;  // by place: the search that saw it
