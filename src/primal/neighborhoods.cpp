@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "primal/in_the_way.h"
+#include "primal/blocking_agents.h"
 
 namespace grove::detail {
 namespace {
@@ -98,11 +98,11 @@ AgentIndex Neighborhoods::some_delayed_agent() {
 
 // Those that the agent would run into on a path, `late` steps late.
 void Neighborhoods::add_those_in_the_way(AgentIndex agent, const Path& path, Time late) {
-  visit_those_in_the_way(problem_.instance.world(), paths_.reservations(), agent, path, late,
-                         [&](AgentIndex other) {
-                           add(other);
-                           return !full();
-                         });
+  for_each_blocking_agent(problem_.instance.world(), paths_.reservations(), agent, path, late,
+                          [&](AgentIndex other) {
+                            add(other);
+                            return !full();
+                          });
 }
 
 void Neighborhoods::add_by_reduced_cost() {

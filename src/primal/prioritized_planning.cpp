@@ -26,7 +26,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "primal/in_the_way.h"
+#include "primal/blocking_agents.h"
 
 namespace grove::detail {
 namespace {
@@ -93,19 +93,19 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
   if (labels_of_order_ < tuning_.planning_labels_to_keep || has_failed_[agent])
     begin_with_next();
   else
-    clear_the_way(agent);
+    remove_blocking_agents(agent);
   return Outcome::kWorking;
 }
 
 // Who is in the way of the agent's own best path loses its path, and comes after it.
-void PrioritizedPlanning::clear_the_way(AgentIndex agent) {
+void PrioritizedPlanning::remove_blocking_agents(AgentIndex agent) {
   has_failed_[agent] = true;
   std::vector<bool> gone(order_.size(), false);
-  visit_those_in_the_way(world_, paths_.reservations(), agent, router_.individual_path(agent), 0,
-                         [&](AgentIndex other) {
-                           gone[other] = true;
-                           return true;
-                         });
+  for_each_blocking_agent(world_, paths_.reservations(), agent, router_.individual_path(agent), 0,
+                          [&](AgentIndex other) {
+                            gone[other] = true;
+                            return true;
+                          });
   const auto planned = order_.begin() + static_cast<std::ptrdiff_t>(next_);
   const auto first_gone = std::stable_partition(order_.begin(), planned,
                                                 [&](AgentIndex other) { return !gone[other]; });

@@ -10,7 +10,7 @@
 #include <deque>
 
 #include "model/random.h"
-#include "primal/in_the_way.h"
+#include "primal/blocking_agents.h"
 #include "primal/planned_paths.h"
 #include "primal/primal_low_level.h"
 
@@ -48,7 +48,7 @@ class Repair {
         continue;
       }
       if (limits_.stop_requested() || left-- == 0) return std::nullopt;
-      clear_the_way(agent, ++failures_);
+      remove_blocking_agents(agent, ++failures_);
     }
     for (AgentIndex agent = 0; agent < agents_; ++agent)
       if (!router_.meet(agent, limits_)) return std::nullopt;
@@ -66,19 +66,19 @@ class Repair {
     return true;
   }
 
-  void clear_the_way(AgentIndex agent, std::int64_t failures) {
+  void remove_blocking_agents(AgentIndex agent, std::int64_t failures) {
     const World& world = problem_.instance.world();
     std::vector<AgentIndex> gone;
     const auto note = [&](AgentIndex other) {
       if (std::ranges::find(gone, other) == gone.end()) gone.push_back(other);
       return true;
     };
-    visit_those_in_the_way(world, paths_.reservations(), agent, router_.individual_path(agent), 0,
-                           note);
+    for_each_blocking_agent(world, paths_.reservations(), agent, router_.individual_path(agent), 0,
+                            note);
     // Again and again: it is more than those.
     if (failures > agents_ / 2 || gone.empty())
-      visit_those_in_the_way(world, paths_.reservations(), agent, router_.individual_path(agent),
-                             static_cast<Time>(1 + random_.below(kLatest)), note);
+      for_each_blocking_agent(world, paths_.reservations(), agent, router_.individual_path(agent),
+                              static_cast<Time>(1 + random_.below(kLatest)), note);
     if (gone.empty()) gone = some_planned();
     random_.shuffle(gone);
     for (const AgentIndex other : gone) {

@@ -10,8 +10,8 @@ namespace grove::detail {
 // begun `late` steps late, resting at its end included; for some more than once. Ends when visit()
 // returns false.
 template <class Visit>
-void visit_those_in_the_way(const World& world, const ReservationTable& reservations,
-                            AgentIndex agent, const Path& path, Time late, Visit visit) {
+void for_each_blocking_agent(const World& world, const ReservationTable& reservations,
+                             AgentIndex agent, const Path& path, Time late, Visit visit) {
   const auto ends_at = [&](AgentIndex other) {
     return other != ReservationTable::kNobody && other != agent && !visit(other);
   };
