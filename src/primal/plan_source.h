@@ -10,12 +10,12 @@
 namespace grove::detail {
 
 enum class PlanSource : std::uint8_t {
-  kTree,            // a conflict-free constraint-tree node
-  kStart,           // given with the instance
-  kPriorities,      // prioritised planning
-  kConfigurations,  // configuration search
-  kNeighborhood,    // large neighbourhood search
-  kJointSearch,     // A* over joint states
+  kTree,                 // a conflict-free constraint-tree node
+  kStart,                // given with the instance
+  kPrioritizedPlanning,  // prioritised planning
+  kConfigurations,       // configuration search
+  kLns,                  // large neighbourhood search
+  kJointSearch,          // A* over joint states
 };
 inline constexpr PlanSource kLastPlanSource = PlanSource::kJointSearch;
 inline constexpr std::array<std::string_view, 6> kPlanSources{

@@ -172,8 +172,8 @@ class PrimalSearch::Impl {
   std::vector<std::int64_t> best_editions_;  // by agent: of paths_
   Cost told_ = kInfiniteCost;                // the best one that was returned, or adopted
   std::int64_t work_when_told_ = 0;
-  PlanSource source_ = PlanSource::kPriorities;
-  PlanSource source_of_paths_ = PlanSource::kPriorities;
+  PlanSource source_ = PlanSource::kPrioritizedPlanning;
+  PlanSource source_of_paths_ = PlanSource::kPrioritizedPlanning;
   std::int64_t steps_ = 0;
   std::int64_t joint_steps_ = 0;
   std::int64_t work_at_last_plan_ = 0;
@@ -201,7 +201,7 @@ std::optional<Plan> PrimalSearch::Impl::step(const Limits& limits) {
     advance(limits);
     if (!improving_ || paths_.cost() >= best_) continue;
     keep_best();
-    if (source_ != PlanSource::kNeighborhood) break;
+    if (source_ != PlanSource::kLns) break;
   }
   if (best_ < before) work_at_last_plan_ = work();
   if (best_ == told_ || !may_tell(limits)) return std::nullopt;
@@ -225,7 +225,7 @@ void PrimalSearch::Impl::keep_best() {
 // To make a plan of paths and to check it takes about as long as a third of its cost in work: where
 // many agents improve by small steps it is told now and then.
 bool PrimalSearch::Impl::may_tell(const Limits& limits) const {
-  return source_ != PlanSource::kNeighborhood || optimal() || limits.stop_requested() ||
+  return source_ != PlanSource::kLns || optimal() || limits.stop_requested() ||
          work() - work_when_told_ >= tuning_.work_to_tell * best_;
 }
 
@@ -300,7 +300,7 @@ void PrimalSearch::Impl::take_over_planned() {
   guided_.reset();  // such plans are the cheaper ones
   paths_.clear();
   for (AgentIndex agent = 0; agent < agents_; ++agent) paths_.put(agent, planned_.take(agent));
-  source_of_paths_ = PlanSource::kPriorities;
+  source_of_paths_ = PlanSource::kPrioritizedPlanning;
   begin_improving();
 }
 
@@ -372,7 +372,7 @@ void PrimalSearch::Impl::begin_improving() {
 void PrimalSearch::Impl::improve(const Limits& limits) {
   neighborhoods_.step(limits);
   if (paths_.cost() >= round_best_) return;
-  source_of_paths_ = PlanSource::kNeighborhood;
+  source_of_paths_ = PlanSource::kLns;
   round_best_ = paths_.cost();
   round_improved_ = work();
   round_improved_step_ = neighborhoods_.steps();

@@ -145,8 +145,8 @@ TEST_F(CentralLedgerTest, ATreeThatComesMeanwhileIsNotOverlooked) {
 TEST_F(CentralLedgerTest, APlanIsInTheGateBeforeAnybodyPrunesByIt) {
   nodes_.when_pruned = [&] { EXPECT_EQ(ledger_.cutoff(), nodes_.pruned.back()); };
   EXPECT_EQ(ledger_.cutoff(), kInfiniteCost);
-  ledger_.post(plan(2), PlanSource::kPriorities);
-  ledger_.post(plan(3), PlanSource::kPriorities);
+  ledger_.post(plan(2), PlanSource::kPrioritizedPlanning);
+  ledger_.post(plan(3), PlanSource::kPrioritizedPlanning);
   ledger_.post(plan(), PlanSource::kTree);
   EXPECT_EQ(nodes_.pruned, (std::vector<Cost>{13, 11}));
   EXPECT_EQ(listener_.incumbents, (std::vector<Cost>{13, 11}));

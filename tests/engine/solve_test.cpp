@@ -237,8 +237,8 @@ TEST(Solve, ThePrimalSearchFindsAndImprovesPlans) {
   const Solution solution = solve_until(instance, SolveOptions(), watcher, 5);
   ASSERT_TRUE(solution.plan);
   EXPECT_TRUE(check(instance, solution).empty());
-  EXPECT_EQ(watcher.sources.front(), PlanSource::kPriorities);
-  EXPECT_EQ(watcher.sources.back(), PlanSource::kNeighborhood);
+  EXPECT_EQ(watcher.sources.front(), PlanSource::kPrioritizedPlanning);
+  EXPECT_EQ(watcher.sources.back(), PlanSource::kLns);
   EXPECT_GT(solution.stats.counts.at("primal_low_level_calls"), 0);
   EXPECT_GT(solution.stats.counts.at("primal_neighborhoods"), 0);
 }

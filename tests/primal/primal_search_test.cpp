@@ -128,7 +128,7 @@ TEST(PrimalSearch, WhoFailsIsPlannedBeforeThoseInItsWay) {
     Search search(instance, 0, Techniques::defaults().without(Technique::kConfigurations), tuning);
     const std::vector<Plan> plans = search.plans(1);
     ASSERT_FALSE(plans.empty());
-    EXPECT_EQ(search.primal.source(), PlanSource::kPriorities);
+    EXPECT_EQ(search.primal.source(), PlanSource::kPrioritizedPlanning);
     EXPECT_EQ(search.primal.counts().attempts, keeps ? 1 : 2);
   }
 }
@@ -159,7 +159,7 @@ TEST(PrimalSearch, StopsWhenEveryAgentIsOnItsOwnBestPath) {
   const std::vector<Plan> plans = search.plans(5);
   ASSERT_EQ(plans.size(), 1u);
   EXPECT_EQ(plans[0].cost, 3);
-  EXPECT_EQ(search.primal.source(), PlanSource::kPriorities);
+  EXPECT_EQ(search.primal.source(), PlanSource::kPrioritizedPlanning);
   EXPECT_TRUE(search.primal.optimal());
   const std::int64_t work = search.primal.work();
   EXPECT_TRUE(search.plans(3).empty());
@@ -183,7 +183,7 @@ TEST(PrimalSearch, ImprovesItsFirstPlan) {
   Search search(instance);
   const std::vector<Plan> plans = search.plans(200);
   ASSERT_GT(plans.size(), 2u);
-  EXPECT_EQ(search.primal.source(), PlanSource::kNeighborhood);
+  EXPECT_EQ(search.primal.source(), PlanSource::kLns);
   EXPECT_GT(search.primal.counts().neighborhoods, 100);
 }
 
@@ -369,7 +369,7 @@ TEST(PrimalSearch, APlanOfAnotherSearchDoesNotEndPrioritisedPlanning) {
       Search donor(instance, seed, Techniques::defaults(), tuning);
       std::vector<Plan> plans;
       while (plans.empty()) plans = donor.plans(1);
-      EXPECT_NE(donor.primal.source(), PlanSource::kNeighborhood);
+      EXPECT_NE(donor.primal.source(), PlanSource::kLns);
       return plans[0];
     }();
     for (int steps : {0, 1, 2}) {
@@ -377,7 +377,8 @@ TEST(PrimalSearch, APlanOfAnotherSearchDoesNotEndPrioritisedPlanning) {
       search.plans(steps);
       search.primal.adopt(dear);
       for (int step = 0; step < 40; ++step)
-        if (!search.plans(1).empty() && search.primal.source() == PlanSource::kPriorities) {
+        if (!search.plans(1).empty() &&
+            search.primal.source() == PlanSource::kPrioritizedPlanning) {
           ++by_priorities;
           break;
         }

@@ -60,11 +60,11 @@ char letter_of(PlanSource source) {
   switch (source) {
     case PlanSource::kStart:
       return 'S';
-    case PlanSource::kPriorities:
+    case PlanSource::kPrioritizedPlanning:
       return 'H';
     case PlanSource::kConfigurations:
       return 'C';
-    case PlanSource::kNeighborhood:
+    case PlanSource::kLns:
       return 'L';
     case PlanSource::kJointSearch:
       return 'J';
