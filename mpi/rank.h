@@ -99,7 +99,7 @@ class Rank {
   Trees trees_;  // outlives all that holds nodes of them
   LedgerCopy ledger_;
   TreeSource elsewhere_;    // the coordinator brings trees,
-  TurnObserver unwatched_;  // and counts what is done
+  WorkObserver unwatched_;  // and counts what is done
   SharedSearch search_;
 
   std::map<std::uint32_t, NodePtr> roots_;  // by the number of the tree

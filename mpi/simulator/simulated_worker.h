@@ -45,8 +45,8 @@ class SimulatedWorker {
   Worker& worker_;
   const Machine& machine_;
   EqualSets& sets_;
-  std::optional<Worker::Turn> turn_;  // none: not busy
-  Expander::Kept kept_;               // as an expander of its own would
+  std::optional<Worker::WorkItem> turn_;  // none: not busy
+  Expander::Kept kept_;                   // as an expander of its own would
   double began_ = 0;
   double busy_until_ = 0;
   Tally tally_;

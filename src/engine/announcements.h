@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "engine/run_observer.h"
-#include "engine/turn_observer.h"
+#include "engine/work_observer.h"
 
 namespace grove::detail {
 
 // Tells one thing at a time, with where the run stands at that moment. Methods may be called from
 // any thread.
-class Announcements : public TurnObserver {
+class Announcements : public WorkObserver {
  public:
   // `observer`, and what `progress` looks at, must outlive this.
   Announcements(RunObserver& observer, std::function<Progress()> progress)

@@ -29,7 +29,7 @@ constexpr auto kPause = std::chrono::microseconds(100);  // of one who may not p
 
 class Crew {
  public:
-  Crew(SharedSearch& shared, const Limits& limits, const BetweenTurns& between_turns)
+  Crew(SharedSearch& shared, const Limits& limits, const BetweenItems& between_turns)
       : shared_(shared), limits_(limits), between_turns_(between_turns) {}
 
   void work(Worker& worker) {
@@ -93,7 +93,7 @@ class Crew {
 
   SharedSearch& shared_;
   const Limits& limits_;
-  const BetweenTurns& between_turns_;
+  const BetweenItems& between_turns_;
   std::mutex mutex_;  // guards all below
   std::condition_variable called_;
   int awake_ = 0;
@@ -105,9 +105,9 @@ class Crew {
 // Of a deterministic run: what a worker does in a round.
 struct Unit {
   Worker* worker;
-  Worker::Turn turn;
+  Worker::WorkItem turn;
 
-  bool is_primal() const { return turn.job == Worker::Turn::Job::kPrimal; }
+  bool is_primal() const { return turn.job == Worker::WorkItem::Job::kPrimal; }
 };
 
 // Some nodes for each worker, or one step of its primal search. More nodes would be a poorer
@@ -119,7 +119,7 @@ std::vector<Unit> choose_round(std::span<const std::unique_ptr<Worker>> workers)
     for (std::size_t w = 0; w < workers.size(); ++w) {
       if (!goes_on[w]) continue;
       auto turn = workers[w]->choose();
-      goes_on[w] = turn && turn->job == Worker::Turn::Job::kExpand;
+      goes_on[w] = turn && turn->job == Worker::WorkItem::Job::kExpand;
       if (turn) units.push_back({workers[w].get(), std::move(*turn)});
     }
   // They take longest.
@@ -145,12 +145,12 @@ void for_each_unit(std::vector<Unit>& units, ThreadTeam& team, const What& what)
 
 }  // namespace
 
-void solve_alone(Worker& worker, const SharedSearch& shared, const BetweenTurns& between_turns) {
+void solve_alone(Worker& worker, const SharedSearch& shared, const BetweenItems& between_turns) {
   for (; !shared.over(); between_turns()) worker.turn();
 }
 
 void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
-                    const Limits& limits, const BetweenTurns& between_turns) {
+                    const Limits& limits, const BetweenItems& between_turns) {
   struct AllowWork {
     const Limits& limits;
     ~AllowWork() { limits.clear_cancel(); }
@@ -162,7 +162,7 @@ void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSear
 }
 
 void solve_in_rounds(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
-                     int threads, const BetweenTurns& between_turns) {
+                     int threads, const BetweenItems& between_turns) {
   ThreadTeam team(std::min(threads, static_cast<int>(workers.size())));
   const auto perform = [](Unit& unit) { unit.worker->perform(unit.turn, unit.worker->expander()); };
   const auto publish = [](Unit& unit) { Worker::publish(unit.turn); };

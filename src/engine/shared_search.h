@@ -14,7 +14,7 @@
 #include "engine/solve.h"
 #include "engine/survey.h"
 #include "engine/tree_source.h"
-#include "engine/turn_observer.h"
+#include "engine/work_observer.h"
 #include "search/expander.h"
 #include "search/result_cache.h"
 
@@ -29,12 +29,12 @@ class SharedSearch {
  public:
   // All must outlive this.
   SharedSearch(const SolveOptions& options, const Limits& limits, LocalNodes& nodes, Ledger& ledger,
-               TreeSource& trees, TurnObserver& observer);
+               TreeSource& trees, WorkObserver& observer);
   ~SharedSearch();
 
   Ledger& ledger() { return ledger_; }
   TreeSource& trees() { return trees_; }
-  TurnObserver& observer() { return observer_; }
+  WorkObserver& observer() { return observer_; }
   LagrangianShare& lagrangian() { return lagrangian_; }
   bool over() const { return ledger_.over(); }
 
@@ -84,7 +84,7 @@ class SharedSearch {
   Frontier& frontier_;
   Ledger& ledger_;
   TreeSource& trees_;
-  TurnObserver& observer_;
+  WorkObserver& observer_;
   LagrangianShare lagrangian_;
 
   std::atomic<std::int64_t> nodes_generated_{0};

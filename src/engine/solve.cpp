@@ -39,7 +39,7 @@ class Workers {
       workers_.push_back(std::make_unique<Worker>(problem, options, limits, shared, stops, number));
   }
 
-  void run(const BetweenTurns& between_turns) {
+  void run(const BetweenItems& between_turns) {
     if (options_.deterministic)
       solve_in_rounds(workers_, shared_, options_.threads, between_turns);
     else if (workers_.size() > 1)

@@ -25,7 +25,7 @@ std::string count_of_splits(ConstraintKind kind) {
 
 // Lets an expander do its part of a turn, and writes down what that was.
 template <class What>
-void weigh(Worker::Turn& turn, Expander& by, const What& what) {
+void weigh(Worker::WorkItem& turn, Expander& by, const What& what) {
   by.turn_to(turn.memory);
   const std::int64_t work = by.work();
   const ExpansionCounts counts = by.counts();
@@ -60,17 +60,17 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
 
 Worker::~Worker() = default;
 
-std::optional<Worker::Turn> Worker::choose() {
-  using Job = Turn::Job;
+std::optional<Worker::WorkItem> Worker::choose() {
+  using Job = WorkItem::Job;
   const auto one = [&](Job job, NodePtr node = nullptr) {
-    std::optional<Turn> turn(std::in_place, job, std::move(node));
+    std::optional<WorkItem> turn(std::in_place, job, std::move(node));
     turn->memory = shared_.memory();
     return turn;
   };
   shared_.keep_within_memory();
   if (joint_->due() && !shared_.over()) return one(Job::kJoint);
   const auto lagrangian = [&] {
-    std::optional<Turn> turn;
+    std::optional<WorkItem> turn;
     if (shared_.over()) return turn;
     if (auto job = shared_.lagrangian().next()) {
       turn = one(Job::kLagrangian);
@@ -115,76 +115,76 @@ Expander& Worker::expander() {
   return *expander_;
 }
 
-void Worker::perform(Turn& turn, Expander& by) {
+void Worker::perform(WorkItem& turn, Expander& by) {
   switch (turn.job) {
-    case Turn::Job::kExpand:
+    case WorkItem::Job::kExpand:
       return expand(turn, by);
-    case Turn::Job::kHelp:
+    case WorkItem::Job::kHelp:
       return help(turn, by);
-    case Turn::Job::kPrimal:
+    case WorkItem::Job::kPrimal:
       return step_primal(turn);
-    case Turn::Job::kPrepare:
+    case WorkItem::Job::kPrepare:
       return shared_.trees().prepare_tree();
-    case Turn::Job::kJoint:
+    case WorkItem::Job::kJoint:
       return step_joint(turn);
-    case Turn::Job::kLagrangian:
+    case WorkItem::Job::kLagrangian:
       return step_lagrangian(turn);
   }
 }
 
-void Worker::expand(Turn& turn, Expander& by) const {
+void Worker::expand(WorkItem& turn, Expander& by) const {
   weigh(turn, by, [&] {
     turn.expansion = by.expand(turn.node, shared_.ledger().cutoff(), limits_, turn.bounding_effort);
   });
 }
 
-void Worker::help(Turn& turn, Expander& by) {
+void Worker::help(WorkItem& turn, Expander& by) {
   const double share = number_ * kGoldenRatio - std::floor(number_ * kGoldenRatio);
   weigh(turn, by, [&] {
     if (!by.help(turn.node, shared_.ledger().cutoff(), share, limits_)) helped_ = turn.node;
   });
 }
 
-void Worker::step_primal(Turn& turn) {
+void Worker::step_primal(WorkItem& turn) {
   const std::int64_t before = primal_->work();
   turn.plan = primal_->step(limits_);
   turn.work = primal_->work() - before;
 }
 
-void Worker::step_joint(Turn& turn) {
+void Worker::step_joint(WorkItem& turn) {
   turn.proven = joint_->step(shared_.ledger().cutoff(), limits_);
   turn.plan = joint_->plan();
 }
 
-void Worker::step_lagrangian(Turn& turn) {
+void Worker::step_lagrangian(WorkItem& turn) {
   if (!pricer_) pricer_.emplace(shared_.lagrangian().pricer(primal_stops_));
   const Ledger& ledger = shared_.ledger();
   shared_.lagrangian().perform(turn.lagrangian, *pricer_, ledger.cutoff(), ledger.lower_bound(),
                                limits_);
 }
 
-void Worker::publish(Turn& turn) {
+void Worker::publish(WorkItem& turn) {
   turn.memory->merge(std::exchange(turn.found, {}));
 }
 
-void Worker::commit(Turn& turn) {
+void Worker::commit(WorkItem& turn) {
   count(turn);
-  if (turn.job == Turn::Job::kPrimal) {
+  if (turn.job == WorkItem::Job::kPrimal) {
     if (turn.plan) shared_.ledger().post(std::move(*turn.plan), primal_->source());
     share_->primal_worked(*primal_, turn.work);
     others_worked(turn.work);
-  } else if (turn.job == Turn::Job::kJoint) {
+  } else if (turn.job == WorkItem::Job::kJoint) {
     if (turn.plan) shared_.ledger().post(std::move(*turn.plan), PlanSource::kJointSearch);
     if (options_.proof != nullptr && turn.proven > shared_.ledger().lower_bound())
       options_.proof->joint(turn.proven);
     shared_.ledger().prove(turn.proven, ProvenBy::kJointSearch);
-  } else if (turn.job == Turn::Job::kLagrangian) {
+  } else if (turn.job == WorkItem::Job::kLagrangian) {
     const Cost proven = shared_.lagrangian().commit(std::move(turn.lagrangian));
     if (proven > shared_.ledger().lower_bound())
       shared_.ledger().prove(proven, ProvenBy::kLagrangian);
-  } else if (turn.job != Turn::Job::kPrepare) {
+  } else if (turn.job != WorkItem::Job::kPrepare) {
     turn.memory->trim();
-    if (turn.job == Turn::Job::kExpand)
+    if (turn.job == WorkItem::Job::kExpand)
       shared_.finish(turn.node, std::move(turn.expansion), number_);
     share_->tree_worked(turn.work, {shared_.tree_is_behind(), shared_.plan_is_far()});
     others_worked(turn.work);
@@ -198,11 +198,11 @@ void Worker::others_worked(std::int64_t work) {
   shared_.lagrangian().others_worked(work);
 }
 
-void Worker::count(const Turn& turn) {
+void Worker::count(const WorkItem& turn) {
   const std::lock_guard lock(counting_);
   of_tree_ += turn.counts;
-  if (turn.job == Turn::Job::kPrimal) of_primal_ = primal_->counts();
-  if (turn.job == Turn::Job::kHelp) ++helps_;
+  if (turn.job == WorkItem::Job::kPrimal) of_primal_ = primal_->counts();
+  if (turn.job == WorkItem::Job::kHelp) ++helps_;
   joint_states_ = joint_->states();
 }
 

@@ -29,9 +29,9 @@ class Worker {
   ~Worker();
 
   // What is done at one go, and what became of it.
-  struct Turn {
+  struct WorkItem {
     enum class Job : std::uint8_t { kExpand, kHelp, kPrimal, kPrepare, kJoint, kLagrangian };
-    explicit Turn(Job the_job, NodePtr the_node = nullptr)
+    explicit WorkItem(Job the_job, NodePtr the_node = nullptr)
         : job(the_job), node(std::move(the_node)) {}
 
     Job job;
@@ -52,7 +52,7 @@ class Worker {
   // Lagrangian bound, or prepares the next tree.
   // False: nothing can be done just now.
   bool turn() {
-    std::optional<Turn> turn = choose();
+    std::optional<WorkItem> turn = choose();
     if (!turn) return false;
     perform(*turn, expander());
     publish(*turn);
@@ -64,10 +64,10 @@ class Worker {
   // was found out, and tells. perform() only reads what is shared; several turns that expand nodes
   // may be performed at the same time, each by another expander. Turns may be published at the
   // same time.
-  std::optional<Turn> choose();
-  void perform(Turn& turn, Expander& by);
-  static void publish(Turn& turn);
-  void commit(Turn& turn);
+  std::optional<WorkItem> choose();
+  void perform(WorkItem& turn, Expander& by);
+  static void publish(WorkItem& turn);
+  void commit(WorkItem& turn);
   // Its own expander, made when first asked for. Of one thread; not necessarily the worker's.
   Expander& expander();
 
@@ -76,12 +76,12 @@ class Worker {
 
  private:
   PrimalSearch& primal();
-  void count(const Turn& turn);
-  void expand(Turn& turn, Expander& by) const;
-  void help(Turn& turn, Expander& by);
-  void step_primal(Turn& turn);
-  void step_joint(Turn& turn);
-  void step_lagrangian(Turn& turn);
+  void count(const WorkItem& turn);
+  void expand(WorkItem& turn, Expander& by) const;
+  void help(WorkItem& turn, Expander& by);
+  void step_primal(WorkItem& turn);
+  void step_joint(WorkItem& turn);
+  void step_lagrangian(WorkItem& turn);
   void others_worked(std::int64_t work);
 
   const Problem& problem_;

@@ -13,7 +13,7 @@
 #include "engine/ledger.h"
 #include "engine/local_nodes.h"
 #include "engine/tree_source.h"
-#include "engine/turn_observer.h"
+#include "engine/work_observer.h"
 #include "search/single_tree.h"
 #include "tests/support/instances.h"
 
@@ -87,7 +87,7 @@ struct CountingSource : TreeSource {
   NodePtr next;  // to be brought
 };
 
-struct CountingObserver : TurnObserver {
+struct CountingObserver : WorkObserver {
   void expanded(const NodePtr&, const Expansion&, int) override { ++expansions; }
   void evicted(std::span<const NodePtr> nodes) override {
     for (const NodePtr& node : nodes) evicted_bounds.push_back(node->bound());

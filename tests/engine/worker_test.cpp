@@ -14,7 +14,7 @@
 namespace grove::detail {
 namespace worker_test {
 
-using Job = Worker::Turn::Job;
+using Job = Worker::WorkItem::Job;
 
 // A search whose workers the test leads.
 struct Search : testing::SmallSearch {
@@ -27,7 +27,7 @@ struct Search : testing::SmallSearch {
   }
 
   Worker worker(int number = 0) { return Worker(problem, options, limits, shared, stops, number); }
-  static std::optional<Job> job_of(const std::optional<Worker::Turn>& turn) {
+  static std::optional<Job> job_of(const std::optional<Worker::WorkItem>& turn) {
     return turn ? std::optional(turn->job) : std::nullopt;
   }
 

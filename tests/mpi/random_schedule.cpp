@@ -27,7 +27,7 @@ bool chance(Dice& dice, int percent) {
 // A worker whose turns other things may come between.
 struct SlowWorker : Worker {
   using Worker::Worker;
-  std::optional<Worker::Turn> turn;
+  std::optional<Worker::WorkItem> turn;
   bool performed = false;
 
   // False: there was nothing to do.

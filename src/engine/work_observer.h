@@ -11,12 +11,12 @@ namespace grove::detail {
 
 // Hears of it and does nothing; those who want to know override. Methods may be called from any
 // thread.
-class TurnObserver {
+class WorkObserver {
  public:
-  TurnObserver() = default;
-  TurnObserver(const TurnObserver&) = delete;
-  TurnObserver& operator=(const TurnObserver&) = delete;
-  virtual ~TurnObserver() = default;
+  WorkObserver() = default;
+  WorkObserver(const WorkObserver&) = delete;
+  WorkObserver& operator=(const WorkObserver&) = delete;
+  virtual ~WorkObserver() = default;
 
   // A node led to this, in the hands of the worker of this number.
   virtual void expanded(const NodePtr& /*node*/, const Expansion& /*expansion*/, int /*worker*/) {}
