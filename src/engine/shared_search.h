@@ -8,7 +8,7 @@
 #include <memory>
 #include <mutex>
 
-#include "engine/lagrangian_share.h"
+#include "engine/lagrangian_scheduler.h"
 #include "engine/ledger.h"
 #include "engine/local_nodes.h"
 #include "engine/solve.h"
@@ -35,7 +35,7 @@ class SharedSearch {
   Ledger& ledger() { return ledger_; }
   TreeSource& trees() { return trees_; }
   WorkObserver& observer() { return observer_; }
-  LagrangianShare& lagrangian() { return lagrangian_; }
+  LagrangianScheduler& lagrangian() { return lagrangian_; }
   bool over() const { return ledger_.over(); }
 
   // A node to expand; null if there is none just now. Whoever takes it brings it back by finish().
@@ -85,7 +85,7 @@ class SharedSearch {
   Ledger& ledger_;
   TreeSource& trees_;
   WorkObserver& observer_;
-  LagrangianShare lagrangian_;
+  LagrangianScheduler lagrangian_;
 
   std::atomic<std::int64_t> nodes_generated_{0};
   std::atomic<std::int64_t> nodes_evicted_{0};

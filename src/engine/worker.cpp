@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "engine/joint_share.h"
-#include "engine/primal_share.h"
+#include "engine/joint_scheduler.h"
+#include "engine/primal_scheduler.h"
 #include "engine/techniques_of.h"
 #include "search/proof_log.h"
 
@@ -47,13 +47,13 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
       number_(number),
       expander_stops_(stops),
       primal_stops_(stops),
-      share_(std::make_unique<PrimalShare>(problem.instance.agent_count(), options.tuning)),
-      joint_(std::make_unique<JointShare>(
+      share_(std::make_unique<PrimalScheduler>(problem.instance.agent_count(), options.tuning)),
+      joint_(std::make_unique<JointScheduler>(
           problem.instance, options.tuning,
           number == 0 && techniques_of(options).has(Technique::kJointSearch))) {
   // To expand the root can take long where there are many pairs of agents.
   const std::int64_t agents = problem.instance.agent_count();
-  share_->tree_worked(options.tuning.root_work_per_pair * agents * agents);
+  share_->add_tree_work(options.tuning.root_work_per_pair * agents * agents);
   if (number == 0 && techniques_of(options).has(Technique::kLagrangian))
     shared.lagrangian().open(problem.instance, stops, options.proof != nullptr);
 }
@@ -171,8 +171,8 @@ void Worker::commit(WorkItem& turn) {
   count(turn);
   if (turn.job == WorkItem::Job::kPrimal) {
     if (turn.plan) shared_.ledger().post(std::move(*turn.plan), primal_->source());
-    share_->primal_worked(*primal_, turn.work);
-    others_worked(turn.work);
+    share_->add_primal_work(*primal_, turn.work);
+    add_other_work(turn.work);
   } else if (turn.job == WorkItem::Job::kJoint) {
     if (turn.plan) shared_.ledger().post(std::move(*turn.plan), PlanSource::kJointSearch);
     if (options_.proof != nullptr && turn.proven > shared_.ledger().lower_bound())
@@ -186,16 +186,16 @@ void Worker::commit(WorkItem& turn) {
     turn.memory->trim();
     if (turn.job == WorkItem::Job::kExpand)
       shared_.finish(turn.node, std::move(turn.expansion), number_);
-    share_->tree_worked(turn.work, {shared_.tree_is_behind(), shared_.plan_is_far()});
-    others_worked(turn.work);
+    share_->add_tree_work(turn.work, {shared_.tree_is_behind(), shared_.plan_is_far()});
+    add_other_work(turn.work);
   }
   shared_.observer().worked();
 }
 
 // Beside what shares the work with them.
-void Worker::others_worked(std::int64_t work) {
-  joint_->others_worked(work);
-  shared_.lagrangian().others_worked(work);
+void Worker::add_other_work(std::int64_t work) {
+  joint_->add_other_work(work);
+  shared_.lagrangian().add_other_work(work);
 }
 
 void Worker::count(const WorkItem& turn) {

@@ -14,8 +14,8 @@
 
 namespace grove::detail {
 
-class JointShare;
-class PrimalShare;
+class JointScheduler;
+class PrimalScheduler;
 
 // An expander and a primal search, which take turns; and on the first worker of a run a search over
 // joint states, where there are few. For one thread at a time, but for what says
@@ -82,7 +82,7 @@ class Worker {
   void step_primal(WorkItem& turn);
   void step_joint(WorkItem& turn);
   void step_lagrangian(WorkItem& turn);
-  void others_worked(std::int64_t work);
+  void add_other_work(std::int64_t work);
 
   const Problem& problem_;
   const SolveOptions& options_;
@@ -95,8 +95,8 @@ class Worker {
   std::unique_ptr<Expander> expander_;
   AgentStopsCache primal_stops_;
   std::unique_ptr<PrimalSearch> primal_;
-  const std::unique_ptr<PrimalShare> share_;
-  const std::unique_ptr<JointShare> joint_;
+  const std::unique_ptr<PrimalScheduler> share_;
+  const std::unique_ptr<JointScheduler> joint_;
   std::optional<Pricer> pricer_;  // made when it is first due
   NodePtr helped_;                // the last node that there was nothing left to help with
 

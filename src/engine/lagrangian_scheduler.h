@@ -19,16 +19,16 @@ namespace grove::detail {
 // The workers of a process find it together, and where ranks share the search, those of others find
 // prices for them. The rule is at the head of the .cpp. Methods may be called from any thread, but
 // those about ranks, which are for the one that speaks, and open().
-class LagrangianShare {
+class LagrangianScheduler {
  public:
   // `tuning` must outlive this. Until open() it is never due.
-  explicit LagrangianShare(const Tuning& tuning) : tuning_(tuning) {}
+  explicit LagrangianScheduler(const Tuning& tuning) : tuning_(tuning) {}
 
   // Before the search. `instance` must outlive this. `keeps_reasons`: for log_proof().
   void open(const Instance& instance, const AgentStopsCache& stops, bool keeps_reasons);
 
   // So much was done beside it.
-  void others_worked(std::int64_t work) { others_ += work; }
+  void add_other_work(std::int64_t work) { others_ += work; }
   // Is it its turn?
   bool due(bool has_plan) const;
   // What there is to be done for it; none: nothing, or others have all in hand. Whoever takes a job

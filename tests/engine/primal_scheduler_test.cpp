@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How work is divided between the tree and the primal search, in figures. The rule is at the head
 // of primal_share.cpp.
-#include "engine/primal_share.h"
+#include "engine/primal_scheduler.h"
 
 #include <gtest/gtest.h>
 
@@ -34,37 +34,38 @@ Instance crowd() {
 }
 
 // Of a long tree, after the primal search has used up its credit.
-PrimalShare settled(const PrimalSearch& primal, int agents) {
-  PrimalShare share(agents, Tuning());
-  share.tree_worked(kLong);
-  share.primal_worked(primal, 8 * kLong);
+PrimalScheduler settled(const PrimalSearch& primal, int agents) {
+  PrimalScheduler share(agents, Tuning());
+  share.add_tree_work(kLong);
+  share.add_primal_work(primal, 8 * kLong);
   return share;
 }
 
 // Is the primal search still due when it has done so much after the tree has done that?
-bool may_do(PrimalShare share, const PrimalSearch& primal, std::int64_t tree, std::int64_t work) {
-  share.tree_worked(tree);
-  share.primal_worked(primal, work);
+bool may_do(PrimalScheduler share, const PrimalSearch& primal, std::int64_t tree,
+            std::int64_t work) {
+  share.add_tree_work(tree);
+  share.add_primal_work(primal, work);
   return share.due(primal);
 }
 
-void expect_ratio(const PrimalShare& share, const PrimalSearch& primal, double ratio) {
+void expect_ratio(const PrimalScheduler& share, const PrimalSearch& primal, double ratio) {
   const auto most = static_cast<std::int64_t>(std::llround(1e6 * ratio));
   EXPECT_TRUE(may_do(share, primal, 1'000'000, most - 1)) << ratio;
   EXPECT_FALSE(may_do(share, primal, 1'000'000, most + 1)) << ratio;
 }
 
-TEST(PrimalShare, TheTreeBegins) {
-  PrimalShare share(2, Tuning());
-  share.tree_worked(1999);
+TEST(PrimalScheduler, TheTreeBegins) {
+  PrimalScheduler share(2, Tuning());
+  share.add_tree_work(1999);
   EXPECT_FALSE(share.may_begin());
-  share.tree_worked(1);
+  share.add_tree_work(1);
   EXPECT_TRUE(share.may_begin());
 }
 
-TEST(PrimalShare, WhileTheTreeIsShortItLeavesAQuarterAndThenEverMore) {
+TEST(PrimalScheduler, WhileTheTreeIsShortItLeavesAQuarterAndThenEverMore) {
   const Setting s(crowd());
-  const PrimalShare share(12, Tuning());
+  const PrimalScheduler share(12, Tuning());
   EXPECT_TRUE(may_do(share, s.primal, 2000, 500));
   EXPECT_FALSE(may_do(share, s.primal, 2000, 501));
   EXPECT_TRUE(may_do(share, s.primal, kLong / 32, kLong / 128));
@@ -73,7 +74,7 @@ TEST(PrimalShare, WhileTheTreeIsShortItLeavesAQuarterAndThenEverMore) {
   EXPECT_FALSE(may_do(share, s.primal, kLong / 2, 2 * kLong + 1));
 }
 
-TEST(PrimalShare, WithoutAPlanItIsEightTimesTheTreesUntilItHasFailedOften) {
+TEST(PrimalScheduler, WithoutAPlanItIsEightTimesTheTreesUntilItHasFailedOften) {
   // They cannot pass each other, which the primal search does not know.
   Setting s(testing::instance_of({"......"}, {{{0, 0}, Position{5, 0}}, {{5, 0}, Position{0, 0}}}));
   expect_ratio(settled(s.primal, 2), s.primal, 8);
@@ -82,7 +83,7 @@ TEST(PrimalShare, WithoutAPlanItIsEightTimesTheTreesUntilItHasFailedOften) {
   expect_ratio(settled(s.primal, 2), s.primal, 1);
 }
 
-TEST(PrimalShare, WithAPlanItFollowsItsSuccess) {
+TEST(PrimalScheduler, WithAPlanItFollowsItsSuccess) {
   Setting s(crowd());
   double least = 1;
   double greatest = 0;
@@ -100,69 +101,69 @@ TEST(PrimalShare, WithAPlanItFollowsItsSuccess) {
   EXPECT_EQ(greatest, 1);
 }
 
-TEST(PrimalShare, WhileMoreIsProvenBesideTheTreeItHasAsMuchAtLeast) {
+TEST(PrimalScheduler, WhileMoreIsProvenBesideTheTreeItHasAsMuchAtLeast) {
   // They cannot pass each other, which the primal search does not know: it has failed often.
   Setting s(testing::instance_of({"......"}, {{{0, 0}, Position{5, 0}}, {{5, 0}, Position{0, 0}}}));
   for (int i = 0; i < 10'000 && s.primal.counts().attempts <= 4; ++i) s.primal.step(s.limits);
   Tuning tuning;
   tuning.primal_in_doubt = 0.125;
-  PrimalShare share(2, tuning);
-  share.tree_worked(kLong);
-  share.primal_worked(s.primal, 8 * kLong);
-  PrimalShare beside = share;
-  beside.tree_worked(1'000'000, {.is_behind = true});
-  beside.primal_worked(s.primal, 999'999);
+  PrimalScheduler share(2, tuning);
+  share.add_tree_work(kLong);
+  share.add_primal_work(s.primal, 8 * kLong);
+  PrimalScheduler beside = share;
+  beside.add_tree_work(1'000'000, {.is_behind = true});
+  beside.add_primal_work(s.primal, 999'999);
   EXPECT_TRUE(beside.due(s.primal));
-  share.tree_worked(1'000'000);
-  share.primal_worked(s.primal, 999'999);
+  share.add_tree_work(1'000'000);
+  share.add_primal_work(s.primal, 999'999);
   EXPECT_FALSE(share.due(s.primal));
 }
 
-TEST(PrimalShare, WhileThePlanIsFarFromWhatIsProvenAShortTreeLeavesItTheMost) {
+TEST(PrimalScheduler, WhileThePlanIsFarFromWhatIsProvenAShortTreeLeavesItTheMost) {
   Setting s(crowd());
   while (!s.primal.best_cost()) s.primal.step(s.limits);
-  PrimalShare share(12, Tuning());
-  share.primal_worked(s.primal, 0);  // it has just found a plan
-  PrimalShare far = share;
-  share.tree_worked(2000);
-  share.primal_worked(s.primal, 1000);
+  PrimalScheduler share(12, Tuning());
+  share.add_primal_work(s.primal, 0);  // it has just found a plan
+  PrimalScheduler far = share;
+  share.add_tree_work(2000);
+  share.add_primal_work(s.primal, 1000);
   EXPECT_FALSE(share.due(s.primal));
-  far.tree_worked(2000, {.plan_is_far = true});
-  far.primal_worked(s.primal, 15'000);
+  far.add_tree_work(2000, {.plan_is_far = true});
+  far.add_primal_work(s.primal, 15'000);
   EXPECT_TRUE(far.due(s.primal));
 }
 
-TEST(PrimalShare, WhileThePlanIsFarWorkInVainLeavesItAsMuchAsTheTree) {
+TEST(PrimalScheduler, WhileThePlanIsFarWorkInVainLeavesItAsMuchAsTheTree) {
   Setting s(crowd());
   while (!s.primal.best_cost()) s.primal.step(s.limits);
   while (s.primal.work() < 4 * s.primal.work_at_last_plan() && !s.primal.optimal())
     s.primal.step(s.limits);
   ASSERT_FALSE(s.primal.optimal());
-  PrimalShare share = settled(s.primal, 12);
-  PrimalShare far = share;
-  share.tree_worked(1'000'000);
-  far.tree_worked(1'000'000, {.plan_is_far = true});
-  for (PrimalShare* each : {&share, &far}) each->primal_worked(s.primal, 999'999);
+  PrimalScheduler share = settled(s.primal, 12);
+  PrimalScheduler far = share;
+  share.add_tree_work(1'000'000);
+  far.add_tree_work(1'000'000, {.plan_is_far = true});
+  for (PrimalScheduler* each : {&share, &far}) each->add_primal_work(s.primal, 999'999);
   EXPECT_TRUE(far.due(s.primal));
   EXPECT_FALSE(share.due(s.primal));
 }
 
-TEST(PrimalShare, ASearchThatExpectsAPlanIsDueAndNotCharged) {
+TEST(PrimalScheduler, ASearchThatExpectsAPlanIsDueAndNotCharged) {
   const Setting s(crowd());
   const Setting expecting(crowd(), Techniques::defaults());
   ASSERT_TRUE(expecting.primal.expects_plan());
-  PrimalShare share = settled(s.primal, 12);
-  share.primal_worked(expecting.primal, kLong);
+  PrimalScheduler share = settled(s.primal, 12);
+  share.add_primal_work(expecting.primal, kLong);
   EXPECT_TRUE(share.due(s.primal)) << "nothing was charged";
-  share.primal_worked(s.primal, 1);
+  share.add_primal_work(s.primal, 1);
   EXPECT_FALSE(share.due(s.primal));
   EXPECT_TRUE(share.due(expecting.primal));
 }
 
-TEST(PrimalShare, ASearchThatHasNothingLeftToDoIsNeverDue) {
+TEST(PrimalScheduler, ASearchThatHasNothingLeftToDoIsNeverDue) {
   Setting s(testing::instance_of({"...."}, {{{0, 0}, Position{3, 0}}}));
-  PrimalShare share(1, Tuning());
-  share.tree_worked(kLong);
+  PrimalScheduler share(1, Tuning());
+  share.add_tree_work(kLong);
   EXPECT_TRUE(share.due(s.primal));
   s.primal.step(s.limits);
   ASSERT_TRUE(s.primal.optimal());

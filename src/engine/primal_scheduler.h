@@ -14,17 +14,17 @@ struct TreeOutlook {
 };
 
 // Counts work, not seconds, so that a run can be repeated. The rule is at the head of the .cpp.
-class PrimalShare {
+class PrimalScheduler {
  public:
-  PrimalShare(int agents, const Tuning& tuning);
+  PrimalScheduler(int agents, const Tuning& tuning);
 
   // The tree has done so much more work, in the units of PrimalSearch::work().
-  void tree_worked(std::int64_t work, TreeOutlook outlook = {});
+  void add_tree_work(std::int64_t work, TreeOutlook outlook = {});
   // Has the tree done enough for the primal search to begin?
   bool may_begin() const;
   // Is it the turn of the primal search?
   bool due(const PrimalSearch& primal) const;
-  void primal_worked(const PrimalSearch& primal, std::int64_t work);
+  void add_primal_work(const PrimalSearch& primal, std::int64_t work);
 
  private:
   double ratio_with_plan(const PrimalSearch& primal) const;

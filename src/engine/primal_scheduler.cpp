@@ -15,30 +15,30 @@
 // as much as it at least, for neighbourhoods may be in vain a hundred times before the first of
 // many gains; and while the plan is that far, 8 at most from the beginning. None of this knows how
 // large the instance is or how fast the machine.
-#include "engine/primal_share.h"
+#include "engine/primal_scheduler.h"
 
 #include <algorithm>
 
 namespace grove::detail {
-PrimalShare::PrimalShare(int agents, const Tuning& tuning)
+PrimalScheduler::PrimalScheduler(int agents, const Tuning& tuning)
     : agents_(agents), tuning_(tuning), ratio_(tuning.most_primal) {}
 
-void PrimalShare::tree_worked(std::int64_t work, TreeOutlook outlook) {
+void PrimalScheduler::add_tree_work(std::int64_t work, TreeOutlook outlook) {
   tree_ += work;
   const bool beside = outlook.is_behind || outlook.plan_is_far;
   const double ratio = beside ? std::max(ratio_, tuning_.least_primal_beside) : ratio_;
   credit_ += std::min(ratio, most_ratio(outlook.plan_is_far)) * static_cast<double>(work);
 }
 
-bool PrimalShare::may_begin() const {
+bool PrimalScheduler::may_begin() const {
   return tree_ >= tuning_.tree_begins_work;
 }
 
-bool PrimalShare::due(const PrimalSearch& primal) const {
+bool PrimalScheduler::due(const PrimalSearch& primal) const {
   return primal.expects_plan() || (!primal.optimal() && credit_ >= 0);
 }
 
-void PrimalShare::primal_worked(const PrimalSearch& primal, std::int64_t work) {
+void PrimalScheduler::add_primal_work(const PrimalSearch& primal, std::int64_t work) {
   if (primal.best_cost())
     ratio_ = ratio_with_plan(primal);
   else
@@ -50,13 +50,13 @@ void PrimalShare::primal_worked(const PrimalSearch& primal, std::int64_t work) {
   credit_ -= static_cast<double>(work);
 }
 
-double PrimalShare::ratio_with_plan(const PrimalSearch& primal) const {
+double PrimalScheduler::ratio_with_plan(const PrimalSearch& primal) const {
   const double x =
       static_cast<double>(primal.work_at_last_plan()) / static_cast<double>(primal.work());
   return std::clamp(tuning_.most_primal * x * x * x, tuning_.least_primal, tuning_.most_primal);
 }
 
-double PrimalShare::most_ratio(bool plan_is_far) const {
+double PrimalScheduler::most_ratio(bool plan_is_far) const {
   if (plan_is_far) return tuning_.most_primal;
   const double part = static_cast<double>(tree_) / static_cast<double>(tuning_.tree_is_long_work);
   return std::clamp(tuning_.most_primal * part, tuning_.most_primal_at_first, tuning_.most_primal);

@@ -12,13 +12,13 @@
 namespace grove::detail {
 
 // The rule is at the head of the .cpp. For one thread at a time.
-class JointShare {
+class JointScheduler {
  public:
   // `instance` must outlive this. `wanted`: else it is never due.
-  JointShare(const Instance& instance, const Tuning& tuning, bool wanted);
+  JointScheduler(const Instance& instance, const Tuning& tuning, bool wanted);
 
   // So much was done beside it.
-  void others_worked(std::int64_t work) { others_ += work; }
+  void add_other_work(std::int64_t work) { others_ += work; }
   bool due() const;
   // About a millisecond of it. Proven, as Ledger::prove has it.
   Cost step(Cost cutoff, const Limits& limits);

@@ -4,7 +4,7 @@
 // search over joint states ends soon, and the tree perhaps never. Which of the two nobody knows, so
 // they share the work, of which joint search has the most; when one of them holds more memory than
 // it may, or has ended, the other has it all.
-#include "engine/joint_share.h"
+#include "engine/joint_scheduler.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -21,18 +21,18 @@ std::size_t most_bytes(const Limits& limits) {
 
 }  // namespace
 
-JointShare::JointShare(const Instance& instance, const Tuning& tuning, bool wanted)
+JointScheduler::JointScheduler(const Instance& instance, const Tuning& tuning, bool wanted)
     : instance_(instance),
       tuning_(tuning),
       over_(!wanted || instance.agent_count() > EpeaStar::kMostAgents) {}
 
-bool JointShare::due() const {
+bool JointScheduler::due() const {
   if (over_ || others_ < tuning_.joint_begins_work) return false;
   const auto allowed = tuning_.most_joint * static_cast<double>(others_);
   return !search_ || static_cast<double>(search_->work()) <= allowed;
 }
 
-Cost JointShare::step(Cost cutoff, const Limits& limits) {
+Cost JointScheduler::step(Cost cutoff, const Limits& limits) {
   if (!search_) search_ = EpeaStar::make(instance_, tuning_.joint_bits, most_bytes(limits));
   over_ = search_ == nullptr;
   if (over_) return 0;
@@ -47,7 +47,7 @@ Cost JointShare::step(Cost cutoff, const Limits& limits) {
   return proven;
 }
 
-std::optional<Plan> JointShare::plan() const {
+std::optional<Plan> JointScheduler::plan() const {
   return search_ ? search_->plan() : std::nullopt;
 }
 

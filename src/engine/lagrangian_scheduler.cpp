@@ -8,7 +8,7 @@
 // Where ranks share the search, it is rank 0's, and others find prices for it: at once, for it
 // cannot go on without. All ranks have about as much other work, so its part is that of all of
 // them; but rank 0 keeps some of its time for its nodes, for the bound waits for them too.
-#include "engine/lagrangian_share.h"
+#include "engine/lagrangian_scheduler.h"
 
 #include <new>
 #include <stdexcept>
@@ -22,15 +22,15 @@ constexpr double kMostHere = 4;                    // of its own work to other w
 
 }  // namespace
 
-void LagrangianShare::open(const Instance& instance, const AgentStopsCache& stops,
-                           bool keeps_reasons) {
+void LagrangianScheduler::open(const Instance& instance, const AgentStopsCache& stops,
+                               bool keeps_reasons) {
   instance_ = &instance;
   keeps_reasons_ = keeps_reasons;
   stops_.emplace(stops);
   is_over_ = instance.agent_count() < tuning_.lagrangian_agents;
 }
 
-bool LagrangianShare::due(bool has_plan) const {
+bool LagrangianScheduler::due(bool has_plan) const {
   if (helps_) return true;
   if (is_over_) return false;
   const std::int64_t others = others_;
@@ -41,7 +41,7 @@ bool LagrangianShare::due(bool has_plan) const {
          (ranks_ == 1 || static_cast<double>(own_here_) <= kMostHere * here);
 }
 
-std::optional<LagrangianBound::Job> LagrangianShare::next() {
+std::optional<LagrangianBound::Job> LagrangianScheduler::next() {
   if (helps_) return help_->next();
   if (is_over_) return std::nullopt;
   const std::lock_guard lock(making_);
@@ -50,7 +50,7 @@ std::optional<LagrangianBound::Job> LagrangianShare::next() {
 }
 
 // Without memory for it there is none.
-void LagrangianShare::make() {
+void LagrangianScheduler::make() {
   try {
     bound_ = LagrangianBound::make(*instance_, *stops_, tuning_);
     if (bound_) bound_->set_helpers(ranks_ - 1);
@@ -62,35 +62,35 @@ void LagrangianShare::make() {
 }
 
 // Null before it was made.
-LagrangianBound* LagrangianShare::bound() const {
+LagrangianBound* LagrangianScheduler::bound() const {
   const std::lock_guard lock(making_);
   return bound_.get();
 }
 
-std::shared_ptr<const DualSolution> LagrangianShare::price_list() const {
+std::shared_ptr<const DualSolution> LagrangianScheduler::price_list() const {
   const LagrangianBound* const bound = this->bound();
   return bound == nullptr ? nullptr : bound->price_list();
 }
 
-bool LagrangianShare::has_jobs() const {
+bool LagrangianScheduler::has_jobs() const {
   if (helps_) return help_->has_jobs();
   const LagrangianBound* const bound = is_over_ ? nullptr : this->bound();
   return bound != nullptr && bound->has_jobs();
 }
 
-void LagrangianShare::perform(LagrangianBound::Job& job, Pricer& pricer, Cost cutoff, Cost known,
-                              const Limits& limits) {
+void LagrangianScheduler::perform(LagrangianBound::Job& job, Pricer& pricer, Cost cutoff,
+                                  Cost known, const Limits& limits) {
   if (helps_)
     pricer.perform(job, limits);
   else
     bound_->perform(job, pricer, cutoff, known, limits);
 }
 
-Pricer LagrangianShare::pricer(const AgentStopsCache& stops) const {
+Pricer LagrangianScheduler::pricer(const AgentStopsCache& stops) const {
   return {helps_ ? help_->multipliers() : bound_->multipliers(), stops};
 }
 
-Cost LagrangianShare::commit(LagrangianBound::Job job) {
+Cost LagrangianScheduler::commit(LagrangianBound::Job job) {
   if (helps_) {
     help_->commit(std::move(job));
     return 0;
@@ -101,13 +101,13 @@ Cost LagrangianShare::commit(LagrangianBound::Job job) {
   return heard_of_bound();
 }
 
-void LagrangianShare::log_proof(ProofLog& proof) const {
+void LagrangianScheduler::log_proof(ProofLog& proof) const {
   const LagrangianBound* const bound = this->bound();
   if (bound != nullptr && !bound->reasons().empty())
     proof.prices(bound->lower_bound(), bound->reasons());
 }
 
-Cost LagrangianShare::heard_of_bound() {
+Cost LagrangianScheduler::heard_of_bound() {
   rounds_ = bound_->rounds();
   if (bound_->ended()) is_over_ = true;
   return bound_->lower_bound();
@@ -115,7 +115,7 @@ Cost LagrangianShare::heard_of_bound() {
 
 // Rank 0 is no helper. What is asked for counts from now on: while others do it there is time for
 // other work here.
-std::vector<std::pair<int, PricingRequest>> LagrangianShare::dispatch_pricing() {
+std::vector<std::pair<int, PricingRequest>> LagrangianScheduler::dispatch_pricing() {
   std::vector<std::pair<int, PricingRequest>> shares;
   LagrangianBound* const bound = is_over_ ? nullptr : this->bound();
   if (bound == nullptr) return shares;
@@ -126,7 +126,7 @@ std::vector<std::pair<int, PricingRequest>> LagrangianShare::dispatch_pricing() 
   return shares;
 }
 
-Cost LagrangianShare::accept(int rank, PricingReply answer) {
+Cost LagrangianScheduler::accept(int rank, PricingReply answer) {
   LagrangianBound* const bound = this->bound();
   if (bound == nullptr || rank < 1 || rank >= ranks_)
     throw std::invalid_argument("prices of a rank that was not asked");
@@ -135,14 +135,14 @@ Cost LagrangianShare::accept(int rank, PricingReply answer) {
   return heard_of_bound();
 }
 
-void LagrangianShare::help(const Instance& instance, PricingRequest share) {
+void LagrangianScheduler::help(const Instance& instance, PricingRequest share) {
   const std::lock_guard lock(making_);
   if (!help_) help_ = std::make_unique<RemotePricing>(instance);
   help_->accept(std::move(share));
   helps_ = true;
 }
 
-std::optional<PricingReply> LagrangianShare::take_answer() {
+std::optional<PricingReply> LagrangianScheduler::take_answer() {
   return helps_ ? help_->take_answer() : std::nullopt;
 }
 
