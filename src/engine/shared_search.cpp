@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/memory_shares.h"
+#include "engine/memory_budgets.h"
 #include "engine/techniques_of.h"
 
 namespace grove::detail {
@@ -39,7 +39,7 @@ SharedSearch::SharedSearch(const SolveOptions& options, const Limits& limits, Lo
       trees_(trees),
       observer_(observer),
       lagrangian_(options.tuning),
-      shares_(std::make_unique<MemoryShares>(limits, options.node_memory)),
+      shares_(std::make_unique<MemoryBudgets>(limits, options.node_memory)),
       most_known_(kMostKnown),
       known_(std::make_shared<SharedCache>()) {}
 

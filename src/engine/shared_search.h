@@ -20,7 +20,7 @@
 
 namespace grove::detail {
 
-class MemoryShares;
+class MemoryBudgets;
 
 // The nodes that this process holds. CTS-CBS (paper, Algorithms 1 and 4) is what happens when
 // workers take nodes here and bring back what they led to. All methods may be called from any
@@ -93,7 +93,7 @@ class SharedSearch {
   std::atomic<BoundingEffort> bounding_effort_{BoundingEffort::kFull};
 
   std::mutex keeping_;  // guards the shares
-  const std::unique_ptr<MemoryShares> shares_;
+  const std::unique_ptr<MemoryBudgets> shares_;
 
   std::atomic<std::size_t> most_known_;  // bytes of what was found out
   mutable std::mutex knowing_;

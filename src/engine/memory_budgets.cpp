@@ -9,7 +9,7 @@
 // the next alarm is half way to the limit, and the budgets are cut again. Each cut takes an eighth
 // and halves the room, so there are few; a run that cannot be helped this way is stopped by the
 // limit.
-#include "engine/memory_shares.h"
+#include "engine/memory_budgets.h"
 
 #include <algorithm>
 #include <limits>
@@ -27,19 +27,19 @@ std::size_t room(std::size_t limit) {
 
 }  // namespace
 
-MemoryShares::MemoryShares(const Limits& limits, std::size_t most_for_nodes)
+MemoryBudgets::MemoryBudgets(const Limits& limits, std::size_t most_for_nodes)
     : limits_(limits), alarm_(kNoLimit), for_nodes_(most_for_nodes), for_expanders_(kNoLimit) {
   if (const auto limit = limits.memory_limit()) alarm_ = *limit - room(*limit) / 8;
 }
 
-void MemoryShares::cut(std::size_t nodes_hold, std::size_t expanders_hold) {
+void MemoryBudgets::cut(std::size_t nodes_hold, std::size_t expanders_hold) {
   const std::size_t held =
       std::min(nodes_hold, for_nodes_) + std::min(expanders_hold, for_expanders_);
   for_nodes_ = std::min(for_nodes_, std::max(kLeast, held / 2));
   for_expanders_ = std::min(for_expanders_, std::max(kLeast, held / 8 * 3));
 }
 
-void MemoryShares::settled() {
+void MemoryBudgets::settled() {
   const std::size_t limit = *limits_.memory_limit();
   alarm_ = std::max(alarm_, limit - room(limit) / 2);
 }

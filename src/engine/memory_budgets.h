@@ -9,10 +9,10 @@
 namespace grove::detail {
 
 // Budgets for what the search can give up. Of one thread; the rule is at the head of the .cpp.
-class MemoryShares {
+class MemoryBudgets {
  public:
   // `limits` must outlive this. `most_for_nodes`: their budget from the beginning.
-  MemoryShares(const Limits& limits, std::size_t most_for_nodes);
+  MemoryBudgets(const Limits& limits, std::size_t most_for_nodes);
 
   // Is the process near its limit, for all that the budgets in force do?
   bool is_short() const {  // the last look may be older than the last cut
