@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "engine/ledger.h"
+#include "engine/shared_bounds.h"
 #include "model/limits.h"
 #include "search/frontier.h"
 
@@ -16,7 +16,7 @@ namespace grove::detail {
 
 // What was last heard of the ledger, and the plans that it has yet to hear of. What workers ask may
 // be asked from any thread; the rest is for the thread that speaks for this rank.
-class LedgerCopy : public Ledger {
+class LedgerCopy : public SharedBounds {
  public:
   struct Found {
     Plan plan;

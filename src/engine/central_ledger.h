@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "engine/announcements.h"
-#include "engine/ledger.h"
 #include "engine/live_nodes.h"
+#include "engine/shared_bounds.h"
 #include "model/limits.h"
 #include "search/global_bounds.h"
 
@@ -18,7 +18,7 @@ namespace grove::detail {
 
 // The gate, with the numbers that it decides by kept up to date. The argument is at the head of the
 // .cpp.
-class CentralLedger : public Ledger {
+class CentralLedger : public SharedBounds {
  public:
   // All must outlive this. `trees_from`: no tree of the run costs less.
   CentralLedger(const Instance& instance, Omega omega, const Limits& limits, LiveNodes& nodes,

@@ -27,7 +27,7 @@ constexpr std::size_t kMostKnown = std::size_t{1} << 29;  // bytes of what was f
 }  // namespace
 
 SharedSearch::SharedSearch(const SolveOptions& options, const Limits& limits, LocalNodes& nodes,
-                           Ledger& ledger, TreeSource& trees, WorkObserver& observer)
+                           SharedBounds& ledger, TreeSource& trees, WorkObserver& observer)
     : omega_(options.omega),
       uses_estimates_(techniques_of(options).has(Technique::kEstimates)),
       cost_per_conflict_(options.tuning.cost_per_conflict),

@@ -9,8 +9,8 @@
 #include <mutex>
 
 #include "engine/lagrangian_scheduler.h"
-#include "engine/ledger.h"
 #include "engine/local_nodes.h"
+#include "engine/shared_bounds.h"
 #include "engine/solve.h"
 #include "engine/survey.h"
 #include "engine/tree_source.h"
@@ -28,11 +28,11 @@ class MemoryBudgets;
 class SharedSearch {
  public:
   // All must outlive this.
-  SharedSearch(const SolveOptions& options, const Limits& limits, LocalNodes& nodes, Ledger& ledger,
-               TreeSource& trees, WorkObserver& observer);
+  SharedSearch(const SolveOptions& options, const Limits& limits, LocalNodes& nodes,
+               SharedBounds& ledger, TreeSource& trees, WorkObserver& observer);
   ~SharedSearch();
 
-  Ledger& ledger() { return ledger_; }
+  SharedBounds& ledger() { return ledger_; }
   TreeSource& trees() { return trees_; }
   WorkObserver& observer() { return observer_; }
   LagrangianScheduler& lagrangian() { return lagrangian_; }
@@ -82,7 +82,7 @@ class SharedSearch {
   LocalNodes& nodes_;
   NodePool& pool_;
   Frontier& frontier_;
-  Ledger& ledger_;
+  SharedBounds& ledger_;
   TreeSource& trees_;
   WorkObserver& observer_;
   LagrangianScheduler lagrangian_;

@@ -158,7 +158,7 @@ void Worker::step_joint(WorkItem& turn) {
 
 void Worker::step_lagrangian(WorkItem& turn) {
   if (!pricer_) pricer_.emplace(shared_.lagrangian().pricer(primal_stops_));
-  const Ledger& ledger = shared_.ledger();
+  const SharedBounds& ledger = shared_.ledger();
   shared_.lagrangian().perform(turn.lagrangian, *pricer_, ledger.cutoff(), ledger.lower_bound(),
                                limits_);
 }

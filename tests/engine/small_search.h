@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/ledger.h"
 #include "engine/local_nodes.h"
+#include "engine/shared_bounds.h"
 #include "engine/tree_source.h"
 #include "engine/work_observer.h"
 #include "search/single_tree.h"
@@ -46,7 +46,7 @@ struct SmallSearch {
 };
 
 // A ledger that says what it is told to and remembers what it hears.
-struct ToldLedger : Ledger {
+struct ToldLedger : SharedBounds {
   bool over() const override { return is_over; }
   Cost cutoff() const override { return incumbent ? incumbent->cost : kInfiniteCost; }
   std::optional<Plan> plan_below(Cost cost) const override {

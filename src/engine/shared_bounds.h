@@ -13,12 +13,12 @@ namespace grove::detail {
 // What a run has proven and found, as far as this process knows. The ledger itself is a
 // CentralLedger; where it is in another process, what was last heard of it. Methods may be called
 // from any thread and do not wait.
-class Ledger {
+class SharedBounds {
  public:
-  Ledger() = default;
-  Ledger(const Ledger&) = delete;
-  Ledger& operator=(const Ledger&) = delete;
-  virtual ~Ledger() = default;
+  SharedBounds() = default;
+  SharedBounds(const SharedBounds&) = delete;
+  SharedBounds& operator=(const SharedBounds&) = delete;
+  virtual ~SharedBounds() = default;
 
   // Is there nothing left to do, or no time to do it?
   virtual bool over() const = 0;
