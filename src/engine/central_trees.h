@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/announcements.h"
-#include "engine/central_ledger.h"
+#include "engine/central_bounds.h"
 #include "engine/live_nodes.h"
 #include "engine/solve.h"
 #include "engine/tree_source.h"
@@ -22,7 +22,7 @@ namespace grove::detail {
 class CentralTrees : public TreeSource {
  public:
   // All must outlive this.
-  CentralTrees(const SolveOptions& options, Forest& forest, LiveNodes& nodes, CentralLedger& ledger,
+  CentralTrees(const SolveOptions& options, Forest& forest, LiveNodes& nodes, CentralBounds& ledger,
                Announcements& announcements);
 
   // Before all else, from one thread: trees that an earlier run instantiated, one by one, each
@@ -53,7 +53,7 @@ class CentralTrees : public TreeSource {
   const SolveOptions& options_;
   Forest& forest_;  // under growing_
   LiveNodes& nodes_;
-  CentralLedger& ledger_;
+  CentralBounds& ledger_;
   Announcements& announcements_;
 
   mutable std::mutex growing_;  // guards the forest and what follows

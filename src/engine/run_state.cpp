@@ -112,7 +112,7 @@ Solution RunState::conclude() const {
   if (gate.proven_infeasible()) {
     solution.status = Status::kInfeasible;
     solution.lower_bound = 0;
-    if (ledger_.has_no_joint_plan()) solution.stats.texts["reason"] = CentralLedger::kNoJointPlan;
+    if (ledger_.has_no_joint_plan()) solution.stats.texts["reason"] = CentralBounds::kNoJointPlan;
   }
   trees_.add_counts(solution.stats);
   ledger_.add_counts(solution.stats);

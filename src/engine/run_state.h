@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/announcements.h"
-#include "engine/central_ledger.h"
+#include "engine/central_bounds.h"
 #include "engine/central_trees.h"
 #include "engine/checkpoint.h"
 #include "engine/live_nodes.h"
@@ -29,8 +29,8 @@ class RunState {
            RunObserver& observer, NodePool& pool, LiveNodes& nodes);
 
   // Those who expand nodes turn to these, from any thread.
-  CentralLedger& ledger() { return ledger_; }
-  const CentralLedger& ledger() const { return ledger_; }
+  CentralBounds& ledger() { return ledger_; }
+  const CentralBounds& ledger() const { return ledger_; }
   CentralTrees& trees() { return trees_; }
   Announcements& announcements() { return announcements_; }
   // What the first tree found out about the agents' stops, for workers to begin with.
@@ -65,7 +65,7 @@ class RunState {
   const std::unique_ptr<Forest> forest_;
   Trees restored_trees_;
   Announcements announcements_;
-  CentralLedger ledger_;
+  CentralBounds ledger_;
   CentralTrees trees_;
 
   const Limits::Clock::time_point started_ = limits_.now();

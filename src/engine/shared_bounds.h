@@ -11,7 +11,7 @@
 namespace grove::detail {
 
 // What a run has proven and found, as far as this process knows. The ledger itself is a
-// CentralLedger; where it is in another process, what was last heard of it. Methods may be called
+// CentralBounds; where it is in another process, what was last heard of it. Methods may be called
 // from any thread and do not wait.
 class SharedBounds {
  public:

@@ -69,7 +69,7 @@ class CentralTreesTest : public ::testing::Test {
   RunObserver silent_;
   Announcements announcements_{silent_, [] { return Progress(); }};
   std::optional<ToldForest> forest_;
-  std::optional<CentralLedger> ledger_;
+  std::optional<CentralBounds> ledger_;
   std::optional<CentralTrees> trees_;
 };
 

@@ -18,10 +18,10 @@ namespace grove::detail {
 
 // The gate, with the numbers that it decides by kept up to date. The argument is at the head of the
 // .cpp.
-class CentralLedger : public SharedBounds {
+class CentralBounds : public SharedBounds {
  public:
   // All must outlive this. `trees_from`: no tree of the run costs less.
-  CentralLedger(const Instance& instance, Omega omega, const Limits& limits, LiveNodes& nodes,
+  CentralBounds(const Instance& instance, Omega omega, const Limits& limits, LiveNodes& nodes,
                 Announcements& announcements, Cost trees_from)
       : limits_(limits),
         nodes_(nodes),

@@ -14,7 +14,7 @@
 // instantiate one: nodes come from live nodes and from new trees alone (central_trees.cpp).
 //
 // *Pruning.* An incumbent is in the gate, checked, before anybody prunes by it.
-#include "engine/central_ledger.h"
+#include "engine/central_bounds.h"
 
 #include <fmt/format.h>
 
@@ -22,12 +22,12 @@
 
 namespace grove::detail {
 
-std::optional<Plan> CentralLedger::plan_below(Cost cost) const {
+std::optional<Plan> CentralBounds::plan_below(Cost cost) const {
   if (cutoff() >= cost) return std::nullopt;
   return gate_.incumbent();
 }
 
-void CentralLedger::post(Plan plan, PlanSource source) {
+void CentralBounds::post(Plan plan, PlanSource source) {
   const std::lock_guard lock(posting_);
   const Cost cost = plan.cost;
   const Cost before = gate_.incumbent_cost().value_or(cost);
@@ -38,20 +38,20 @@ void CentralLedger::post(Plan plan, PlanSource source) {
   announcements_.event(RunEvent::kIncumbent);
 }
 
-void CentralLedger::count(PlanSource source, Cost gain) {
+void CentralBounds::count(PlanSource source, Cost gain) {
   const std::lock_guard lock(counting_);
   Found& found = found_[static_cast<std::size_t>(source)];
   ++found.plans;
   found.gain += gain;
 }
 
-void CentralLedger::nodes_changed() {
+void CentralBounds::nodes_changed() {
   const Cost trees = trees_from_;  // before the nodes': see above
   gate_.update(nodes_.bound(), trees);
   announcements_.bound(gate_.lower_bound());
 }
 
-void CentralLedger::prove(Cost bound, ProvenBy by) {
+void CentralBounds::prove(Cost bound, ProvenBy by) {
   announcements_.bound_beside(by, [&] {
     gate_.update(bound, bound);
     return gate_.lower_bound();
@@ -60,7 +60,7 @@ void CentralLedger::prove(Cost bound, ProvenBy by) {
     announcements_.infeasible(kNoJointPlan);
 }
 
-void CentralLedger::add_counts(Stats& stats) const {
+void CentralBounds::add_counts(Stats& stats) const {
   const std::lock_guard lock(counting_);
   for (std::size_t source = 0; source < found_.size(); ++source) {
     if (found_[source].plans == 0) continue;
@@ -69,7 +69,7 @@ void CentralLedger::add_counts(Stats& stats) const {
   }
 }
 
-void CentralLedger::resume_at(Cost lower_bound) {
+void CentralBounds::resume_at(Cost lower_bound) {
   gate_.update(lower_bound, lower_bound);
   announcements_.bound_is_known(lower_bound);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is proven and found, whoever is at work at the moment it is asked.
-#include "engine/central_ledger.h"
+#include "engine/central_bounds.h"
 
 #include <gtest/gtest.h>
 
@@ -69,7 +69,7 @@ class CentralLedgerTest : public ::testing::Test {
       listener_, [this] {
         return Progress{0, 0, 0, ledger_.lower_bound(), ledger_.gate().incumbent_cost()};
       }};
-  CentralLedger ledger_{instance_, Omega(), limits_, nodes_, announcements_, 5};
+  CentralBounds ledger_{instance_, Omega(), limits_, nodes_, announcements_, 5};
 };
 
 TEST_F(CentralLedgerTest, TheBoundIsThatOfNodesAndTreesAndNeverFalls) {
@@ -178,12 +178,12 @@ TEST_F(CentralLedgerTest, IsOverWhenTheGateOrTheLimitsSaySoOrNothingIsLeft) {
   ledger_.nodes_changed();
   EXPECT_TRUE(ledger_.over());
 
-  CentralLedger given_up(instance_, Omega(), limits_, nodes_, announcements_, 5);
+  CentralBounds given_up(instance_, Omega(), limits_, nodes_, announcements_, 5);
   EXPECT_FALSE(given_up.over());
   given_up.end();
   EXPECT_TRUE(given_up.over());
 
-  CentralLedger stopped(instance_, Omega(), limits_, nodes_, announcements_, 5);
+  CentralBounds stopped(instance_, Omega(), limits_, nodes_, announcements_, 5);
   limits_.set_deadline(testing::kPast);
   EXPECT_TRUE(stopped.over());
 }
