@@ -33,12 +33,12 @@ void LedgerCopy::end() {
   limits_.cancel_workers();
 }
 
-void LedgerCopy::prove(Cost bound, ProvenBy by) {
+void LedgerCopy::prove(Cost bound, BoundSource by) {
   const std::lock_guard lock(mutex_);
   if (bound > proven_.first) proven_ = {bound, by};
 }
 
-std::pair<Cost, ProvenBy> LedgerCopy::proven() const {
+std::pair<Cost, BoundSource> LedgerCopy::proven() const {
   const std::lock_guard lock(mutex_);
   return proven_;
 }

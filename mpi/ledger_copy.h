@@ -35,13 +35,13 @@ class LedgerCopy : public SharedBounds {
   Cost lower_bound() const override { return std::min(known_.load(), frontier_.bound()); }
   // Nobody prunes by the plan before it has been checked.
   void post(Plan plan, PlanSource source) override;
-  void prove(Cost bound, ProvenBy by) override;
+  void prove(Cost bound, BoundSource by) override;
   void nodes_changed() override {}
 
   // The best plan posted since, if it is of use.
   std::optional<Found> take_found();
   // What was proven beside the nodes, and by whom.
-  std::pair<Cost, ProvenBy> proven() const;
+  std::pair<Cost, BoundSource> proven() const;
   // No plan of the whole search costs less.
   void know(Cost bound) { known_ = bound; }
   // A plan that has been checked.
@@ -58,7 +58,7 @@ class LedgerCopy : public SharedBounds {
   mutable std::mutex mutex_;
   std::optional<Plan> incumbent_;  // under mutex_, as is found_
   std::optional<Found> found_;
-  std::pair<Cost, ProvenBy> proven_{0, ProvenBy::kJointSearch};
+  std::pair<Cost, BoundSource> proven_{0, BoundSource::kJointSearch};
 };
 
 }  // namespace grove::detail

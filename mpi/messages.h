@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "engine/proven_by.h"
+#include "engine/bound_source.h"
 #include "engine/serialise.h"
 #include "engine/survey.h"
 #include "lagrangian/pricing_messages.h"
@@ -61,7 +61,7 @@ struct Status {
   Cost bound = kInfiniteCost;
   Cost evicted_bound = kInfiniteCost;
   Cost proven = 0;  // beside the nodes; see Ledger::prove
-  ProvenBy proven_by = ProvenBy::kJointSearch;
+  BoundSource proven_by = BoundSource::kJointSearch;
   bool live = false;  // is any node?
   std::int64_t open = 0;
   std::int64_t expanded = 0;

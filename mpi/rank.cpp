@@ -75,7 +75,7 @@ void Rank::handle(int from, message::Message&& message) {
                  [&](message::Prices& prices) {
                    ++heard_;
                    ledger_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
-                                 ProvenBy::kLagrangian);
+                                 BoundSource::kLagrangian);
                  },
                  [&](message::Facts& facts) {
                    ++heard_;

@@ -63,7 +63,7 @@ class Told {
     next_.on_expanded(node, expansion, worker);
   }
   void note(std::string_view note) { next_.on_note(note); }
-  void bound_beside(ProvenBy by) { next_.on_bound_beside(by); }
+  void bound_beside(BoundSource by) { next_.on_bound_beside(by); }
   void infeasible(std::string_view reason) { next_.on_infeasible(reason); }
   void end() {
     if (searched_) next_.on_event(RunEvent::kEnd, last_);
@@ -98,7 +98,7 @@ class Stage : public RunObserver {
   void on_event(RunEvent event, const Progress& progress) override {
     told_.event(event, of_whole(progress));
   }
-  void on_bound_beside(ProvenBy by) override { told_.bound_beside(by); }
+  void on_bound_beside(BoundSource by) override { told_.bound_beside(by); }
   void on_infeasible(std::string_view reason) override { told_.infeasible(reason); }
   bool wants_survey() override { return told_.wants_survey(); }
   void on_survey(const Survey& survey) override { told_.survey(survey); }
@@ -127,7 +127,7 @@ class StageOfB : public Stage {
       : Stage(told), instance_(instance), destinations_(destinations) {}
 
   void on_infeasible(std::string_view) override {}  // with these destinations
-  void on_bound_beside(ProvenBy) override {}        // likewise
+  void on_bound_beside(BoundSource) override {}     // likewise
 
  private:
   Plan of_whole(const Plan& plan) const override {

@@ -28,7 +28,7 @@ void Announcements::bound(Cost lower_bound) {
   bound_locked(lower_bound);
 }
 
-void Announcements::bound_beside(ProvenBy by, const std::function<Cost()>& prove) {
+void Announcements::bound_beside(BoundSource by, const std::function<Cost()>& prove) {
   const std::lock_guard lock(mutex_);
   const Cost lower_bound = prove();
   if (lower_bound > announced_bound_) observer_.on_bound_beside(by);

@@ -31,7 +31,7 @@ class Announcements : public WorkObserver {
   void bound(Cost lower_bound);
   // What `prove` does makes it as high as it returns, beside the tree. Nothing else is told in
   // between.
-  void bound_beside(ProvenBy by, const std::function<Cost()>& prove);
+  void bound_beside(BoundSource by, const std::function<Cost()>& prove);
   void infeasible(std::string_view reason);
   // The observer knows that it is so high.
   void bound_is_known(Cost lower_bound) { announced_bound_ = lower_bound; }

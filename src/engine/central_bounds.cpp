@@ -51,7 +51,7 @@ void CentralBounds::nodes_changed() {
   announcements_.bound(gate_.lower_bound());
 }
 
-void CentralBounds::prove(Cost bound, ProvenBy by) {
+void CentralBounds::prove(Cost bound, BoundSource by) {
   announcements_.bound_beside(by, [&] {
     gate_.update(bound, bound);
     return gate_.lower_bound();

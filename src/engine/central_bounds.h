@@ -36,7 +36,7 @@ class CentralBounds : public SharedBounds {
   std::optional<Plan> plan_below(Cost cost) const override;
   Cost lower_bound() const override { return gate_.lower_bound(); }
   void post(Plan plan, PlanSource source) override;
-  void prove(Cost bound, ProvenBy by) override;
+  void prove(Cost bound, BoundSource by) override;
   void nodes_changed() override;
   // Where better plans came from, and what each source took off the cost. From any thread.
   void add_counts(Stats& stats) const;

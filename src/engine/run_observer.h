@@ -6,8 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "engine/bound_source.h"
 #include "engine/checkpoints.h"
-#include "engine/proven_by.h"
 #include "engine/survey.h"
 #include "model/plan.h"
 #include "primal/plan_source.h"
@@ -53,7 +53,7 @@ class RunObserver {
   virtual void on_note(std::string_view /*note*/) {}
 
   // The bound, if it rises now, does so beside the tree.
-  virtual void on_bound_beside(ProvenBy /*by*/) {}
+  virtual void on_bound_beside(BoundSource /*by*/) {}
 
   // A checkpoint was written, or could not be.
   virtual void on_checkpoint(const CheckpointReport& /*report*/) {}
@@ -89,7 +89,7 @@ class ForwardingObserver : public RunObserver {
   }
   void on_infeasible(std::string_view reason) override { next_.on_infeasible(reason); }
   void on_note(std::string_view note) override { next_.on_note(note); }
-  void on_bound_beside(ProvenBy by) override { next_.on_bound_beside(by); }
+  void on_bound_beside(BoundSource by) override { next_.on_bound_beside(by); }
   void on_checkpoint(const CheckpointReport& report) override { next_.on_checkpoint(report); }
   bool wants_survey() override { return next_.wants_survey(); }
   void on_survey(const Survey& survey) override { next_.on_survey(survey); }

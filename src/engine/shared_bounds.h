@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "engine/proven_by.h"
+#include "engine/bound_source.h"
 #include "model/plan.h"
 #include "primal/plan_source.h"
 
@@ -33,7 +33,7 @@ class SharedBounds {
   virtual void post(Plan plan, PlanSource source) = 0;
   // Proven beside the tree: no plan costs less, but those that cost cutoff() or more, whatever that
   // was. kInfiniteCost: there is no other.
-  virtual void prove(Cost bound, ProvenBy by) = 0;
+  virtual void prove(Cost bound, BoundSource by) = 0;
   // Nodes were replaced by what they led to.
   virtual void nodes_changed() = 0;
 };

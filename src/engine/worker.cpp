@@ -177,11 +177,11 @@ void Worker::commit(WorkItem& turn) {
     if (turn.plan) shared_.ledger().post(std::move(*turn.plan), PlanSource::kJointSearch);
     if (options_.proof != nullptr && turn.proven > shared_.ledger().lower_bound())
       options_.proof->joint(turn.proven);
-    shared_.ledger().prove(turn.proven, ProvenBy::kJointSearch);
+    shared_.ledger().prove(turn.proven, BoundSource::kJointSearch);
   } else if (turn.job == WorkItem::Job::kLagrangian) {
     const Cost proven = shared_.lagrangian().commit(std::move(turn.lagrangian));
     if (proven > shared_.ledger().lower_bound())
-      shared_.ledger().prove(proven, ProvenBy::kLagrangian);
+      shared_.ledger().prove(proven, BoundSource::kLagrangian);
   } else if (turn.job != WorkItem::Job::kPrepare) {
     turn.memory->trim();
     if (turn.job == WorkItem::Job::kExpand)

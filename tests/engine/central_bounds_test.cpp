@@ -96,9 +96,9 @@ TEST_F(CentralLedgerTest, TheBoundIsThatOfNodesAndTreesAndNeverFalls) {
 // It holds of all plans, whatever the nodes say.
 TEST_F(CentralLedgerTest, WhatIsProvenBesideTheTreesCounts) {
   ledger_.nodes_changed();
-  ledger_.prove(4, ProvenBy::kJointSearch);
+  ledger_.prove(4, BoundSource::kJointSearch);
   EXPECT_EQ(ledger_.lower_bound(), 5);
-  ledger_.prove(7, ProvenBy::kLagrangian);
+  ledger_.prove(7, BoundSource::kLagrangian);
   EXPECT_EQ(ledger_.lower_bound(), 7);
   ledger_.nodes_changed();
   EXPECT_EQ(ledger_.lower_bound(), 7);
@@ -107,7 +107,7 @@ TEST_F(CentralLedgerTest, WhatIsProvenBesideTheTreesCounts) {
   EXPECT_EQ(ledger_.lower_bound(), 8);
   EXPECT_FALSE(ledger_.over());
   EXPECT_FALSE(ledger_.has_no_joint_plan());
-  ledger_.prove(kInfiniteCost, ProvenBy::kJointSearch);
+  ledger_.prove(kInfiniteCost, BoundSource::kJointSearch);
   EXPECT_TRUE(ledger_.over());
   EXPECT_TRUE(ledger_.gate().proven_infeasible());
   EXPECT_TRUE(ledger_.has_no_joint_plan());
@@ -116,7 +116,7 @@ TEST_F(CentralLedgerTest, WhatIsProvenBesideTheTreesCounts) {
 // With a plan, that there is no better one.
 TEST_F(CentralLedgerTest, WhatIsProvenBesideTheTreesMayCloseAPlan) {
   ledger_.post(plan(), PlanSource::kStart);
-  ledger_.prove(kInfiniteCost, ProvenBy::kJointSearch);
+  ledger_.prove(kInfiniteCost, BoundSource::kJointSearch);
   EXPECT_TRUE(ledger_.over());
   EXPECT_EQ(ledger_.lower_bound(), plan().cost);
   EXPECT_FALSE(ledger_.gate().proven_infeasible());
@@ -129,7 +129,7 @@ TEST_F(CentralLedgerTest, WhoProvesLessIsNotTheReasonThatThereIsNoPlan) {
   ledger_.expect_trees_from(kInfiniteCost);
   ledger_.nodes_changed();
   ASSERT_TRUE(ledger_.gate().proven_infeasible());
-  ledger_.prove(7, ProvenBy::kLagrangian);
+  ledger_.prove(7, BoundSource::kLagrangian);
   EXPECT_FALSE(ledger_.has_no_joint_plan());
 }
 

@@ -57,7 +57,7 @@ struct ToldLedger : SharedBounds {
     live_when_posted = nodes ? nodes->frontier.live() : 0;
     posted.emplace_back(std::move(plan), source);
   }
-  void prove(Cost proven, ProvenBy) override { bound = std::max(bound, proven); }
+  void prove(Cost proven, BoundSource) override { bound = std::max(bound, proven); }
   void nodes_changed() override { live_when_changed = nodes ? nodes->frontier.live() : 0; }
 
   bool is_over = false;

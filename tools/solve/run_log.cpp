@@ -56,7 +56,7 @@ void RunLog::on_event(RunEvent event, const Progress& told) {
   if (event == RunEvent::kProgress) show_progress(progress);
 }
 
-void RunLog::on_bound_beside(ProvenBy by) {
+void RunLog::on_bound_beside(BoundSource by) {
   raises_ = by;
 }
 
@@ -64,7 +64,7 @@ void RunLog::on_bound_beside(ProvenBy by) {
 void RunLog::note_bound(const Progress& progress) {
   if (progress.lower_bound <= bound_) return;
   const bool is_known = hears_expansions_ || progress.nodes_expanded == 0;
-  const std::optional<ProvenBy> beside = std::exchange(raises_, std::nullopt);
+  const std::optional<BoundSource> beside = std::exchange(raises_, std::nullopt);
   raised_by_[beside     ? name_of(*beside)
              : is_known ? last_work_
                         : "tree"] += progress.lower_bound - bound_;

@@ -28,7 +28,7 @@ class RunLog : public RunObserver {
   RunLog(LogFormat& format, Clock::time_point start, const Options& options);
 
   void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override;
-  void on_bound_beside(ProvenBy by) override;
+  void on_bound_beside(BoundSource by) override;
   void on_event(RunEvent event, const Progress& progress) override;
   void on_infeasible(std::string_view reason) override;
   void on_note(std::string_view note) override;
@@ -54,7 +54,7 @@ class RunLog : public RunObserver {
   bool has_rows_ = false;
   bool survey_is_due_ = false;
   bool hears_expansions_ = false;
-  std::optional<ProvenBy> raises_;        // the bound, if it rises now: who, if beside the tree
+  std::optional<BoundSource> raises_;     // the bound, if it rises now: who, if beside the tree
   RunEvent event_ = RunEvent::kProgress;  // the most telling one since the last row
   PlanSource source_ = PlanSource::kTree;
   std::string_view last_work_ = "sequences";    // what a bound that rises now rises by

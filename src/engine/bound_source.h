@@ -8,15 +8,15 @@
 namespace grove::detail {
 
 // The numbers are those of messages.
-enum class ProvenBy : std::uint8_t {
+enum class BoundSource : std::uint8_t {
   kJointSearch,  // A* over joint states
   kLagrangian,   // prices and multipliers
 };
-inline constexpr ProvenBy kLastProvenBy = ProvenBy::kLagrangian;
+inline constexpr BoundSource kLastProvenBy = BoundSource::kLagrangian;
 
 // As logs have it.
-constexpr std::string_view name_of(ProvenBy by) {
-  return by == ProvenBy::kJointSearch ? "joint" : "lagrangian";
+constexpr std::string_view name_of(BoundSource by) {
+  return by == BoundSource::kJointSearch ? "joint" : "lagrangian";
 }
 
 }  // namespace grove::detail
