@@ -58,7 +58,7 @@ class Searching {
  private:
   void run() {
     try {
-      solve_together(workers_, shared_, limits_, [] {});
+      run_parallel(workers_, shared_, limits_, [] {});
     } catch (...) {
       failure_ = std::current_exception();
     }

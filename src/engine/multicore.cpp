@@ -145,12 +145,13 @@ void for_each_unit(std::vector<Unit>& units, ThreadTeam& team, const What& what)
 
 }  // namespace
 
-void solve_alone(Worker& worker, const SharedSearch& shared, const BetweenItems& between_turns) {
+void run_single_threaded(Worker& worker, const SharedSearch& shared,
+                         const BetweenItems& between_turns) {
   for (; !shared.over(); between_turns()) worker.turn();
 }
 
-void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
-                    const Limits& limits, const BetweenItems& between_turns) {
+void run_parallel(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
+                  const Limits& limits, const BetweenItems& between_turns) {
   struct AllowWork {
     const Limits& limits;
     ~AllowWork() { limits.clear_cancel(); }
@@ -161,8 +162,8 @@ void solve_together(std::span<const std::unique_ptr<Worker>> workers, SharedSear
   });
 }
 
-void solve_in_rounds(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
-                     int threads, const BetweenItems& between_turns) {
+void run_deterministic(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
+                       int threads, const BetweenItems& between_turns) {
   ThreadTeam team(std::min(threads, static_cast<int>(workers.size())));
   const auto perform = [](Unit& unit) { unit.worker->perform(unit.turn, unit.worker->expander()); };
   const auto publish = [](Unit& unit) { Worker::publish(unit.turn); };

@@ -41,11 +41,11 @@ class Workers {
 
   void run(const BetweenItems& between_turns) {
     if (options_.deterministic)
-      solve_in_rounds(workers_, shared_, options_.threads, between_turns);
+      run_deterministic(workers_, shared_, options_.threads, between_turns);
     else if (workers_.size() > 1)
-      solve_together(workers_, shared_, limits_, between_turns);
+      run_parallel(workers_, shared_, limits_, between_turns);
     else
-      solve_alone(*workers_.front(), shared_, between_turns);
+      run_single_threaded(*workers_.front(), shared_, between_turns);
   }
 
   // From any thread.
