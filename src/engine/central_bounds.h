@@ -8,8 +8,8 @@
 #include <optional>
 #include <string_view>
 
-#include "engine/announcements.h"
 #include "engine/live_nodes.h"
+#include "engine/run_events.h"
 #include "engine/shared_bounds.h"
 #include "model/limits.h"
 #include "search/global_bounds.h"
@@ -22,7 +22,7 @@ class CentralBounds : public SharedBounds {
  public:
   // All must outlive this. `trees_from`: no tree of the run costs less.
   CentralBounds(const Instance& instance, Omega omega, const Limits& limits, LiveNodes& nodes,
-                Announcements& announcements, Cost trees_from)
+                RunEvents& announcements, Cost trees_from)
       : limits_(limits),
         nodes_(nodes),
         announcements_(announcements),
@@ -61,7 +61,7 @@ class CentralBounds : public SharedBounds {
 
   const Limits& limits_;
   LiveNodes& nodes_;
-  Announcements& announcements_;
+  RunEvents& announcements_;
   GlobalBounds gate_;
   std::atomic<Cost> trees_from_;
   std::atomic<bool> out_of_nodes_{false};

@@ -16,7 +16,7 @@ constexpr Cost kNoTree = -1;
 }  // namespace
 
 CentralTrees::CentralTrees(const SolveOptions& options, Forest& forest, LiveNodes& nodes,
-                           CentralBounds& ledger, Announcements& announcements)
+                           CentralBounds& ledger, RunEvents& announcements)
     : options_(options),
       forest_(forest),
       nodes_(nodes),

@@ -7,9 +7,9 @@
 #include <mutex>
 #include <vector>
 
-#include "engine/announcements.h"
 #include "engine/central_bounds.h"
 #include "engine/live_nodes.h"
+#include "engine/run_events.h"
 #include "engine/solve.h"
 #include "engine/tree_source.h"
 #include "search/forest.h"
@@ -23,7 +23,7 @@ class CentralTrees : public TreeSource {
  public:
   // All must outlive this.
   CentralTrees(const SolveOptions& options, Forest& forest, LiveNodes& nodes, CentralBounds& ledger,
-               Announcements& announcements);
+               RunEvents& announcements);
 
   // Before all else, from one thread: trees that an earlier run instantiated, one by one, each
   // after the forest has made the same and before its nodes are pushed; then the first tree, if
@@ -54,7 +54,7 @@ class CentralTrees : public TreeSource {
   Forest& forest_;  // under growing_
   LiveNodes& nodes_;
   CentralBounds& ledger_;
-  Announcements& announcements_;
+  RunEvents& announcements_;
 
   mutable std::mutex growing_;  // guards the forest and what follows
   std::vector<NodePtr> roots_;  // by the number of the tree

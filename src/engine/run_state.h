@@ -8,11 +8,11 @@
 #include <optional>
 #include <vector>
 
-#include "engine/announcements.h"
 #include "engine/central_bounds.h"
 #include "engine/central_trees.h"
 #include "engine/checkpoint.h"
 #include "engine/live_nodes.h"
+#include "engine/run_events.h"
 #include "engine/solve.h"
 #include "planning/agent_stops_cache.h"
 #include "search/forest.h"
@@ -32,7 +32,7 @@ class RunState {
   CentralBounds& ledger() { return ledger_; }
   const CentralBounds& ledger() const { return ledger_; }
   CentralTrees& trees() { return trees_; }
-  Announcements& announcements() { return announcements_; }
+  RunEvents& announcements() { return announcements_; }
   // What the first tree found out about the agents' stops, for workers to begin with.
   const AgentStopsCache& stops() const { return stops_; }
 
@@ -64,7 +64,7 @@ class RunState {
   AgentStopsCache stops_;  // the forest's
   const std::unique_ptr<Forest> forest_;
   Trees restored_trees_;
-  Announcements announcements_;
+  RunEvents announcements_;
   CentralBounds ledger_;
   CentralTrees trees_;
 

@@ -65,7 +65,7 @@ class CentralLedgerTest : public ::testing::Test {
   Limits limits_;
   ToldNodes nodes_;
   Listener listener_;
-  Announcements announcements_{
+  RunEvents announcements_{
       listener_, [this] {
         return Progress{0, 0, 0, ledger_.lower_bound(), ledger_.gate().incumbent_cost()};
       }};

@@ -67,7 +67,7 @@ class CentralTreesTest : public ::testing::Test {
   SolveOptions options_;
   WatchedNodes nodes_;
   RunObserver silent_;
-  Announcements announcements_{silent_, [] { return Progress(); }};
+  RunEvents announcements_{silent_, [] { return Progress(); }};
   std::optional<ToldForest> forest_;
   std::optional<CentralBounds> ledger_;
   std::optional<CentralTrees> trees_;

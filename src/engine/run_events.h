@@ -14,10 +14,10 @@ namespace grove::detail {
 
 // Tells one thing at a time, with where the run stands at that moment. Methods may be called from
 // any thread.
-class Announcements : public WorkObserver {
+class RunEvents : public WorkObserver {
  public:
   // `observer`, and what `progress` looks at, must outlive this.
-  Announcements(RunObserver& observer, std::function<Progress()> progress)
+  RunEvents(RunObserver& observer, std::function<Progress()> progress)
       : observer_(observer), progress_(std::move(progress)) {}
   // How to make a survey, from any thread, for an observer that wants one. Before the search.
   void survey_by(std::function<Survey()> survey) { survey_ = std::move(survey); }

@@ -1,65 +1,65 @@
 // SPDX-License-Identifier: MIT
-#include "engine/announcements.h"
+#include "engine/run_events.h"
 
 namespace grove::detail {
 
-void Announcements::expanded(const NodePtr& node, const Expansion& expansion, int worker) {
+void RunEvents::expanded(const NodePtr& node, const Expansion& expansion, int worker) {
   const std::lock_guard lock(mutex_);
   observer_.on_expanded(node, expansion, worker);
 }
 
-void Announcements::evicted(std::span<const NodePtr> nodes) {
+void RunEvents::evicted(std::span<const NodePtr> nodes) {
   const std::lock_guard lock(mutex_);
   for (const NodePtr& node : nodes) observer_.on_evicted(node);
 }
 
-void Announcements::event(RunEvent event) {
+void RunEvents::event(RunEvent event) {
   const std::lock_guard lock(mutex_);
   tell(event, progress_());
 }
 
-void Announcements::tell(RunEvent event, const Progress& progress) {
+void RunEvents::tell(RunEvent event, const Progress& progress) {
   observer_.on_event(event, progress);
   if (survey_ && observer_.wants_survey()) observer_.on_survey(survey_());
 }
 
-void Announcements::bound(Cost lower_bound) {
+void RunEvents::bound(Cost lower_bound) {
   const std::lock_guard lock(mutex_);
   bound_locked(lower_bound);
 }
 
-void Announcements::bound_beside(BoundSource by, const std::function<Cost()>& prove) {
+void RunEvents::bound_beside(BoundSource by, const std::function<Cost()>& prove) {
   const std::lock_guard lock(mutex_);
   const Cost lower_bound = prove();
   if (lower_bound > announced_bound_) observer_.on_bound_beside(by);
   bound_locked(lower_bound);
 }
 
-void Announcements::infeasible(std::string_view reason) {
+void RunEvents::infeasible(std::string_view reason) {
   const std::lock_guard lock(mutex_);
   observer_.on_infeasible(reason);
 }
 
 // That there is no plan at all is told at the end.
-void Announcements::bound_locked(Cost lower_bound) {
+void RunEvents::bound_locked(Cost lower_bound) {
   if (lower_bound <= announced_bound_ || lower_bound >= kInfiniteCost) return;
   const Progress progress = progress_();
   announced_bound_ = progress.lower_bound;
   tell(RunEvent::kBound, progress);
 }
 
-void Announcements::incumbent(const Plan& plan, PlanSource source) {
+void RunEvents::incumbent(const Plan& plan, PlanSource source) {
   const std::lock_guard lock(mutex_);
   observer_.on_pruned(plan.cost);
   observer_.on_incumbent(plan, source, progress_());
 }
 
-void Announcements::root(const NodePtr& root) {
+void RunEvents::root(const NodePtr& root) {
   const std::lock_guard lock(mutex_);
   observer_.on_root(root);
 }
 
-void Announcements::checkpoint(const CheckpointReport& report) {
+void RunEvents::checkpoint(const CheckpointReport& report) {
   const std::lock_guard lock(mutex_);
   observer_.on_checkpoint(report);
 }
