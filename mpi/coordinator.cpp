@@ -175,7 +175,7 @@ void Coordinator::heard(int child, message::Status status) {
   run_.ledger().nodes_changed();
   run_.announcements().worked();
   if (ending_) return;  // a batch sent after a farewell would be left under way
-  run_.trees().bring_due_tree();
+  run_.trees().instantiate_due_tree();
   while (const auto gift = broker_.next())
     children_.tell(gift->from, message::Order{gift->to, gift->nodes, gift->to_idle});
 }
@@ -198,7 +198,7 @@ void Coordinator::step() {
     ending_ = true;
     children_.tell_all(message::End{});
   } else if (!nodes_.any()) {
-    run_.trees().bring_nodes();  // a tree may bring none: then nobody has anything to say
+    run_.trees().refill_nodes();  // a tree may bring none: then nobody has anything to say
   } else if (run_.trees().claim_preparation()) {
     run_.trees().prepare_tree();
   }

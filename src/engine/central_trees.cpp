@@ -52,13 +52,13 @@ void CentralTrees::add_counts(Stats& stats) const {
   stats.counts["rtsp_calls"] += forest_.rtsp_calls();
 }
 
-void CentralTrees::bring_due_tree() {
+void CentralTrees::instantiate_due_tree() {
   if (!is_due()) return;
   const std::unique_lock lock(growing_, std::try_to_lock);
   if (lock && is_due()) grow();
 }
 
-void CentralTrees::bring_nodes() {
+void CentralTrees::refill_nodes() {
   const std::unique_lock lock(growing_, std::try_to_lock);
   if (!lock || nodes_.any()) return;
   if (is_due())

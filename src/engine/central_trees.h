@@ -38,8 +38,8 @@ class CentralTrees : public TreeSource {
   // Adds what was counted here to the answer's statistics.
   void add_counts(Stats& stats) const;
 
-  void bring_due_tree() override;
-  void bring_nodes() override;
+  void instantiate_due_tree() override;
+  void refill_nodes() override;
   bool claim_preparation() override;
   void prepare_tree() override;
 

@@ -46,10 +46,10 @@ SharedSearch::SharedSearch(const SolveOptions& options, const Limits& limits, Lo
 SharedSearch::~SharedSearch() = default;
 
 NodePtr SharedSearch::take() {
-  trees_.bring_due_tree();
+  trees_.instantiate_due_tree();
   NodePtr node = take_open();
   if (node || frontier_.live() > 0) return node;
-  trees_.bring_nodes();
+  trees_.refill_nodes();
   return take_open();
 }
 

@@ -14,9 +14,9 @@ class TreeSource {
   virtual ~TreeSource() = default;
 
   // Before a node is taken: brings the next tree where Algorithm 4 finds that necessary.
-  virtual void bring_due_tree() {}
+  virtual void instantiate_due_tree() {}
   // No node is live here: brings nodes or finds that there are none.
-  virtual void bring_nodes() {}
+  virtual void refill_nodes() {}
   // May the caller prepare the next tree before Algorithm 4 asks for it? Whoever is told so must do
   // it. One at a time.
   virtual bool claim_preparation() { return false; }

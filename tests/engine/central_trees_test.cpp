@@ -76,15 +76,15 @@ class CentralTreesTest : public ::testing::Test {
 TEST_F(CentralTreesTest, TheNextTreeIsDueWhenTheBestNodeIsDearerThanTheLastTree) {
   begin({8, 10, 12});
   EXPECT_EQ(trees_->count(), 1);
-  trees_->bring_due_tree();
+  trees_->instantiate_due_tree();
   EXPECT_EQ(trees_->count(), 1);
   EXPECT_EQ(ledger_->lower_bound(), 8);
   settle_best();
   nodes_.frontier.push(search_.child(9));
-  trees_->bring_due_tree();
+  trees_->instantiate_due_tree();
   EXPECT_EQ(trees_->count(), 2);
   EXPECT_EQ(ledger_->lower_bound(), 9);
-  trees_->bring_due_tree();
+  trees_->instantiate_due_tree();
   EXPECT_EQ(trees_->count(), 2) << "9 is not dearer than 10";
   EXPECT_EQ(count("roots_generated"), 2);
   EXPECT_EQ(count("rtsp_calls"), 7);
@@ -95,11 +95,11 @@ TEST_F(CentralTreesTest, WithinOmegaOfTheLastTreeNoneIsDue) {
   begin({8, 10});
   settle_best();
   nodes_.frontier.push(search_.child(12));
-  trees_->bring_due_tree();
+  trees_->instantiate_due_tree();
   EXPECT_EQ(trees_->count(), 1);
   nodes_.frontier.prune(0);
   nodes_.frontier.push(search_.child(13));
-  trees_->bring_due_tree();
+  trees_->instantiate_due_tree();
   EXPECT_EQ(trees_->count(), 2);
 }
 
@@ -109,7 +109,7 @@ TEST_F(CentralTreesTest, ARootIsPushedBeforeTheBoundOfTheTreesAfterItIsSaid) {
   nodes_.when_pushed = [&] { said.push_back(ledger_->trees_from()); };
   begin({8, 10});
   settle_best();
-  trees_->bring_nodes();
+  trees_->refill_nodes();
   EXPECT_EQ(said, (std::vector<Cost>{8, 10}));
   EXPECT_EQ(ledger_->trees_from(), kInfiniteCost);
   EXPECT_EQ(ledger_->lower_bound(), 10);
@@ -118,10 +118,10 @@ TEST_F(CentralTreesTest, ARootIsPushedBeforeTheBoundOfTheTreesAfterItIsSaid) {
 TEST_F(CentralTreesTest, NothingIsLeftOnlyWhenNoNodeIsLive) {
   begin({8});
   const NodePtr in_hand = nodes_.frontier.take();
-  trees_->bring_nodes();
+  trees_->refill_nodes();
   EXPECT_FALSE(ledger_->over());
   nodes_.frontier.settle(in_hand);
-  trees_->bring_nodes();
+  trees_->refill_nodes();
   EXPECT_TRUE(ledger_->over());
 }
 
@@ -129,7 +129,7 @@ TEST_F(CentralTreesTest, ALimitLosesNoTree) {
   begin({8, 10});
   forest_->stopped = true;
   settle_best();
-  trees_->bring_nodes();
+  trees_->refill_nodes();
   EXPECT_EQ(trees_->count(), 1);
   EXPECT_EQ(ledger_->trees_from(), 10);
   EXPECT_EQ(ledger_->lower_bound(), 10);
@@ -147,7 +147,7 @@ TEST_F(CentralTreesTest, APreparedTreeIsNotInstantiatedAndBoundsThoseToCome) {
   EXPECT_EQ(nodes_.frontier.open(), 1u);
   EXPECT_EQ(count("trees_prepared_in_vain"), 1);
   settle_best();
-  trees_->bring_nodes();
+  trees_->refill_nodes();
   EXPECT_EQ(nodes_.bound(), 10);
   EXPECT_EQ(ledger_->trees_from(), 12);
   EXPECT_EQ(count("trees_prepared"), 1);
@@ -165,7 +165,7 @@ TEST_F(CentralTreesTest, BeginsAnewWhenNodesWereGivenUpUntilThatLeadsNowhere) {
   settle_best();
   nodes_.frontier.push(search_.child(9));
   nodes_.frontier.evict(1);
-  trees_->bring_nodes();
+  trees_->refill_nodes();
   EXPECT_EQ(count("restarts"), 1);
   EXPECT_EQ(nodes_.frontier.open(), 1u) << "the root again";
   EXPECT_EQ(nodes_.evicted_bound(), kInfiniteCost);
@@ -173,7 +173,7 @@ TEST_F(CentralTreesTest, BeginsAnewWhenNodesWereGivenUpUntilThatLeadsNowhere) {
   settle_best();
   nodes_.frontier.push(search_.child(9));
   nodes_.frontier.evict(1);
-  trees_->bring_nodes();
+  trees_->refill_nodes();
   EXPECT_EQ(count("restarts"), 1) << "the last one was no better";
   EXPECT_TRUE(ledger_->over());
   ledger_->nodes_changed();
@@ -185,7 +185,7 @@ TEST_F(CentralTreesTest, BeforeItBeginsAnewATreeBelowWhatWasGivenUpComes) {
   settle_best();
   nodes_.frontier.push(search_.child(11));
   nodes_.frontier.evict(1);
-  trees_->bring_nodes();
+  trees_->refill_nodes();
   EXPECT_EQ(trees_->count(), 2);
   EXPECT_EQ(count("restarts"), 0);
 }

@@ -71,8 +71,8 @@ struct ToldLedger : SharedBounds {
 
 // Counts how often it is asked.
 struct CountingSource : TreeSource {
-  void bring_due_tree() override { ++due; }
-  void bring_nodes() override {
+  void instantiate_due_tree() override { ++due; }
+  void refill_nodes() override {
     ++nodes_asked;
     if (next) nodes->push(std::exchange(next, nullptr));
   }
