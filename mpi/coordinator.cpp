@@ -154,7 +154,7 @@ void Coordinator::handle(int from, message::Message&& message) {
           [&](message::Part& part) {
             if (gathering_) gathering_->handle(std::move(part));
           },
-          [&](message::Account& account) {
+          [&](message::ProcessStatistics& account) {
             for (const auto& [rank, survey] : account.survey.ranks) surveys_[rank] = account.survey;
           },
           [&](message::Farewell& said) { leave(said); }, unexpected},
@@ -235,15 +235,15 @@ Solution Coordinator::conclude() {
 }
 
 // A simulated run ends without farewells.
-Survey Coordinator::told() const {
-  Survey all = farewell_.survey;
+RunStatistics Coordinator::told() const {
+  RunStatistics all = farewell_.survey;
   for (const auto& [rank, survey] : surveys_)
     if (!all.ranks.contains(rank)) add(survey, all);
   return all;
 }
 
-Survey Coordinator::survey() const {
-  Survey survey = told();
+RunStatistics Coordinator::survey() const {
+  RunStatistics survey = told();
   Stats of_plans;
   run_.ledger().add_counts(of_plans);
   for (const auto& [key, count] : of_plans.counts) survey.whole.counts[key] += count;

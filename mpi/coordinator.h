@@ -63,8 +63,8 @@ class Coordinator {
   void heard(int child, message::Status status);
   void look_after_checkpoints();
   void leave(const message::Farewell& said);
-  Survey told() const;
-  Survey survey() const;
+  RunStatistics told() const;
+  RunStatistics survey() const;
 
   const Instance& instance_;
   const SolveOptions& options_;
@@ -86,8 +86,8 @@ class Coordinator {
   Clock::time_point heard_at_;                   // anybody, last
   std::optional<Clock::time_point> stopped_at_;  // when a limit was first seen to have struck
   int farewells_ = 0;
-  message::Farewell farewell_;     // of those that have said it
-  std::map<int, Survey> surveys_;  // by rank, before the farewells; the last one
+  message::Farewell farewell_;            // of those that have said it
+  std::map<int, RunStatistics> surveys_;  // by rank, before the farewells; the last one
 };
 
 }  // namespace grove::detail

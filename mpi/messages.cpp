@@ -38,18 +38,18 @@ void serialize(Archive& archive, MemoryUse& m) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Account& account) {
+void serialize(Archive& archive, ProcessStatistics& account) {
   archive(account.counts, account.memory);
 }
 
 template <class Archive>
-void serialize(Archive& archive, RankSurvey& rank) {
+void serialize(Archive& archive, RankStatistics& rank) {
   archive(rank.expanded, rank.open, rank.bound, rank.low_level_calls, rank.prices_asked);
   at_full_width(archive, rank.memory);
 }
 
 template <class Archive>
-void serialize(Archive& archive, Survey& survey) {
+void serialize(Archive& archive, RunStatistics& survey) {
   archive(survey.whole, survey.ranks);
 }
 
@@ -124,7 +124,7 @@ void serialize(Archive& archive, Found& found) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Account& account) {
+void serialize(Archive& archive, ProcessStatistics& account) {
   archive(account.survey);
 }
 

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "engine/bound_source.h"
+#include "engine/run_statistics.h"
 #include "engine/serialise.h"
-#include "engine/survey.h"
 #include "lagrangian/pricing_messages.h"
 #include "model/limits.h"
 #include "primal/plan_source.h"
@@ -92,14 +92,14 @@ struct Found {
 };
 
 // To the superior, now and then: what has been done so far, for who looks on.
-struct Account {
-  Survey survey;
+struct ProcessStatistics {
+  RunStatistics survey;
 };
 
 // To the superior, after End: what was done, and how many messages were sent to whom that went
 // directly from rank to rank. The sender sends nothing more.
 struct Farewell {
-  Survey survey;
+  RunStatistics survey;
   std::map<std::int32_t, std::int64_t> messages;
 };
 
@@ -187,8 +187,8 @@ struct Goodbye {
   std::map<std::int32_t, std::int64_t> messages;
 };
 
-using Message = std::variant<Status, Found, Gathered, Part, Account, Farewell,  // up
-                             Batch, AskPrices, Prices, Facts,                   // from rank to rank
+using Message = std::variant<Status, Found, Gathered, Part, ProcessStatistics, Farewell,  // up
+                             Batch, AskPrices, Prices, Facts,  // from rank to rank
                              NewTree, Entrust, Order, Release, Incumbent, BeginAnew, Gather, More,
                              Alive, End, Goodbye>;  // down
 

@@ -298,7 +298,7 @@ void Rank::send_found() {
     superior_.tell(message::Found{std::move(found->plan), found->source});
 }
 
-Survey Rank::survey(Stats counts) const {
+RunStatistics Rank::survey(Stats counts) const {
   search_.add_counts(counts);
   counts.counts["messages"] += transport_.messages();
   counts.counts["message_bytes"] += transport_.bytes();
@@ -306,8 +306,8 @@ Survey Rank::survey(Stats counts) const {
   counts.counts["facts_sent"] += facts_sent_;
   std::int64_t& batches = counts.counts["batches"];
   for (const auto& [rank, peer] : peers_) batches += peer.sent;
-  Survey survey{{std::move(counts.counts), search_.memory_use()}, {}};
-  RankSurvey& mine = survey.ranks[transport_.rank()];
+  RunStatistics survey{{std::move(counts.counts), search_.memory_use()}, {}};
+  RankStatistics& mine = survey.ranks[transport_.rank()];
   mine.expanded = nodes_.expanded;
   mine.open = nodes_.counts().open;
   if (nodes_.any()) mine.bound = nodes_.bound();
@@ -317,8 +317,8 @@ Survey Rank::survey(Stats counts) const {
   return survey;
 }
 
-void Rank::account_for(Stats counts) {
-  superior_.tell(message::Account{survey(std::move(counts))});
+void Rank::send_statistics(Stats counts) {
+  superior_.tell(message::ProcessStatistics{survey(std::move(counts))});
 }
 
 // Limits may strike just when a plan was found.

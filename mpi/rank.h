@@ -54,7 +54,7 @@ class Rank {
   }
 
   // Until the farewell: tells what has been done so far, workers' counts among it.
-  void account_for(Stats counts);
+  void send_statistics(Stats counts);
   // Is it time for workers to end? Then, when they have, say farewell: what they counted.
   bool ended() const { return ended_; }
   void farewell(Stats counts);
@@ -84,7 +84,7 @@ class Rank {
   void push(const std::vector<NodeRecord>& records, const std::vector<GroupBound>& findings);
   void begin_anew(Cost proven);
   message::Status status() const;
-  Survey survey(Stats counts) const;
+  RunStatistics survey(Stats counts) const;
   bool is_wanted(Cost bound) const;
   void tell(int rank, const message::Message& message);
 

@@ -121,7 +121,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
     }
     const double interval = member.rank().ended() ? kSignsOfLife_s : kAccountInterval_s;
     if (!said_farewell && now - accounted > interval) {
-      member.rank().account_for(searching.counts());
+      member.rank().send_statistics(searching.counts());
       accounted = now;
     }
     if (!said_farewell && searching.ended() && member.rank().ended()) {

@@ -39,7 +39,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
           [&](message::Found& found) {
             if (found.plan.cost < cutoff_) superior_.tell(found);
           },
-          [&](message::Account& account) { superior_.tell(account); },
+          [&](message::ProcessStatistics& account) { superior_.tell(account); },
           [&](message::Gathered& parts) { gathered(parts); },
           [&](message::Farewell& said) { farewell(said); },
           [&](message::Order& ordered) { order(ordered); },

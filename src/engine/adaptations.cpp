@@ -52,11 +52,11 @@ class Told {
     if (!ends_) next_.on_event(is_news ? event : RunEvent::kProgress, last_);
   }
   // The last survey of each search is made: it counts for those to come.
-  bool wants_survey() { return ends_ || next_.wants_survey(); }
-  void survey(Survey survey) {
+  bool wants_statistics() { return ends_ || next_.wants_statistics(); }
+  void survey(RunStatistics survey) {
     for (const auto& [name, count] : done_) survey.whole.counts[name] += count;
     if (ends_) done_ = survey.whole.counts;
-    next_.on_survey(survey);
+    next_.on_statistics(survey);
   }
   void root(const NodePtr& root) { next_.on_root(root); }
   void expanded(const NodePtr& node, const Expansion& expansion, int worker) {
@@ -100,8 +100,8 @@ class Stage : public RunObserver {
   }
   void on_bound_beside(BoundSource by) override { told_.bound_beside(by); }
   void on_infeasible(std::string_view reason) override { told_.infeasible(reason); }
-  bool wants_survey() override { return told_.wants_survey(); }
-  void on_survey(const Survey& survey) override { told_.survey(survey); }
+  bool wants_statistics() override { return told_.wants_statistics(); }
+  void on_statistics(const RunStatistics& survey) override { told_.survey(survey); }
   void on_root(const NodePtr& root) override { told_.root(root); }
   void on_expanded(const NodePtr& node, const Expansion& expansion, int worker) override {
     told_.expanded(node, expansion, worker);

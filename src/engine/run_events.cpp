@@ -20,7 +20,7 @@ void RunEvents::event(RunEvent event) {
 
 void RunEvents::tell(RunEvent event, const Progress& progress) {
   observer_.on_event(event, progress);
-  if (survey_ && observer_.wants_survey()) observer_.on_survey(survey_());
+  if (survey_ && observer_.wants_statistics()) observer_.on_statistics(survey_());
 }
 
 void RunEvents::bound(Cost lower_bound) {

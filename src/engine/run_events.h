@@ -20,7 +20,7 @@ class RunEvents : public WorkObserver {
   RunEvents(RunObserver& observer, std::function<Progress()> progress)
       : observer_(observer), progress_(std::move(progress)) {}
   // How to make a survey, from any thread, for an observer that wants one. Before the search.
-  void survey_by(std::function<Survey()> survey) { survey_ = std::move(survey); }
+  void survey_by(std::function<RunStatistics()> survey) { survey_ = std::move(survey); }
 
   void expanded(const NodePtr& node, const Expansion& expansion, int worker) override;
   void evicted(std::span<const NodePtr> nodes) override;
@@ -46,7 +46,7 @@ class RunEvents : public WorkObserver {
 
   RunObserver& observer_;
   const std::function<Progress()> progress_;
-  std::function<Survey()> survey_;  // may be empty
+  std::function<RunStatistics()> survey_;  // may be empty
   std::mutex mutex_;
   Cost announced_bound_ = 0;  // under mutex_
 };

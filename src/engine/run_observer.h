@@ -8,7 +8,7 @@
 
 #include "engine/bound_source.h"
 #include "engine/checkpoints.h"
-#include "engine/survey.h"
+#include "engine/run_statistics.h"
 #include "model/plan.h"
 #include "primal/plan_source.h"
 #include "search/expander.h"
@@ -59,8 +59,8 @@ class RunObserver {
   virtual void on_checkpoint(const CheckpointReport& /*report*/) {}
 
   // Asked after each event: true to be given a survey now, of the run up to here.
-  virtual bool wants_survey() { return false; }
-  virtual void on_survey(const Survey& /*survey*/) {}
+  virtual bool wants_statistics() { return false; }
+  virtual void on_statistics(const RunStatistics& /*survey*/) {}
 
   // For who looks at the trees themselves, or tests the search's reasoning (planted optimum): every
   // root, every expansion with what it led to and the number of the worker, from 0, that did it;
@@ -91,8 +91,8 @@ class ForwardingObserver : public RunObserver {
   void on_note(std::string_view note) override { next_.on_note(note); }
   void on_bound_beside(BoundSource by) override { next_.on_bound_beside(by); }
   void on_checkpoint(const CheckpointReport& report) override { next_.on_checkpoint(report); }
-  bool wants_survey() override { return next_.wants_survey(); }
-  void on_survey(const Survey& survey) override { next_.on_survey(survey); }
+  bool wants_statistics() override { return next_.wants_statistics(); }
+  void on_statistics(const RunStatistics& survey) override { next_.on_statistics(survey); }
   void on_root(const NodePtr& root) override { next_.on_root(root); }
   void on_expanded(const NodePtr& node, const Expansion& expansion, int worker) override {
     next_.on_expanded(node, expansion, worker);

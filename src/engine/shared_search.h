@@ -10,9 +10,9 @@
 
 #include "engine/lagrangian_scheduler.h"
 #include "engine/local_nodes.h"
+#include "engine/run_statistics.h"
 #include "engine/shared_bounds.h"
 #include "engine/solve.h"
-#include "engine/survey.h"
 #include "engine/tree_source.h"
 #include "engine/work_observer.h"
 #include "search/expander.h"

@@ -73,7 +73,7 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
     if (workers) workers->add_counts(so_far);
     shared.add_counts(so_far);
     run.ledger().add_counts(so_far);
-    return Survey{{std::move(so_far.counts), shared.memory_use()}, {}};
+    return RunStatistics{{std::move(so_far.counts), shared.memory_use()}, {}};
   });
   bool begun = false;
   try {

@@ -41,15 +41,15 @@ TEST(Messages, ArriveAsTheyWereSent) {
 }
 
 TEST(Messages, TellWhatARankHasDone) {
-  message::Account sent;
+  message::ProcessStatistics sent;
   sent.survey.whole = {{{"prices_asked", 5}}, {.process = 9, .nodes = 1, .groups = 3}};
   sent.survey.ranks[7] = {.expanded = 11, .open = 2, .bound = 40, .memory = 9};
-  const Survey told = returned(sent).survey;
+  const RunStatistics told = returned(sent).survey;
   EXPECT_EQ(told.whole.counts, sent.survey.whole.counts);
   EXPECT_EQ(told.whole.memory.groups, 3);
   EXPECT_EQ(told.ranks.at(7).expanded, 11);
   EXPECT_EQ(told.ranks.at(7).bound, 40);
-  Survey sum;
+  RunStatistics sum;
   sum.whole.counts["prices_asked"] = 1;
   sum.ranks[6] = {};
   add(told, sum);
@@ -61,7 +61,7 @@ TEST(Messages, TellWhatARankHasDone) {
 
 TEST(Messages, AreAsLongWhateverMemoryAProcessTakes) {
   const auto length = [](std::int64_t memory) {
-    message::Account account;
+    message::ProcessStatistics account;
     account.survey.whole.memory.process = memory;
     account.survey.ranks[7].memory = memory;
     return bytes(account).size();

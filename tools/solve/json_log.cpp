@@ -94,7 +94,7 @@ Json memory_json(const MemoryUse& memory) {
 }
 
 // Columns, one entry for each rank; null what is not known.
-Json ranks_json(const Survey& survey) {
+Json ranks_json(const RunStatistics& survey) {
   Json json{{"nodes", Json::array()},           {"open", Json::array()},
             {"lower_bound", Json::array()},     {"memory_mb", Json::array()},
             {"low_level_calls", Json::array()}, {"prices_asked", Json::array()}};
@@ -104,7 +104,7 @@ Json ranks_json(const Survey& survey) {
       for (Json& column : json) column.push_back(nullptr);
       continue;
     }
-    const RankSurvey& rank = found->second;
+    const RankStatistics& rank = found->second;
     json["nodes"].push_back(rank.expanded);
     json["open"].push_back(rank.open);
     json["lower_bound"].push_back(cost_json(rank.bound));
@@ -174,7 +174,7 @@ void JsonLog::row(const LogRow& row) {
   sink_.line(line_of(json));
 }
 
-void JsonLog::survey(const Survey& survey, double seconds) {
+void JsonLog::survey(const RunStatistics& survey, double seconds) {
   Json json{{"event", "counts"},
             {"time_s", seconds_json(seconds)},
             {"counts", survey.whole.counts},

@@ -58,7 +58,7 @@ class LogFormat {
   // The same between rows; overwritten by what comes next, if it is shown at all.
   virtual void progress(const LogRow& /*row*/) {}
   // What was done so far; the trees: for programs alone.
-  virtual void survey(const Survey& /*survey*/, double /*seconds*/) {}
+  virtual void survey(const RunStatistics& /*survey*/, double /*seconds*/) {}
   virtual void root(const RootRow& /*row*/, double /*seconds*/) {}
   virtual void node(const NodeRow& /*row*/, double /*seconds*/) {}
   // As RunObserver has them.

@@ -100,7 +100,7 @@ void RunLog::show_progress(const Progress& progress) {
   format_.progress(row_of(progress));
 }
 
-void RunLog::on_survey(const Survey& survey) {
+void RunLog::on_statistics(const RunStatistics& survey) {
   format_.survey(survey, seconds());
 }
 

@@ -34,8 +34,8 @@ class RunLog : public RunObserver {
   void on_note(std::string_view note) override;
   void on_checkpoint(const CheckpointReport& report) override;
   // With rows that time or work made due, and at the end.
-  bool wants_survey() override { return std::exchange(survey_is_due_, false); }
-  void on_survey(const Survey& survey) override;
+  bool wants_statistics() override { return std::exchange(survey_is_due_, false); }
+  void on_statistics(const RunStatistics& survey) override;
   void on_root(const NodePtr& root) override;
   void on_expanded(const NodePtr& node, const Expansion& expansion, int worker) override;
 

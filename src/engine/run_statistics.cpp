@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "engine/survey.h"
+#include "engine/run_statistics.h"
 
 namespace grove::detail {
 
-void add(const Account& part, Account& sum) {
+void add(const ProcessStatistics& part, ProcessStatistics& sum) {
   for (const auto& [name, count] : part.counts) sum.counts[name] += count;
   sum.memory.process += part.memory.process;
   sum.memory.nodes += part.memory.nodes;
@@ -12,7 +12,7 @@ void add(const Account& part, Account& sum) {
   sum.memory.groups += part.memory.groups;
 }
 
-void add(const Survey& part, Survey& sum) {
+void add(const RunStatistics& part, RunStatistics& sum) {
   add(part.whole, sum.whole);
   for (const auto& [rank, survey] : part.ranks) sum.ranks[rank] = survey;
 }

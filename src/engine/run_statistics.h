@@ -22,13 +22,13 @@ struct MemoryUse {
 };
 
 // What a process has done: counts by the names that they have in plan files.
-struct Account {
+struct ProcessStatistics {
   std::map<std::string, std::int64_t> counts;
   MemoryUse memory;
 };
 
 // What a rank does and holds.
-struct RankSurvey {
+struct RankStatistics {
   std::int64_t expanded = 0;
   std::int64_t open = 0;
   std::optional<Cost> bound;  // none where it holds no node
@@ -37,16 +37,16 @@ struct RankSurvey {
   std::int64_t prices_asked = 0;
 };
 
-struct Survey {
-  Account whole;                    // of all ranks together
-  std::map<int, RankSurvey> ranks;  // those that have told something by now
-  int rank_count = 0;               // 0 where one process searches alone
+struct RunStatistics {
+  ProcessStatistics whole;              // of all ranks together
+  std::map<int, RankStatistics> ranks;  // those that have told something by now
+  int rank_count = 0;                   // 0 where one process searches alone
 };
 
 // Adds counts to counts and bytes to bytes; takes over what is said of ranks.
-void add(const Survey& part, Survey& sum);
+void add(const RunStatistics& part, RunStatistics& sum);
 
 // Adds counts to counts and bytes to bytes.
-void add(const Account& part, Account& sum);
+void add(const ProcessStatistics& part, ProcessStatistics& sum);
 
 }  // namespace grove::detail
