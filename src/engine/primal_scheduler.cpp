@@ -25,9 +25,9 @@ PrimalScheduler::PrimalScheduler(int agents, const Tuning& tuning)
 
 void PrimalScheduler::add_tree_work(std::int64_t work, TreeOutlook outlook) {
   tree_ += work;
-  const bool beside = outlook.is_behind || outlook.plan_is_far;
+  const bool beside = outlook.is_behind || outlook.gap_is_large;
   const double ratio = beside ? std::max(ratio_, tuning_.least_primal_beside) : ratio_;
-  credit_ += std::min(ratio, most_ratio(outlook.plan_is_far)) * static_cast<double>(work);
+  credit_ += std::min(ratio, most_ratio(outlook.gap_is_large)) * static_cast<double>(work);
 }
 
 bool PrimalScheduler::may_begin() const {
@@ -56,8 +56,8 @@ double PrimalScheduler::ratio_with_plan(const PrimalSearch& primal) const {
   return std::clamp(tuning_.most_primal * x * x * x, tuning_.least_primal, tuning_.most_primal);
 }
 
-double PrimalScheduler::most_ratio(bool plan_is_far) const {
-  if (plan_is_far) return tuning_.most_primal;
+double PrimalScheduler::most_ratio(bool gap_is_large) const {
+  if (gap_is_large) return tuning_.most_primal;
   const double part = static_cast<double>(tree_) / static_cast<double>(tuning_.tree_is_long_work);
   return std::clamp(tuning_.most_primal * part, tuning_.most_primal_at_first, tuning_.most_primal);
 }

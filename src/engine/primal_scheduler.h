@@ -9,8 +9,8 @@
 namespace grove::detail {
 
 struct TreeOutlook {
-  bool is_behind = false;    // more is proven beside the tree than by it
-  bool plan_is_far = false;  // the best plan costs much more than what is proven
+  bool is_behind = false;     // more is proven beside the tree than by it
+  bool gap_is_large = false;  // the best plan costs much more than what is proven
 };
 
 // Counts work, not seconds, so that a run can be repeated. The rule is at the head of the .cpp.
@@ -28,7 +28,7 @@ class PrimalScheduler {
 
  private:
   double ratio_with_plan(const PrimalSearch& primal) const;
-  double most_ratio(bool plan_is_far) const;
+  double most_ratio(bool gap_is_large) const;
 
   const std::int64_t agents_;
   const Tuning tuning_;

@@ -31,7 +31,7 @@ SharedSearch::SharedSearch(const SolveOptions& options, const Limits& limits, Lo
     : omega_(options.omega),
       uses_estimates_(techniques_of(options).has(Technique::kEstimates)),
       cost_per_conflict_(options.tuning.cost_per_conflict),
-      far_plan_(options.tuning.far_plan),
+      large_gap_(options.tuning.far_plan),
       nodes_(nodes),
       pool_(nodes.pool),
       frontier_(nodes.frontier),
@@ -60,9 +60,9 @@ NodePtr SharedSearch::take_open() {
   return node ? node : frontier_.take();
 }
 
-bool SharedSearch::plan_is_far() const {
+bool SharedSearch::gap_is_large() const {
   const Cost cost = ledger_.cutoff();
-  return cost<kInfiniteCost&& static_cast<double>(cost)>(1 + far_plan_) *
+  return cost<kInfiniteCost&& static_cast<double>(cost)>(1 + large_gap_) *
          static_cast<double>(ledger_.lower_bound());
 }
 

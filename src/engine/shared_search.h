@@ -53,10 +53,10 @@ class SharedSearch {
   }
 
   // Is more proven beside the tree than by its nodes?
-  bool tree_is_behind() const { return frontier_.bound() < ledger_.lower_bound(); }
+  bool tree_bound_is_dominated() const { return frontier_.bound() < ledger_.lower_bound(); }
 
   // Does the best plan cost much more than what is proven?
-  bool plan_is_far() const;
+  bool gap_is_large() const;
 
   // Gives up nodes, and what was found out, as memory demands.
   void keep_within_memory();
@@ -78,7 +78,7 @@ class SharedSearch {
   const Omega omega_;
   const bool uses_estimates_;
   const double cost_per_conflict_;
-  const double far_plan_;
+  const double large_gap_;
   LocalNodes& nodes_;
   NodePool& pool_;
   Frontier& frontier_;

@@ -186,7 +186,7 @@ void Worker::commit(WorkItem& turn) {
     turn.memory->trim();
     if (turn.job == WorkItem::Job::kExpand)
       shared_.finish(turn.node, std::move(turn.expansion), number_);
-    share_->add_tree_work(turn.work, {shared_.tree_is_behind(), shared_.plan_is_far()});
+    share_->add_tree_work(turn.work, {shared_.tree_bound_is_dominated(), shared_.gap_is_large()});
     add_other_work(turn.work);
   }
   shared_.observer().worked();

@@ -128,7 +128,7 @@ TEST(PrimalScheduler, WhileThePlanIsFarFromWhatIsProvenAShortTreeLeavesItTheMost
   share.add_tree_work(2000);
   share.add_primal_work(s.primal, 1000);
   EXPECT_FALSE(share.due(s.primal));
-  far.add_tree_work(2000, {.plan_is_far = true});
+  far.add_tree_work(2000, {.gap_is_large = true});
   far.add_primal_work(s.primal, 15'000);
   EXPECT_TRUE(far.due(s.primal));
 }
@@ -142,7 +142,7 @@ TEST(PrimalScheduler, WhileThePlanIsFarWorkInVainLeavesItAsMuchAsTheTree) {
   PrimalScheduler share = settled(s.primal, 12);
   PrimalScheduler far = share;
   share.add_tree_work(1'000'000);
-  far.add_tree_work(1'000'000, {.plan_is_far = true});
+  far.add_tree_work(1'000'000, {.gap_is_large = true});
   for (PrimalScheduler* each : {&share, &far}) each->add_primal_work(s.primal, 999'999);
   EXPECT_TRUE(far.due(s.primal));
   EXPECT_FALSE(share.due(s.primal));
