@@ -14,7 +14,7 @@
 
 #include "engine/bound_source.h"
 #include "engine/run_statistics.h"
-#include "engine/serialise.h"
+#include "engine/serialize.h"
 #include "lagrangian/pricing_messages.h"
 #include "model/limits.h"
 #include "primal/plan_source.h"

@@ -3,7 +3,7 @@
 
 #include <cereal/types/variant.hpp>
 
-#include "engine/serialise.h"
+#include "engine/serialize.h"
 
 namespace grove::detail::batch {
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "engine/serialise.h"
+#include "engine/serialize.h"
 
 namespace grove::detail::batch {
 namespace {

@@ -18,7 +18,7 @@
 #include <system_error>
 #include <utility>
 
-#include "engine/serialise.h"
+#include "engine/serialize.h"
 #include "io/input_error.h"
 
 namespace grove::detail {

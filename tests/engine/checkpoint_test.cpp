@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "engine/serialise.h"
+#include "engine/serialize.h"
 #include "model/fingerprint.h"
 #include "search/expander.h"
 #include "search/sequence_forest.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/serialise.h"
+#include "engine/serialize.h"
 
 #include <gtest/gtest.h>
 
