@@ -27,9 +27,9 @@ namespace {
 constexpr int kMostTurnsInARound = 4;
 constexpr auto kPause = std::chrono::microseconds(100);  // of one who may not park
 
-class Crew {
+class WorkerPool {
  public:
-  Crew(SharedSearch& shared, const Limits& limits, const BetweenItems& between_turns)
+  WorkerPool(SharedSearch& shared, const Limits& limits, const BetweenItems& between_turns)
       : shared_(shared), limits_(limits), between_turns_(between_turns) {}
 
   void work(Worker& worker) {
@@ -156,7 +156,7 @@ void run_parallel(std::span<const std::unique_ptr<Worker>> workers, SharedSearch
     const Limits& limits;
     ~AllowWork() { limits.clear_cancel(); }
   } const at_last{limits};
-  Crew crew(shared, limits, between_turns);
+  WorkerPool crew(shared, limits, between_turns);
   ThreadTeam(static_cast<int>(workers.size())).run([&](int thread) {
     crew.work(*workers[static_cast<std::size_t>(thread)]);
   });
