@@ -187,7 +187,7 @@ void Rank::push(const std::vector<NodeRecord>& records, const std::vector<GroupB
     const bool pruned = record.bound >= ledger_.cutoff();
     nodes.push_back(pruned ? nullptr : node_of(record, root, problem_.instance));
   }
-  learn(findings, nodes, *search_.memory());
+  merge(findings, nodes, *search_.memory());
   for (NodePtr& node : nodes)
     if (node) nodes_.push(std::move(node));
 }
@@ -289,7 +289,7 @@ void Rank::hear(message::Facts& facts) {
   for (std::string& bytes : facts.facts) {
     LearnedBound fact = message::unpacked(bytes);
     if (!ended_) knowledge_.add(fact.utility(), std::move(bytes), facts.reach);
-    if (has_room) learn(std::move(fact), trees_of_facts_, *memory);
+    if (has_room) merge(std::move(fact), trees_of_facts_, *memory);
   }
 }
 

@@ -190,29 +190,29 @@ class Reader {
   }
 
   CertificateDemand demand() {
-    using Kind = CertificateDemand::Kind;
+    using DemandKind = CertificateDemand::Kind;
     CertificateDemand demand;
     demand.agent = agent();
     demand.kind =
-        static_cast<Kind>(one_of({"bar", "move", "norest", "rest", "pass", "stop", "nostop"}));
+        static_cast<DemandKind>(one_of({"bar", "move", "norest", "rest", "pass", "stop", "nostop"}));
     switch (demand.kind) {
-      case Kind::kVertexOrEdge:
+      case DemandKind::kVertexOrEdge:
         demand.p = place();
         span(demand);
         break;
-      case Kind::kMove:
-      case Kind::kPass:
+      case DemandKind::kMove:
+      case DemandKind::kPass:
         demand.p = place();
         demand.q = place();
         span(demand);
         break;
-      case Kind::kNoRest:
-      case Kind::kRest:
+      case DemandKind::kNoRest:
+      case DemandKind::kRest:
         demand.p = place();
         demand.begin = demand.end = time();
         break;
-      case Kind::kStop:
-      case Kind::kNoStop:
+      case DemandKind::kStop:
+      case DemandKind::kNoStop:
         demand.p = small("the number of a stop", tasks_);
         demand.q = task();
     }

@@ -17,7 +17,7 @@
 namespace grove::detail {
 namespace {
 
-enum Kind : std::int64_t { kSplit = 1, kBound = 2, kLemma = 3, kPrices = 4, kJoint = 5, kTree = 6 };
+enum PartKind : std::int64_t { kSplit = 1, kBound = 2, kLemma = 3, kPrices = 4, kJoint = 5, kTree = 6 };
 constexpr std::int64_t kMostNumbers = std::int64_t{1} << 28;  // of an entry
 
 using Numbers = std::vector<std::int64_t>;
@@ -159,7 +159,7 @@ class ProofRecorder::Stream {
     if (!file_.is_open()) fail_to_write(path_);
   }
 
-  void add(Kind kind, const Numbers& numbers) {
+  void add(PartKind kind, const Numbers& numbers) {
     const std::int64_t head[] = {kind, std::ssize(numbers)};
     unless_failed([&] {
       compressor_.add({reinterpret_cast<const char*>(head), sizeof head});

@@ -18,7 +18,7 @@ namespace grove::detail {
 
 // How much to find out about a node before it is split.
 enum class BoundingEffort : std::uint8_t {
-  kNone,
+  kFull,
   kCachedOnly,  // for its children: nothing new; what is known counts
 };
 

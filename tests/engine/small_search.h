@@ -30,7 +30,7 @@ struct SmallSearch {
       : instance(std::move(the_instance)), root(forest.next_root()) {}
 
   NodePtr child(Cost bound, std::uint32_t conflicts = 0) {
-    Change change;
+    NodeDelta change;
     change.cost = change.bound = bound;
     change.conflicts = conflicts;
     return Node::child(root, change);

@@ -66,7 +66,7 @@ TEST_F(PlantedInABay, IsMissedWhenAConstraintForbidsIt) {
   planted_.on_root(root_);
   Expansion expansion = expander_.expand(root_, kInfiniteCost, limits_);
   for (NodePtr& child : expansion.children) {
-    Change ban;
+    NodeDelta ban;
     ban.added = {0, {optimum_.agents[0].path[1], kNoCell, 1, 1}};
     ban.cost = child->cost();
     child = Node::child(child, ban);
@@ -79,7 +79,7 @@ TEST_F(PlantedInABay, SeesABoundThatIsTooHigh) {
   planted_.on_root(root_);
   Expansion expansion = expander_.expand(root_, kInfiniteCost, limits_);
   for (NodePtr& child : expansion.children) {
-    Change raise;
+    NodeDelta raise;
     raise.cost = child->cost();
     raise.bound = optimum_.cost + 1;
     child = Node::child(child, raise);

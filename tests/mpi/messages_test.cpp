@@ -72,7 +72,7 @@ TEST(Messages, AreAsLongWhateverMemoryAProcessTakes) {
 TEST(Messages, PackFacts) {
   LearnedBound fact;
   for (const AgentIndex agent : {7, 19}) {
-    AgentSituation& situation = fact.agents.emplace_back(3, agent);
+    SubproblemRecord& situation = fact.agents.emplace_back(3, agent);
     situation.constraints = PackedConstraints(
         std::vector<Constraint>{{500, kNoCell, 9, 30, ConstraintKind::kVertexOrEdge}});
   }
