@@ -13,7 +13,7 @@
 
 All read and write the folder --output. Everything begins with an optimal plan, which is found first, and
 nobody looks for plans beside the tree: what must be expanded is then nearly the same whatever the number
-of ranks. results/scaling/README.md tells what came out.
+of ranks. results/scaling/README.md has the results.
 """
 import argparse
 import concurrent.futures
@@ -250,8 +250,8 @@ def percent(share):
 
 def simulated_table(rows, free):
     efficiency = {(row["instance"], row["ranks"]): row["efficiency"] for row in free}
-    head = ["instance", "ranks", "time", "speed-up", "efficiency", "with free messages", "nodes", "search overhead",
-            "before the first node", "waiting later", "messages a node", "rank 0 talks"]
+    head = ["instance", "ranks", "time", "speed-up", "efficiency", "zero-cost communication", "nodes",
+            "search overhead", "start-up idle", "idle", "messages per node", "rank 0 communication"]
     lines = []
     for row in rows:
         _, _, first, later = shares(row).values()
@@ -268,7 +268,8 @@ def simulated_table(rows, free):
 def earlier_table(earlier, now):
     """What an earlier version took, beside this one where that was simulated as well."""
     present = {(row["instance"], row["ranks"]): row for row in now}
-    head = ["instance", "ranks", "time", "now", "efficiency", "now", "search overhead", "now"]
+    head = ["instance", "ranks", "time", "time now", "efficiency", "efficiency now", "search overhead",
+            "search overhead now"]
     lines = []
     for before in earlier:
         both = [before, present.get((before["instance"], before["ranks"]))]
@@ -280,7 +281,8 @@ def earlier_table(earlier, now):
 
 
 def weak_table(rows):
-    head = ["instance", "nodes", "one rank", "ranks", "time", "efficiency", "search overhead", "rank 0 talks"]
+    head = ["instance", "nodes", "one rank", "ranks", "time", "efficiency", "search overhead",
+            "rank 0 communication"]
     lines = []
     for alone, many in zip(rows[::2], rows[1::2]):
         lines.append([alone["instance"], f"{int(alone['nodes']):,}", f"{float(alone['wall_s']):.3g} s", many["ranks"],
@@ -291,8 +293,8 @@ def weak_table(rows):
 
 
 def compared_table(rows):
-    head = ["instance", "nodes, 1 rank", "measured", "simulated", "nodes, 2 ranks", "measured",
-            "simulated", "speed-up measured", "simulated"]
+    head = ["instance", "nodes, 1 rank", "1 rank measured", "1 rank simulated", "nodes, 2 ranks (simulated)",
+            "2 ranks measured", "2 ranks simulated", "speed-up measured", "speed-up simulated"]
     lines = [[row["instance"], row["nodes_1"], f"{row['measured_1_s']} s",
               f"{row['simulated_1_s']} s", f"{row['nodes_2']} ({row['simulated_nodes_2']})",
               f"{row['measured_2_s']} s", f"{row['simulated_2_s']} s",
