@@ -176,7 +176,7 @@ def solve(instance, *, omega=_grove._omega, time_limit=_grove._time_limit, memor
 def check(plan, limit=20):
     """Everything that is wrong with a Plan, or with a Solution and what it claims: (place, message).
 
-    Worked out by a checker that shares nothing with the search; empty: it is valid.
+    The checker has its own code for paths, visits, costs and conflicts. Empty: the plan is valid.
 
     >>> world = World("...")
     >>> swapping = instance_from_arrays(world, [(0, 0), (1, 0)], goals=[(1, 0), (0, 0)])

@@ -20,9 +20,9 @@ namespace {
 constexpr std::size_t kMostViolations = 20;
 
 constexpr const char* kCheckFooter =
-    R"(Works every path, visit, collision and cost out again, sharing no code with the search, and
-compares status, cost, lower bound and omega. What it cannot check is the proof behind the
-lower bound.
+    R"(Recomputes every path, visit, conflict and cost with code of its own, and compares status, cost,
+lower bound and omega. It shares the file readers and the model of the world with the search. It
+does not verify the lower bound; grove-verify does, from a certificate.
 
 PLAN may also be what other solvers write: the path lists of EECBS, CBSH2-RTC and MAPF-LNS2
 (--outputPaths) or the text of lacam and pibt. What they do not claim is named, and not checked.

@@ -77,7 +77,7 @@ TEST_F(PlanOutput, KeepsNoPlanOfAnotherInstance) {
   EXPECT_THAT(content(), HasSubstr("unknown"));
 }
 
-// The checker shares nothing with the search: one of the two is wrong.
+// The rules of the checker and those of the search have separate code: one of the two is wrong.
 TEST_F(PlanOutput, RefutesAWrongProof) {
   write(waiting(0));
   EXPECT_THAT(failure(without_plan(Status::kInfeasible, 0)),
