@@ -28,7 +28,7 @@ int Hierarchy::highest_at(int rank) const {
   return level;
 }
 
-Post Hierarchy::superior(Post post) const {
+Post Hierarchy::parent(Post post) const {
   const int stride = strides_[static_cast<std::size_t>(post.level) + 1];
   return {post.rank / stride * stride, post.level + 1};
 }

@@ -32,7 +32,7 @@ class Hierarchy {
   int highest_at(int rank) const;
 
   // Whom the one at this post answers to, which is not the top.
-  Post superior(Post post) const;
+  Post parent(Post post) const;
   // How many answer to the coordinator at this post.
   int children(Post post) const;
   Post child(Post post, int number) const;

@@ -48,7 +48,7 @@ Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& li
       limits_(limits),
       transport_(transport),
       hierarchy_(transport.ranks(), options.tuning.coordinator_children),
-      superior_(transport, hierarchy_, {transport.rank(), 0}, first_status(transport.rank())),
+      parent_(transport, hierarchy_, {transport.rank(), 0}, first_status(transport.rank())),
       stops_(stops),
       trees_(problem, stops_, nodes_.pool),
       ledger_(limits, nodes_.frontier),
@@ -99,7 +99,7 @@ void Rank::handle(int from, message::Message&& message) {
                  [](message::Alive&) {},
                  [&](message::End&) {
                    ended_ = true;
-                   superior_.end_reports();
+                   parent_.end_reports();
                    ledger_.end();
                  },
                  [&](message::Goodbye& goodbye) { to_hear_ = goodbye.messages[transport_.rank()]; },
@@ -124,7 +124,7 @@ void Rank::take_over(int from, message::Batch& batch) {
   Peer& peer = peers_[from];
   ++peer.taken;
   peer.news = true;
-  superior_.urge();
+  parent_.urge();
 }
 
 void Rank::take_over_held() {
@@ -147,7 +147,7 @@ void Rank::give(const message::Order& order) {
   tell(order.to, batch);
   ++peer.sent;
   nodes_sent_ += std::ssize(nodes);
-  superior_.urge();
+  parent_.urge();
 }
 
 // Where a node's pairs and groups are looked into before it is split, which may take 10 ms, the
@@ -177,7 +177,7 @@ void Rank::accept(const message::Entrust& entrusted) {
   push(entrusted.nodes, {});
   nodes_.frontier.record_evicted_bound(entrusted.evicted_bound);
   ++entrusted_;
-  superior_.urge();
+  parent_.urge();
 }
 
 void Rank::push(const std::vector<NodeRecord>& records, const std::vector<GroupBound>& findings) {
@@ -197,7 +197,7 @@ void Rank::gather() {
   Frontier::Snapshot snapshot = nodes_.frontier.snapshot();
   send_found();
   gathered_ = std::move(snapshot.live);
-  superior_.tell(message::Gathered{snapshot.evicted_bound});
+  parent_.tell(message::Gathered{snapshot.evicted_bound});
 }
 
 void Rank::send_part() {
@@ -213,7 +213,7 @@ void Rank::send_part() {
 void Rank::begin_anew(Cost proven) {
   nodes_.restart({}, proven);
   ++era_;
-  superior_.urge();
+  parent_.urge();
   take_over_held();
 }
 
@@ -260,7 +260,7 @@ void Rank::speak(double now) {
   speak_of_facts(now);
   message::Status status = this->status();
   send_found();
-  if (!superior_.report(std::move(status), now)) return;
+  if (!parent_.report(std::move(status), now)) return;
   for (auto& [rank, peer] : peers_) peer.news = false;
 }
 
@@ -295,7 +295,7 @@ void Rank::hear(message::Facts& facts) {
 
 void Rank::send_found() {
   if (auto found = ledger_.take_found())
-    superior_.tell(message::Found{std::move(found->plan), found->source});
+    parent_.tell(message::Found{std::move(found->plan), found->source});
 }
 
 RunStatistics Rank::survey(Stats counts) const {
@@ -318,13 +318,13 @@ RunStatistics Rank::survey(Stats counts) const {
 }
 
 void Rank::send_statistics(Stats counts) {
-  superior_.tell(message::ProcessStatistics{survey(std::move(counts))});
+  parent_.tell(message::ProcessStatistics{survey(std::move(counts))});
 }
 
 // Limits may strike just when a plan was found.
 void Rank::farewell(Stats counts) {
   send_found();
-  superior_.tell(message::Farewell{survey(std::move(counts)), told_});
+  parent_.tell(message::Farewell{survey(std::move(counts)), told_});
 }
 
 bool Rank::left() const {

@@ -17,7 +17,7 @@
 #include "mpi/knowledge.h"
 #include "mpi/ledger_copy.h"
 #include "mpi/messages.h"
-#include "mpi/superior.h"
+#include "mpi/parent_link.h"
 #include "mpi/transport.h"
 #include "planning/agent_stops_cache.h"
 #include "search/problem.h"
@@ -49,8 +49,7 @@ class Rank {
   void speak(double now);
   // When it may have something to say though nothing has happened since; infinity: never.
   double speaks_at() const {
-    return ended_ ? superior_.reports_at()
-                  : std::min(superior_.reports_at(), knowledge_.speaks_at());
+    return ended_ ? parent_.reports_at() : std::min(parent_.reports_at(), knowledge_.speaks_at());
   }
 
   // Until the farewell: tells what has been done so far, workers' counts among it.
@@ -93,7 +92,7 @@ class Rank {
   const Limits& limits_;
   Transport& transport_;
   const Hierarchy hierarchy_;
-  Superior superior_;
+  ParentLink parent_;
   LocalNodes nodes_;
   AgentStopsCache stops_;
   Trees trees_;  // outlives all that holds nodes of them

@@ -26,7 +26,7 @@ SubCoordinator::SubCoordinator(Transport& transport, const Hierarchy& hierarchy,
     : children_(transport, hierarchy, level),
       nodes_(children_),
       broker_(children_.ranks(), tuning),
-      superior_(transport, hierarchy, {transport.rank(), level}, first_status(broker_)) {}
+      parent_(transport, hierarchy, {transport.rank(), level}, first_status(broker_)) {}
 
 void SubCoordinator::handle(int from, message::Message&& message) {
   const auto child = [&] { return children_.with(from); };
@@ -37,9 +37,9 @@ void SubCoordinator::handle(int from, message::Message&& message) {
       Overloaded{
           [&](message::Status& status) { heard(child(), std::move(status)); },
           [&](message::Found& found) {
-            if (found.plan.cost < cutoff_) superior_.tell(found);
+            if (found.plan.cost < cutoff_) parent_.tell(found);
           },
-          [&](message::ProcessStatistics& account) { superior_.tell(account); },
+          [&](message::ProcessStatistics& account) { parent_.tell(account); },
           [&](message::Gathered& parts) { gathered(parts); },
           [&](message::Farewell& said) { farewell(said); },
           [&](message::Order& ordered) { order(ordered); },
@@ -47,7 +47,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
           [&](message::Entrust& nodes) {
             ++entrusted_;
             nodes_.entrust(std::move(nodes));
-            superior_.urge();
+            parent_.urge();
           },
           [&](message::BeginAnew& anew) { begin_anew(anew); },
           [&](message::Incumbent& incumbent) {
@@ -63,7 +63,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
           [&](message::Alive& alive) { children_.tell_all(alive); },
           [&](message::End& end) {
             ending_ = true;
-            superior_.end_reports();
+            parent_.end_reports();
             children_.tell_all(end);
           },
           [&](message::Goodbye& goodbye) { children_.say_goodbye(goodbye); }, unexpected},
@@ -91,12 +91,12 @@ void SubCoordinator::heard(int child, message::Status&& status) {
 // All of the plans that were found before have been passed on by then.
 void SubCoordinator::gathered(const message::Gathered& parts) {
   gathered_.evicted_bound = std::min(gathered_.evicted_bound, parts.evicted_bound);
-  if (++looked_ == children_.count()) superior_.tell(gathered_);
+  if (++looked_ == children_.count()) parent_.tell(gathered_);
 }
 
 void SubCoordinator::farewell(const message::Farewell& said) {
   add(said, farewell_);
-  if (++farewells_ == children_.count()) superior_.tell(farewell_);
+  if (++farewells_ == children_.count()) parent_.tell(farewell_);
 }
 
 // Somebody must: the receiver waits for it, even if it brings nothing.
@@ -106,7 +106,7 @@ void SubCoordinator::order(const message::Order& order) {
 
 void SubCoordinator::begin_anew(const message::BeginAnew& anew) {
   nodes_.begin_anew(anew.proven);
-  superior_.urge();
+  parent_.urge();
 }
 
 message::Status SubCoordinator::status() const {
@@ -120,8 +120,8 @@ message::Status SubCoordinator::status() const {
 
 void SubCoordinator::speak(double now) {
   if (!changed_ || ending_) return;
-  if (superior_.report(status(), now)) taken_.clear();
-  changed_ = superior_.reports_at() < std::numeric_limits<double>::infinity();
+  if (parent_.report(status(), now)) taken_.clear();
+  changed_ = parent_.reports_at() < std::numeric_limits<double>::infinity();
 }
 
 }  // namespace grove::detail

@@ -9,8 +9,8 @@
 #include "mpi/broker.h"
 #include "mpi/children.h"
 #include "mpi/messages.h"
+#include "mpi/parent_link.h"
 #include "mpi/rank_nodes.h"
-#include "mpi/superior.h"
 
 namespace grove::detail {
 
@@ -27,7 +27,7 @@ class SubCoordinator {
   void handle(int from, message::Message&& message);
   // Tells the superior what is new; see Superior::report().
   void speak(double now);
-  double speaks_at() const { return superior_.reports_at(); }
+  double speaks_at() const { return parent_.reports_at(); }
 
  private:
   void heard(int child, message::Status&& status);
@@ -40,7 +40,7 @@ class SubCoordinator {
   Children children_;
   RankNodes nodes_;
   Broker broker_;
-  Superior superior_;
+  ParentLink parent_;
   bool changed_ = false;               // since the last status
   std::int64_t entrusted_ = 0;         // how many Entrust it has obeyed
   std::vector<message::Taken> taken_;  // not said yet

@@ -41,12 +41,12 @@ TEST(Hierarchy, EverybodyHasOnePlace) {
             below += hierarchy.children(post);
           }
           if (post == hierarchy.top()) continue;
-          const Post superior = hierarchy.superior(post);
-          ASSERT_LE(superior.level, hierarchy.highest_at(superior.rank));
-          ASSERT_TRUE(hierarchy.is_below(superior, rank));
-          const int number = hierarchy.child_with(superior, rank);
-          ASSERT_LT(number, hierarchy.children(superior));
-          ASSERT_EQ(hierarchy.child(superior, number), post);
+          const Post parent = hierarchy.parent(post);
+          ASSERT_LE(parent.level, hierarchy.highest_at(parent.rank));
+          ASSERT_TRUE(hierarchy.is_below(parent, rank));
+          const int number = hierarchy.child_with(parent, rank);
+          ASSERT_LT(number, hierarchy.children(parent));
+          ASSERT_EQ(hierarchy.child(parent, number), post);
         }
       int posts = 0;
       for (int rank = 0; rank < ranks; ++rank) posts += 1 + hierarchy.highest_at(rank);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mpi/superior.h"
+#include "mpi/parent_link.h"
 
 #include <utility>
 
@@ -21,20 +21,20 @@ bool has_idle(const message::Status& status) {
 
 }  // namespace
 
-Superior::Superior(Transport& transport, const Hierarchy& hierarchy, Post post,
-                   message::Status first)
+ParentLink::ParentLink(Transport& transport, const Hierarchy& hierarchy, Post post,
+                       message::Status first)
     : transport_(transport),
-      to_(hierarchy.superior(post)),
+      to_(hierarchy.parent(post)),
       pause_(kPause + kPausePerSibling * hierarchy.children(to_)),
       said_(std::move(first)) {}
 
-void Superior::tell(const message::Message& message) {
+void ParentLink::tell(const message::Message& message) {
   transport_.send(to_.rank, message::bytes_of(message, to_.level));
 }
 
 // What can be spared matters at once when it has doubled: while few ranks have nodes the others
 // would wait a pause for each doubling.
-bool Superior::is_urgent(const message::Status& status) const {
+bool ParentLink::is_urgent(const message::Status& status) const {
   const bool has_more = !status.spare.empty() && status.open / 2 > 2 * (said_.open / 2);
   return has_more || !status.taken.empty() || status.entrusted != said_.entrusted ||
          status.era != said_.era || status.bound != said_.bound || status.proven != said_.proven ||
@@ -42,7 +42,7 @@ bool Superior::is_urgent(const message::Status& status) const {
          has_idle(status) != has_idle(said_);
 }
 
-bool Superior::report(message::Status status, double now) {
+bool ParentLink::report(message::Status status, double now) {
   reports_at_ = kNothingToSay;
   if (!urgent_ && status == said_) return false;
   const double next = said_at_ + pause_at(said_at_, pause_);

@@ -11,11 +11,11 @@
 namespace grove::detail {
 
 // Of one thread.
-class Superior {
+class ParentLink {
  public:
   // Of the one at this post, which is not the top. The superior takes it that `first` was said.
   // `transport` must outlive this.
-  Superior(Transport& transport, const Hierarchy& hierarchy, Post post, message::Status first);
+  ParentLink(Transport& transport, const Hierarchy& hierarchy, Post post, message::Status first);
 
   // Says this at once.
   void tell(const message::Message& message);
