@@ -9,7 +9,7 @@
 #include "engine/run_observer.h"
 #include "engine/run_state.h"
 #include "mpi/broker.h"
-#include "mpi/children.h"
+#include "mpi/child_links.h"
 #include "mpi/gathering.h"
 #include "mpi/messages.h"
 #include "mpi/rank_nodes.h"
@@ -51,12 +51,12 @@ class Coordinator {
   // Passes on better plans to all.
   class Announcer : public ForwardingObserver {
    public:
-    Announcer(RunObserver& observer, Children& children)
+    Announcer(RunObserver& observer, ChildLinks& children)
         : ForwardingObserver(observer), children_(children) {}
     void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override;
 
    private:
-    Children& children_;
+    ChildLinks& children_;
   };
 
   void restore(CheckpointReader& checkpoint);
@@ -71,7 +71,7 @@ class Coordinator {
   const Limits& limits_;
   Transport& transport_;
   const Hierarchy hierarchy_;
-  Children children_;
+  ChildLinks children_;
   Announcer announcer_;
   NodePool pool_;  // of the roots
   RankNodes nodes_;

@@ -29,7 +29,7 @@ constexpr auto kLongestPause = std::chrono::milliseconds(500);
 }  // namespace
 
 Gathering::Gathering(const Checkpoints& checkpoints, const Limits& limits, RunState& run,
-                     Transport& transport, Children& children)
+                     Transport& transport, ChildLinks& children)
     : checkpoints_(checkpoints),
       limits_(limits),
       run_(run),

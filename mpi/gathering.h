@@ -9,7 +9,7 @@
 
 #include "engine/checkpoint.h"
 #include "engine/run_state.h"
-#include "mpi/children.h"
+#include "mpi/child_links.h"
 #include "mpi/messages.h"
 #include "mpi/transport.h"
 
@@ -21,7 +21,7 @@ class Gathering {
  public:
   // Tells all ranks, by way of the children of the top. All must outlive this.
   Gathering(const Checkpoints& checkpoints, const Limits& limits, RunState& run,
-            Transport& transport, Children& children);
+            Transport& transport, ChildLinks& children);
 
   bool is_done() const { return done_; }
 
@@ -41,7 +41,7 @@ class Gathering {
   const Limits& limits_;  // for the time
   RunState& run_;
   Transport& transport_;
-  Children& children_;
+  ChildLinks& children_;
   const Clock::time_point begin_ = limits_.now();
   Clock::time_point said_ = begin_;  // to all
   const std::int64_t trees_;         // that count as instantiated

@@ -8,7 +8,7 @@
 
 namespace grove::detail {
 
-RankNodes::RankNodes(Children& children)
+RankNodes::RankNodes(ChildLinks& children)
     : children_(children),
       latest_(static_cast<std::size_t>(children.count())),
       under_way_(latest_.size()),

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/live_nodes.h"
-#include "mpi/children.h"
+#include "mpi/child_links.h"
 #include "mpi/messages.h"
 
 namespace grove::detail {
@@ -19,7 +19,7 @@ namespace grove::detail {
 class RankNodes : public LiveNodes {
  public:
   // `children` must outlive this.
-  explicit RankNodes(Children& children);
+  explicit RankNodes(ChildLinks& children);
 
   // A child's new status. Throws std::invalid_argument for one that it cannot send.
   void update(int child, message::Status status);
@@ -49,7 +49,7 @@ class RankNodes : public LiveNodes {
   int idlest() const;
   void add(const message::Status& status, int sign);
 
-  Children& children_;
+  ChildLinks& children_;
   std::vector<message::Status> latest_;      // by child
   std::vector<std::deque<Cost>> under_way_;  // by child: the bounds of what was entrusted
   std::multiset<Cost> bounds_;               // of both

@@ -7,7 +7,7 @@
 
 #include "engine/solve.h"
 #include "mpi/broker.h"
-#include "mpi/children.h"
+#include "mpi/child_links.h"
 #include "mpi/messages.h"
 #include "mpi/parent_link.h"
 #include "mpi/rank_nodes.h"
@@ -37,7 +37,7 @@ class SubCoordinator {
   void begin_anew(const message::BeginAnew& anew);
   message::Status status() const;
 
-  Children children_;
+  ChildLinks children_;
   RankNodes nodes_;
   Broker broker_;
   ParentLink parent_;

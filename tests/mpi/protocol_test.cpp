@@ -190,7 +190,7 @@ TEST(RankAlone, IsInHasteAsLongAsOthersWaitForNodes) {
 TEST(RankNodes, CoverAllRootsOfANewBeginningUntilARankSaysThatItHasThem) {
   Setting s;
   Outbox transport(0, 2);
-  Children children(transport, Hierarchy(2, 64), 1);
+  ChildLinks children(transport, Hierarchy(2, 64), 1);
   RankNodes nodes(children);
   const std::vector<NodePtr> roots{s.new_root(), s.new_root(), s.new_root()};
   nodes.restart(roots, 0);
@@ -216,7 +216,7 @@ TEST(RankNodes, CoverAllRootsOfANewBeginningUntilARankSaysThatItHasThem) {
 TEST(RankNodes, KnowNothingOfARankThatHasYetToHearOfANewBeginning) {
   Setting s;
   Outbox transport(0, 2);
-  Children children(transport, Hierarchy(2, 64), 1);
+  ChildLinks children(transport, Hierarchy(2, 64), 1);
   RankNodes nodes(children);
   nodes.restart({}, 0);
   message::Status status;

@@ -11,10 +11,10 @@
 namespace grove::detail {
 
 // Ranks, or coordinators of the level below; counted from 0. Of one thread.
-class Children {
+class ChildLinks {
  public:
   // Of the coordinator of this level on the transport's rank. `transport` must outlive this.
-  Children(Transport& transport, const Hierarchy& hierarchy, int level)
+  ChildLinks(Transport& transport, const Hierarchy& hierarchy, int level)
       : transport_(transport), hierarchy_(hierarchy), post_{transport.rank(), level} {}
 
   int count() const { return hierarchy_.children(post_); }

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
-#include "mpi/children.h"
+#include "mpi/child_links.h"
 
 namespace grove::detail {
 
-std::vector<std::vector<int>> Children::ranks() const {
+std::vector<std::vector<int>> ChildLinks::ranks() const {
   std::vector<std::vector<int>> all(static_cast<std::size_t>(count()));
   for (int rank = post_.rank; rank < hierarchy_.ranks() && include(rank); ++rank)
     all[static_cast<std::size_t>(with(rank))].push_back(rank);
   return all;
 }
 
-void Children::tell(int child, const message::Message& message) {
+void ChildLinks::tell(int child, const message::Message& message) {
   const Post post = hierarchy_.child(post_, child);
   transport_.send(post.rank, message::bytes_of(message, post.level));
 }
 
-void Children::tell_all(const message::Message& message) {
+void ChildLinks::tell_all(const message::Message& message) {
   const std::string bytes = message::bytes_of(message, post_.level - 1);
   for (int child = 0; child < count(); ++child)
     transport_.send(hierarchy_.child(post_, child).rank, bytes);
 }
 
-void Children::say_goodbye(const message::Goodbye& goodbye) {
+void ChildLinks::say_goodbye(const message::Goodbye& goodbye) {
   std::vector<message::Goodbye> parts(static_cast<std::size_t>(count()));
   for (const auto& [rank, messages] : goodbye.messages)
     parts.at(static_cast<std::size_t>(with(rank))).messages[rank] = messages;
