@@ -11,7 +11,7 @@ std::vector<std::vector<int>> ChildLinks::ranks() const {
 }
 
 void ChildLinks::tell(int child, const message::Message& message) {
-  const Post post = hierarchy_.child(post_, child);
+  const Endpoint post = hierarchy_.child(post_, child);
   transport_.send(post.rank, message::bytes_of(message, post.level));
 }
 

@@ -32,7 +32,7 @@ class ChildLinks {
  private:
   Transport& transport_;
   const Hierarchy hierarchy_;
-  const Post post_;
+  const Endpoint post_;
 };
 
 }  // namespace grove::detail

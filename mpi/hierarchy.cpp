@@ -28,26 +28,26 @@ int Hierarchy::highest_at(int rank) const {
   return level;
 }
 
-Post Hierarchy::parent(Post post) const {
+Endpoint Hierarchy::parent(Endpoint post) const {
   const int stride = strides_[static_cast<std::size_t>(post.level) + 1];
   return {post.rank / stride * stride, post.level + 1};
 }
 
-int Hierarchy::children(Post post) const {
+int Hierarchy::children(Endpoint post) const {
   const int end = std::min(ranks_, post.rank + strides_[static_cast<std::size_t>(post.level)]);
   return child_with(post, end - 1) + 1;
 }
 
-Post Hierarchy::child(Post post, int number) const {
+Endpoint Hierarchy::child(Endpoint post, int number) const {
   const int stride = strides_[static_cast<std::size_t>(post.level) - 1];
   return {post.rank + number * stride, post.level - 1};
 }
 
-int Hierarchy::child_with(Post post, int rank) const {
+int Hierarchy::child_with(Endpoint post, int rank) const {
   return (rank - post.rank) / strides_[static_cast<std::size_t>(post.level) - 1];
 }
 
-bool Hierarchy::is_below(Post post, int rank) const {
+bool Hierarchy::is_below(Endpoint post, int rank) const {
   return rank >= post.rank && rank < post.rank + strides_[static_cast<std::size_t>(post.level)];
 }
 

@@ -8,11 +8,11 @@
 namespace grove::detail {
 
 // Who is meant on a rank: at level 0 the rank itself, above it the coordinator of that level.
-struct Post {
+struct Endpoint {
   int rank = 0;
   int level = 0;
 
-  friend bool operator==(const Post&, const Post&) = default;
+  friend bool operator==(const Endpoint&, const Endpoint&) = default;
 };
 
 // Neighbouring ranks make groups, each with a coordinator of level 1 on its first rank;
@@ -27,18 +27,18 @@ class Hierarchy {
   int ranks() const { return ranks_; }
   // Of coordinators; 1 or more.
   int levels() const { return static_cast<int>(strides_.size()) - 1; }
-  Post top() const { return {0, levels()}; }
+  Endpoint top() const { return {0, levels()}; }
   // The highest at that rank; 0 where there is no coordinator.
   int highest_at(int rank) const;
 
   // Whom the one at this post answers to, which is not the top.
-  Post parent(Post post) const;
+  Endpoint parent(Endpoint post) const;
   // How many answer to the coordinator at this post.
-  int children(Post post) const;
-  Post child(Post post, int number) const;
+  int children(Endpoint post) const;
+  Endpoint child(Endpoint post, int number) const;
   // The number of the child that this rank is, or is below; of one that is below the post.
-  int child_with(Post post, int rank) const;
-  bool is_below(Post post, int rank) const;
+  int child_with(Endpoint post, int rank) const;
+  bool is_below(Endpoint post, int rank) const;
 
  private:
   int ranks_;

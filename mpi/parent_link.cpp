@@ -21,7 +21,7 @@ bool has_idle(const message::Status& status) {
 
 }  // namespace
 
-ParentLink::ParentLink(Transport& transport, const Hierarchy& hierarchy, Post post,
+ParentLink::ParentLink(Transport& transport, const Hierarchy& hierarchy, Endpoint post,
                        message::Status first)
     : transport_(transport),
       to_(hierarchy.parent(post)),

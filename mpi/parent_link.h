@@ -15,7 +15,8 @@ class ParentLink {
  public:
   // Of the one at this post, which is not the top. The superior takes it that `first` was said.
   // `transport` must outlive this.
-  ParentLink(Transport& transport, const Hierarchy& hierarchy, Post post, message::Status first);
+  ParentLink(Transport& transport, const Hierarchy& hierarchy, Endpoint post,
+             message::Status first);
 
   // Says this at once.
   void tell(const message::Message& message);
@@ -34,7 +35,7 @@ class ParentLink {
   bool is_urgent(const message::Status& status) const;
 
   Transport& transport_;
-  const Post to_;
+  const Endpoint to_;
   const double pause_;    // seconds
   message::Status said_;  // last
   double said_at_ = -1;

@@ -35,13 +35,13 @@ TEST(Hierarchy, EverybodyHasOnePlace) {
       std::int64_t below = 0;
       for (int rank = 0; rank < ranks; ++rank)
         for (int level = 0; level <= hierarchy.highest_at(rank); ++level) {
-          const Post post{rank, level};
+          const Endpoint post{rank, level};
           if (level > 0) {
             ASSERT_LE(hierarchy.children(post), most);
             below += hierarchy.children(post);
           }
           if (post == hierarchy.top()) continue;
-          const Post parent = hierarchy.parent(post);
+          const Endpoint parent = hierarchy.parent(post);
           ASSERT_LE(parent.level, hierarchy.highest_at(parent.rank));
           ASSERT_TRUE(hierarchy.is_below(parent, rank));
           const int number = hierarchy.child_with(parent, rank);
