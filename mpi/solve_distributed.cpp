@@ -15,7 +15,7 @@
 #include "engine/multicore.h"
 #include "engine/worker.h"
 #include "mpi/looks.h"
-#include "mpi/member.h"
+#include "mpi/rank_process.h"
 #include "search/proof_log.h"
 
 namespace grove::detail {
@@ -103,7 +103,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
                                           RunObserver& observer,
                                           const std::function<void()>& meanwhile) {
   const Limits::Clock::time_point begin = limits.now();
-  Member member(problem, options, limits, observer, transport);
+  RankProcess member(problem, options, limits, observer, transport);
   Searching searching(problem, options, limits, member.rank(), transport.rank());
   const double patience = options.tuning.patience;
   Silence silence;
@@ -113,7 +113,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
   const auto seconds = [&] { return std::chrono::duration<double>(limits.now() - begin).count(); };
   while (!member.left()) {
     const double now = seconds();
-    const bool heard = member.converse(now);
+    const bool heard = member.exchange_messages(now);
     meanwhile();
     if (auto* coordinator = member.coordinator()) {
       const std::int64_t silent = coordinator->give_up_the_silent();

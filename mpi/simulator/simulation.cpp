@@ -23,7 +23,7 @@
 
 #include "engine/techniques_of.h"
 #include "mpi/looks.h"
-#include "mpi/member.h"
+#include "mpi/rank_process.h"
 #include "mpi/simulated_network.h"
 #include "mpi/simulator/busy_profile.h"
 #include "mpi/simulator/processor_time.h"
@@ -83,7 +83,7 @@ struct SimulatedRank {
 
   Limits limits;  // of its own, for ranks end one after the other
   TimedTransport transport;
-  Member member;
+  RankProcess member;
   Worker worker;
   SimulatedWorker player;
   double heard_at;  // last; looks at the network follow from it
@@ -160,7 +160,7 @@ class Simulation {
     r.talk_due = kNotDue;
     setting_.talk = {};
     const double before_s = processor_time();
-    const bool heard = r.member.converse(now_);
+    const bool heard = r.member.exchange_messages(now_);
     if (r.member.rank().ended() && !r.said_farewell) {
       if (r.player.busy()) abandon_work(r);
       r.member.rank().farewell({});

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/worker.h"
-#include "mpi/member.h"
+#include "mpi/rank_process.h"
 #include "mpi/simulated_network.h"
 
 namespace grove::detail::testing {
@@ -83,7 +83,7 @@ struct Process {
 
   // One thing that this process can do.
   Done step(Dice& dice, const Temper& temper, double now) {
-    if (said_farewell || chance(dice, temper.talk)) return {member.converse(now), false};
+    if (said_farewell || chance(dice, temper.talk)) return {member.exchange_messages(now), false};
     SlowWorker& worker = *workers[dice() % workers.size()];
     if (!member.rank().ended() || worker.turn) return {false, worker.step()};
     say_farewell();
@@ -101,7 +101,7 @@ struct Process {
   }
 
   Limits limits;
-  Member member;
+  RankProcess member;
   std::vector<std::unique_ptr<SlowWorker>> workers;
   bool said_farewell = false;
   std::int64_t frozen_until = 0;

@@ -15,19 +15,19 @@ namespace grove::detail {
 
 // A rank, and the coordinators beside it if there are any, which share a transport. Of one thread,
 // but for what Rank says otherwise.
-class Member {
+class RankProcess {
  public:
   // All must outlive this, but for `stops`; see Rank. The observer hears of the run on rank 0.
-  Member(const Problem& problem, const SolveOptions& options, const Limits& limits,
-         RunObserver& observer, Transport& transport, const AgentStopsCache& stops);
-  Member(const Problem& problem, const SolveOptions& options, const Limits& limits,
-         RunObserver& observer, Transport& transport)
-      : Member(problem, options, limits, observer, transport,
-               AgentStopsCache(problem.instance, problem.distances)) {}
+  RankProcess(const Problem& problem, const SolveOptions& options, const Limits& limits,
+              RunObserver& observer, Transport& transport, const AgentStopsCache& stops);
+  RankProcess(const Problem& problem, const SolveOptions& options, const Limits& limits,
+              RunObserver& observer, Transport& transport)
+      : RankProcess(problem, options, limits, observer, transport,
+                    AgentStopsCache(problem.instance, problem.distances)) {}
 
   // Handles what has arrived and says what is new. `now` in seconds since the beginning. True if
   // anything had arrived.
-  bool converse(double now);
+  bool exchange_messages(double now);
 
   Rank& rank() { return rank_; }
   // When something may have to be said though nothing has happened since; infinity: never.

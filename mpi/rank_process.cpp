@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mpi/member.h"
+#include "mpi/rank_process.h"
 
 #include <algorithm>
 #include <iterator>
@@ -8,8 +8,8 @@
 
 namespace grove::detail {
 
-Member::Member(const Problem& problem, const SolveOptions& options, const Limits& limits,
-               RunObserver& observer, Transport& transport, const AgentStopsCache& stops)
+RankProcess::RankProcess(const Problem& problem, const SolveOptions& options, const Limits& limits,
+                         RunObserver& observer, Transport& transport, const AgentStopsCache& stops)
     : transport_(transport), rank_(problem, options, limits, transport, stops) {
   const Hierarchy hierarchy(transport.ranks(), options.tuning.coordinator_children);
   const int highest = hierarchy.highest_at(transport.rank());
@@ -20,7 +20,7 @@ Member::Member(const Problem& problem, const SolveOptions& options, const Limits
   coordinator_->begin();
 }
 
-bool Member::converse(double now) {
+bool RankProcess::exchange_messages(double now) {
   bool heard = false;
   while (auto parcel = transport_.receive()) {
     heard = true;
@@ -35,7 +35,7 @@ bool Member::converse(double now) {
   return heard;
 }
 
-void Member::handle(int from, message::Addressed&& addressed) {
+void RankProcess::handle(int from, message::Addressed&& addressed) {
   auto& [level, message] = addressed;
   if (level == 0)
     rank_.handle(from, std::move(message));
@@ -47,7 +47,7 @@ void Member::handle(int from, message::Addressed&& addressed) {
     throw std::invalid_argument("a message for a coordinator that is not here");
 }
 
-double Member::speaks_at() const {
+double RankProcess::speaks_at() const {
   double first = rank_.speaks_at();
   for (const SubCoordinator& sub : subs_) first = std::min(first, sub.speaks_at());
   return first;
