@@ -15,7 +15,7 @@ void ChildLinks::tell(int child, const message::Message& message) {
   transport_.send(post.rank, message::bytes_of(message, post.level));
 }
 
-void ChildLinks::tell_all(const message::Message& message) {
+void ChildLinks::broadcast(const message::Message& message) {
   const std::string bytes = message::bytes_of(message, post_.level - 1);
   for (int child = 0; child < count(); ++child)
     transport_.send(hierarchy_.child(post_, child).rank, bytes);

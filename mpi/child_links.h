@@ -25,7 +25,7 @@ class ChildLinks {
   bool include(int rank) const { return hierarchy_.is_below(post_, rank); }
 
   void tell(int child, const message::Message& message);
-  void tell_all(const message::Message& message);
+  void broadcast(const message::Message& message);
   // Each its part of this.
   void say_goodbye(const message::Goodbye& goodbye);
 

@@ -111,7 +111,7 @@ Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, co
 void Coordinator::Announcer::on_incumbent(const Plan& plan, PlanSource source,
                                           const Progress& progress) {
   ForwardingObserver::on_incumbent(plan, source, progress);
-  children_.tell_all(message::Incumbent{plan});
+  children_.broadcast(message::Incumbent{plan});
 }
 
 void Coordinator::begin() {
@@ -196,7 +196,7 @@ void Coordinator::step() {
   if (gathering_) return;
   if (run_.ledger().over()) {
     ending_ = true;
-    children_.tell_all(message::End{});
+    children_.broadcast(message::End{});
   } else if (!nodes_.any()) {
     run_.trees().refill_nodes();  // a tree may bring none: then nobody has anything to say
   } else if (run_.trees().claim_preparation()) {

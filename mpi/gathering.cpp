@@ -36,7 +36,7 @@ Gathering::Gathering(const Checkpoints& checkpoints, const Limits& limits, RunSt
       transport_(transport),
       children_(children),
       trees_(run.trees().count()) {
-  children.tell_all(message::Gather{});
+  children.broadcast(message::Gather{});
 }
 
 // The one before it stands if this one fails, and the run goes on.
@@ -66,7 +66,7 @@ void Gathering::handle(const message::Gathered& gathered) {
 // Who has sent its part, or is still to be asked, would take rank 0 for one that stands still.
 void Gathering::give_sign_of_life() {
   if (limits_.now() - said_ < kLongestPause) return;
-  children_.tell_all(message::Alive{});
+  children_.broadcast(message::Alive{});
   said_ = limits_.now();
 }
 

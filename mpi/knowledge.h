@@ -39,7 +39,7 @@ class Knowledge {
   // What is to be said now, in seconds since the beginning.
   std::vector<Parcel> due(double now);
   // When there may be something; infinity: unless something is added, never.
-  double speaks_at() const {
+  double next_send_time() const {
     return waiting_.empty() ? std::numeric_limits<double>::infinity() : next_;
   }
 

@@ -79,7 +79,7 @@ void Rank::handle(int from, message::Message&& message) {
                  },
                  [&](message::Facts& facts) {
                    ++heard_;
-                   hear(facts);
+                   receive(facts);
                  },
                  [&](message::NewTree& tree) {
                    const NodePtr& root = roots_[tree.number] = trees_.add(tree.tree, tree.number);
@@ -253,7 +253,7 @@ bool Rank::is_wanted(Cost bound) const {
 
 // A node that led to a plan is settled after the plan was posted. So a status that does not count
 // the node any more is made before plans are looked for, and sent after them.
-void Rank::speak(double now) {
+void Rank::send_updates(double now) {
   if (ended_) return;
   if (nodes_.expanded >= cached_only_until_) search_.set_bounding_effort(BoundingEffort::kFull);
   speak_of_prices();
@@ -283,7 +283,7 @@ void Rank::speak_of_facts(double now) {
 }
 
 // Others further on have to be told even if there is no room here.
-void Rank::hear(message::Facts& facts) {
+void Rank::receive(message::Facts& facts) {
   const auto memory = search_.memory();
   const bool has_room = search_.has_room_for_facts();
   for (std::string& bytes : facts.facts) {

@@ -46,10 +46,11 @@ class Rank {
   void know(Cost bound) { ledger_.know(bound); }
   // Says what is new: plans always; where it stands at once if that may matter at once, else not
   // more often than ranks can bear. `now` in seconds since the beginning.
-  void speak(double now);
+  void send_updates(double now);
   // When it may have something to say though nothing has happened since; infinity: never.
-  double speaks_at() const {
-    return ended_ ? parent_.reports_at() : std::min(parent_.reports_at(), knowledge_.speaks_at());
+  double next_send_time() const {
+    return ended_ ? parent_.reports_at()
+                  : std::min(parent_.reports_at(), knowledge_.next_send_time());
   }
 
   // Until the farewell: tells what has been done so far, workers' counts among it.
@@ -79,7 +80,7 @@ class Rank {
   void send_found();
   void speak_of_prices();
   void speak_of_facts(double now);
-  void hear(message::Facts& facts);
+  void receive(message::Facts& facts);
   void push(const std::vector<NodeRecord>& records, const std::vector<GroupBound>& findings);
   void begin_anew(Cost proven);
   message::Status status() const;

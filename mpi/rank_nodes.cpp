@@ -91,7 +91,7 @@ void RankNodes::entrust(int child, message::Entrust nodes) {
 
 void RankNodes::tell(const Tree& tree) {
   if (told_.insert(tree.number).second)
-    children_.tell_all(message::NewTree{tree.number, record_of(tree)});
+    children_.broadcast(message::NewTree{tree.number, record_of(tree)});
 }
 
 int RankNodes::idlest() const {
@@ -104,7 +104,7 @@ int RankNodes::idlest() const {
 }
 
 void RankNodes::begin_anew(Cost proven) {
-  children_.tell_all(message::BeginAnew{proven});
+  children_.broadcast(message::BeginAnew{proven});
   ++era_;
   children_of_this_era_ = 0;
 }

@@ -30,8 +30,8 @@ bool RankProcess::exchange_messages(double now) {
     coordinator_->step();
     rank_.know(coordinator_->lower_bound());
   }
-  rank_.speak(now);
-  for (SubCoordinator& sub : subs_) sub.speak(now);
+  rank_.send_updates(now);
+  for (SubCoordinator& sub : subs_) sub.send_updates(now);
   return heard;
 }
 
@@ -47,9 +47,9 @@ void RankProcess::handle(int from, message::Addressed&& addressed) {
     throw std::invalid_argument("a message for a coordinator that is not here");
 }
 
-double RankProcess::speaks_at() const {
-  double first = rank_.speaks_at();
-  for (const SubCoordinator& sub : subs_) first = std::min(first, sub.speaks_at());
+double RankProcess::next_send_time() const {
+  double first = rank_.next_send_time();
+  for (const SubCoordinator& sub : subs_) first = std::min(first, sub.next_send_time());
   return first;
 }
 

@@ -31,7 +31,7 @@ class RankProcess {
 
   Rank& rank() { return rank_; }
   // When something may have to be said though nothing has happened since; infinity: never.
-  double speaks_at() const;
+  double next_send_time() const;
   // The one over all; null but on rank 0.
   Coordinator* coordinator() { return coordinator_.get(); }
   // Is nothing more to be said, nor to come?

@@ -52,19 +52,19 @@ void SubCoordinator::handle(int from, message::Message&& message) {
           [&](message::BeginAnew& anew) { begin_anew(anew); },
           [&](message::Incumbent& incumbent) {
             cutoff_ = std::min(cutoff_, incumbent.plan.cost);
-            children_.tell_all(incumbent);
+            children_.broadcast(incumbent);
           },
-          [&](message::NewTree& tree) { children_.tell_all(tree); },
+          [&](message::NewTree& tree) { children_.broadcast(tree); },
           [&](message::Gather& gather) {
             looked_ = 0;
             gathered_ = {};
-            children_.tell_all(gather);
+            children_.broadcast(gather);
           },
-          [&](message::Alive& alive) { children_.tell_all(alive); },
+          [&](message::Alive& alive) { children_.broadcast(alive); },
           [&](message::End& end) {
             ending_ = true;
             parent_.end_reports();
-            children_.tell_all(end);
+            children_.broadcast(end);
           },
           [&](message::Goodbye& goodbye) { children_.say_goodbye(goodbye); }, unexpected},
       message);
@@ -118,7 +118,7 @@ message::Status SubCoordinator::status() const {
   return status;
 }
 
-void SubCoordinator::speak(double now) {
+void SubCoordinator::send_updates(double now) {
   if (!changed_ || ending_) return;
   if (parent_.report(status(), now)) taken_.clear();
   changed_ = parent_.reports_at() < std::numeric_limits<double>::infinity();

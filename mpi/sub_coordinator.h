@@ -26,8 +26,8 @@ class SubCoordinator {
   // std::invalid_argument for what neither sends.
   void handle(int from, message::Message&& message);
   // Tells the superior what is new; see Superior::report().
-  void speak(double now);
-  double speaks_at() const { return parent_.reports_at(); }
+  void send_updates(double now);
+  double next_send_time() const { return parent_.reports_at(); }
 
  private:
   void heard(int child, message::Status&& status);

@@ -179,7 +179,7 @@ class Simulation {
     for (const int to : setting_.talk.receivers) talk_from(setting_.network.next_arrival(to), to);
     if (const double next = setting_.network.next_arrival(rank); next < kNotDue)
       talk_from(next, rank);
-    if (const double next = r.member.speaks_at(); next < kNotDue) talk_from(next, rank);
+    if (const double next = r.member.next_send_time(); next < kNotDue) talk_from(next, rank);
     if (!r.said_farewell && !r.player.busy() && r.has_work())
       foresee(r.talks_until, rank, Who::kWorker);
     if (!r.said_farewell || r.left || !r.member.left()) return;

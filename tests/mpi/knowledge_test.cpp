@@ -65,7 +65,7 @@ TEST(Knowledge, SaysNoMoreThanItMayAndTheMostWorthwhileFirst) {
   double last = 1e9;
   int count = 0;
   double now = 0;
-  for (; knowledge.speaks_at() < 100; now = knowledge.speaks_at())
+  for (; knowledge.next_send_time() < 100; now = knowledge.next_send_time())
     for (const auto& [to, message] : knowledge.due(now)) {
       EXPECT_EQ(to, 1);
       EXPECT_EQ(message.reach, 1);
@@ -87,7 +87,7 @@ TEST(Knowledge, SpeaksMoreRarelyLaterInARun) {
   add_facts(3000, knowledge);
   for (const double now : {0.0, 1.0, 100.0}) {
     knowledge.due(now);
-    EXPECT_EQ(knowledge.speaks_at(), now + pause_at(now, 1e-3));
+    EXPECT_EQ(knowledge.next_send_time(), now + pause_at(now, 1e-3));
   }
 }
 
@@ -134,7 +134,7 @@ TEST(Knowledge, KeepsSomeHundredWaiting) {
   for (const auto& parcel : knowledge.due(1)) count += parcel.facts.facts.size();
   EXPECT_LT(count, 2500u);
   EXPECT_GT(count, 900u);
-  EXPECT_EQ(knowledge.speaks_at(), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(knowledge.next_send_time(), std::numeric_limits<double>::infinity());
 }
 
 }  // namespace knowledge_test

@@ -54,7 +54,7 @@ struct RankAlone : Setting {
   // What it has said last after this, if anything.
   message::Status status_after(int from, message::Message message) {
     rank.handle(from, std::move(message));
-    rank.speak(now += 10);
+    rank.send_updates(now += 10);
     const auto said = transport.sent<message::Status>(0);
     return said.empty() ? message::Status() : said.back();
   }
@@ -146,11 +146,11 @@ TEST(RankAlone, SaysMoreRarelyWhatCanWaitTheLongerARunTakes) {
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
   r.rank.handle(0, message::Entrust{std::vector(300, record_of(*root)), kInfiniteCost});
   const auto statuses_from = [&](double begin) {
-    r.rank.speak(begin);
+    r.rank.send_updates(begin);
     r.transport.take();
     for (int ms = 1; ms <= 100; ++ms) {
       r.rank.search().finish(r.rank.search().take(), {}, 0);
-      r.rank.speak(begin + 1e-3 * ms);
+      r.rank.send_updates(begin + 1e-3 * ms);
     }
     return r.transport.sent<message::Status>(0).size();
   };
@@ -171,7 +171,7 @@ TEST(RankAlone, IsInHasteAsLongAsOthersWaitForNodes) {
   };
   const auto expand = [&] {
     search.finish(search.take(), {}, 0);
-    r.rank.speak(r.now += 10);
+    r.rank.send_updates(r.now += 10);
   };
   give(20);
   EXPECT_EQ(search.bounding_effort(), BoundingEffort::kCachedOnly) << "it is the beginning";
@@ -302,7 +302,7 @@ struct SubAlone {
   // What its superior has been told last after this.
   message::Status status_after(int from, message::Message message) {
     sub.handle(from, std::move(message));
-    sub.speak(now += 10);
+    sub.send_updates(now += 10);
     const auto said = transport.sent<message::Status>(0);
     return said.empty() ? message::Status() : said.back();
   }
@@ -415,7 +415,7 @@ TEST(SubCoordinatorAlone, SaysFarewellForAllAndThatAlone) {
     farewell.messages = {{8, 1}, {rank, 2}};
     s.sub.handle(rank, std::move(farewell));
   }
-  s.sub.speak(s.now += 10);
+  s.sub.send_updates(s.now += 10);
   EXPECT_TRUE(s.transport.sent<message::Status>(0).empty());
   EXPECT_TRUE(s.transport.sent<message::Order>(4).empty());
   const auto said = s.transport.sent<message::Farewell>(0);

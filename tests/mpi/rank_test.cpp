@@ -40,8 +40,8 @@ class RankWithRoot {
   }
 
   // What it says at that time, if anything.
-  std::optional<message::Status> speak(double now) {
-    rank_.speak(now);
+  std::optional<message::Status> send_updates(double now) {
+    rank_.send_updates(now);
     std::optional<message::Status> said;
     for (const message::Message& message : network_.take())
       if (const auto* status = std::get_if<message::Status>(&message)) said = *status;
@@ -82,7 +82,7 @@ class RankWithRoot {
 TEST(Rank, OffersNodesThatTheEndWaitsFor) {
   for (const Cost excess : {-1, 1, 50}) {
     RankWithRoot rank(Omega(), excess);
-    const auto status = rank.speak(0);
+    const auto status = rank.send_updates(0);
     ASSERT_TRUE(status);
     EXPECT_EQ(status->wants, (std::vector<message::Want>{{0, false, rank.bound()}}));
     EXPECT_TRUE(status->spare.empty()) << "it has but one";
@@ -91,7 +91,7 @@ TEST(Rank, OffersNodesThatTheEndWaitsFor) {
 
 TEST(Rank, IsIdleWithNodesThatTheIncumbentIsWithinOmegaOf) {
   RankWithRoot rank(Omega::parse("0.5"), 1);
-  const auto status = rank.speak(0);
+  const auto status = rank.send_updates(0);
   ASSERT_TRUE(status);
   EXPECT_EQ(status->wants, (std::vector<message::Want>{{0, true, kInfiniteCost}}));
   EXPECT_TRUE(status->spare.empty());
@@ -102,14 +102,14 @@ TEST(Rank, IsIdleWithNodesThatTheIncumbentIsWithinOmegaOf) {
 
 TEST(Rank, SaysAtOnceThatItHasFarMoreToSpare) {
   RankWithRoot rank(Omega(), -1);
-  const auto first = rank.speak(0);
+  const auto first = rank.send_updates(0);
   ASSERT_TRUE(first);
   std::int64_t said = first->open;
   int statuses = 0;
   int expansions = 0;
   while (rank.open() < 200 && expansions < 5000 && rank.expand()) {
     ++expansions;
-    if (const auto status = rank.speak(0)) {
+    if (const auto status = rank.send_updates(0)) {
       ++statuses;
       said = status->open;
     }
