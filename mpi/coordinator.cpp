@@ -101,7 +101,7 @@ Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, co
       announcer_(observer, children_),
       nodes_(children_),
       run_(problem, options, limits, announcer_, pool_, nodes_),
-      broker_(children_.ranks(), options.tuning),
+      load_balancer_(children_.ranks(), options.tuning),
       timer_(options.checkpoints, limits),
       heard_at_(limits.now()) {
   run_.announcements().survey_by([this] { return survey(); });
@@ -163,9 +163,9 @@ void Coordinator::handle(int from, message::Message&& message) {
 }
 
 void Coordinator::heard(int child, message::Status status) {
-  broker_.heard(child, status);
+  load_balancer_.heard(child, status);
   for (const message::Taken& taken : status.taken) {
-    broker_.arrived(taken.by);
+    load_balancer_.arrived(taken.by);
     children_.tell(children_.with(taken.from),
                    message::Release{taken.from, taken.by, taken.batches});
   }
@@ -176,7 +176,7 @@ void Coordinator::heard(int child, message::Status status) {
   run_.announcements().worked();
   if (ending_) return;  // a batch sent after a farewell would be left under way
   run_.trees().instantiate_due_tree();
-  while (const auto gift = broker_.next())
+  while (const auto gift = load_balancer_.next())
     children_.tell(gift->from, message::Order{gift->to, gift->nodes, gift->to_idle});
 }
 

@@ -8,9 +8,9 @@
 
 #include "engine/run_observer.h"
 #include "engine/run_state.h"
-#include "mpi/broker.h"
 #include "mpi/child_links.h"
 #include "mpi/gathering.h"
+#include "mpi/load_balancer.h"
 #include "mpi/messages.h"
 #include "mpi/rank_nodes.h"
 #include "mpi/transport.h"
@@ -76,7 +76,7 @@ class Coordinator {
   NodePool pool_;  // of the roots
   RankNodes nodes_;
   RunState run_;
-  Broker broker_;
+  LoadBalancer load_balancer_;
 
   CheckpointTimer timer_;
   std::optional<Gathering> gathering_;

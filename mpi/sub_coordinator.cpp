@@ -13,7 +13,7 @@ namespace grove::detail {
 namespace {
 
 // As it stands at the beginning, when all below are idle.
-message::Status first_status(const Broker& broker) {
+message::Status first_status(const LoadBalancer& broker) {
   message::Status status;
   status.wants = broker.wants();
   return status;
@@ -25,8 +25,8 @@ SubCoordinator::SubCoordinator(Transport& transport, const Hierarchy& hierarchy,
                                const Tuning& tuning)
     : children_(transport, hierarchy, level),
       nodes_(children_),
-      broker_(children_.ranks(), tuning),
-      parent_(transport, hierarchy, {transport.rank(), level}, first_status(broker_)) {}
+      load_balancer_(children_.ranks(), tuning),
+      parent_(transport, hierarchy, {transport.rank(), level}, first_status(load_balancer_)) {}
 
 void SubCoordinator::handle(int from, message::Message&& message) {
   const auto child = [&] { return children_.with(from); };
@@ -73,9 +73,9 @@ void SubCoordinator::handle(int from, message::Message&& message) {
 
 // A batch between two of those below is covered by what is merged here, before and after.
 void SubCoordinator::heard(int child, message::Status&& status) {
-  broker_.heard(child, status);
+  load_balancer_.heard(child, status);
   for (const message::Taken& taken : status.taken) {
-    broker_.arrived(taken.by);
+    load_balancer_.arrived(taken.by);
     if (children_.include(taken.from))
       children_.tell(children_.with(taken.from),
                      message::Release{taken.from, taken.by, taken.batches});
@@ -84,7 +84,7 @@ void SubCoordinator::heard(int child, message::Status&& status) {
   }
   nodes_.update(child, std::move(status));
   if (ending_) return;  // a batch sent after a farewell would be left under way
-  while (const auto gift = broker_.next())
+  while (const auto gift = load_balancer_.next())
     children_.tell(gift->from, message::Order{gift->to, gift->nodes, gift->to_idle});
 }
 
@@ -101,7 +101,7 @@ void SubCoordinator::farewell(const message::Farewell& said) {
 
 // Somebody must: the receiver waits for it, even if it brings nothing.
 void SubCoordinator::order(const message::Order& order) {
-  children_.tell(broker_.giver(order.count), order);
+  children_.tell(load_balancer_.giver(order.count), order);
 }
 
 void SubCoordinator::begin_anew(const message::BeginAnew& anew) {
@@ -112,8 +112,8 @@ void SubCoordinator::begin_anew(const message::BeginAnew& anew) {
 message::Status SubCoordinator::status() const {
   message::Status status = nodes_.merged();
   status.entrusted = entrusted_;
-  status.spare = broker_.spare();
-  status.wants = broker_.wants();
+  status.spare = load_balancer_.spare();
+  status.wants = load_balancer_.wants();
   status.taken = taken_;
   return status;
 }

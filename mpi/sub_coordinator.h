@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/solve.h"
-#include "mpi/broker.h"
 #include "mpi/child_links.h"
+#include "mpi/load_balancer.h"
 #include "mpi/messages.h"
 #include "mpi/parent_link.h"
 #include "mpi/rank_nodes.h"
@@ -39,7 +39,7 @@ class SubCoordinator {
 
   ChildLinks children_;
   RankNodes nodes_;
-  Broker broker_;
+  LoadBalancer load_balancer_;
   ParentLink parent_;
   bool changed_ = false;               // since the last status
   std::int64_t entrusted_ = 0;         // how many Entrust it has obeyed

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mpi/broker.h"
+#include "mpi/load_balancer.h"
 
 #include <gtest/gtest.h>
 
@@ -22,8 +22,8 @@ message::Status with(int rank, Cost bound, std::int64_t spare) {
   return status;
 }
 
-TEST(Broker, WhoHasNothingIsGivenWhatCanBeSpared) {
-  Broker broker(alone(2));
+TEST(LoadBalancer, WhoHasNothingIsGivenWhatCanBeSpared) {
+  LoadBalancer broker(alone(2));
   EXPECT_FALSE(broker.next());
   broker.heard(0, with(0, 10, 3));
   const auto gift = broker.next();
@@ -33,8 +33,8 @@ TEST(Broker, WhoHasNothingIsGivenWhatCanBeSpared) {
   EXPECT_EQ(gift->nodes, 3);
 }
 
-TEST(Broker, NobodyIsGivenMoreBeforeTheLastHasArrived) {
-  Broker broker(alone(2));
+TEST(LoadBalancer, NobodyIsGivenMoreBeforeTheLastHasArrived) {
+  LoadBalancer broker(alone(2));
   broker.heard(0, with(0, 10, 300));
   EXPECT_TRUE(broker.next());
   EXPECT_FALSE(broker.next());
@@ -44,8 +44,8 @@ TEST(Broker, NobodyIsGivenMoreBeforeTheLastHasArrived) {
   EXPECT_TRUE(broker.next());
 }
 
-TEST(Broker, TheSecondBestBoundWillDo) {
-  Broker broker(alone(3), {.gift_nodes = 1});
+TEST(LoadBalancer, TheSecondBestBoundWillDo) {
+  LoadBalancer broker(alone(3), {.gift_nodes = 1});
   message::Status status = with(0, 10, 1);
   status.spare.push_back({11, 1});
   broker.heard(0, status);
@@ -53,8 +53,8 @@ TEST(Broker, TheSecondBestBoundWillDo) {
   EXPECT_FALSE(broker.next());
 }
 
-TEST(Broker, OneGiverServesSeveralWhileItHasSome) {
-  Broker broker(alone(4), {.gift_nodes = 2});
+TEST(LoadBalancer, OneGiverServesSeveralWhileItHasSome) {
+  LoadBalancer broker(alone(4), {.gift_nodes = 2});
   broker.heard(0, with(0, 10, 5));
   std::vector<int> given;
   std::int64_t nodes = 0;
@@ -66,8 +66,8 @@ TEST(Broker, OneGiverServesSeveralWhileItHasSome) {
   EXPECT_EQ(nodes, 5);
 }
 
-TEST(Broker, WorkFarAboveTheBoundIsReplacedWhereThereIsPlentyOfBetter) {
-  Broker broker(alone(2));
+TEST(LoadBalancer, WorkFarAboveTheBoundIsReplacedWhereThereIsPlentyOfBetter) {
+  LoadBalancer broker(alone(2));
   broker.heard(1, with(1, 15, 25));
   broker.heard(0, with(0, 10, 2));
   EXPECT_FALSE(broker.next()) << "not for a few nodes";
@@ -77,8 +77,8 @@ TEST(Broker, WorkFarAboveTheBoundIsReplacedWhereThereIsPlentyOfBetter) {
   EXPECT_EQ(gift->to, 1);
 }
 
-TEST(Broker, NextNodesAreForIdleRanksOnly) {
-  Broker broker(alone(3), {.plenty_nodes = 1});
+TEST(LoadBalancer, NextNodesAreForIdleRanksOnly) {
+  LoadBalancer broker(alone(3), {.plenty_nodes = 1});
   broker.heard(1, with(1, 15, 0));
   broker.heard(2, with(2, kInfiniteCost, 0));
   message::Status status = with(0, 10, 0);
@@ -98,8 +98,8 @@ TEST(Broker, NextNodesAreForIdleRanksOnly) {
   EXPECT_EQ(broker.spare(), std::vector<message::Spare>({{10, 0, 1}}));
 }
 
-TEST(Broker, RanksOfOneChildAreLeftToIt) {
-  Broker broker({{0, 1, 2}, {3, 4, 5}});
+TEST(LoadBalancer, RanksOfOneChildAreLeftToIt) {
+  LoadBalancer broker({{0, 1, 2}, {3, 4, 5}});
   message::Status status;
   status.spare = {{10, 100}};
   status.wants = {{1, true, kInfiniteCost}, {2, true, kInfiniteCost}};
@@ -112,8 +112,8 @@ TEST(Broker, RanksOfOneChildAreLeftToIt) {
   EXPECT_EQ(given, (std::vector<int>{3, 4})) << "there is nothing left for rank 5";
 }
 
-TEST(Broker, PassesOnWhatItCannotMatch) {
-  Broker broker({{0, 1}, {2, 3}});
+TEST(LoadBalancer, PassesOnWhatItCannotMatch) {
+  LoadBalancer broker({{0, 1}, {2, 3}});
   message::Status status;
   using Spare = std::vector<message::Spare>;
   status.spare = {{10, 6}, {11, 2}};

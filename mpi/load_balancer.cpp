@@ -7,7 +7,7 @@
 //
 // Ranks of one child are matched below it. What is left there of wishes and of nodes to spare is
 // matched here, or above.
-#include "mpi/broker.h"
+#include "mpi/load_balancer.h"
 
 #include <algorithm>
 #include <ranges>
@@ -25,7 +25,7 @@ std::int64_t all_of(const message::Spare& spare) {
 
 }  // namespace
 
-Broker::Broker(const std::vector<std::vector<int>>& children, const Tuning& tuning)
+LoadBalancer::LoadBalancer(const std::vector<std::vector<int>>& children, const Tuning& tuning)
     : tuning_(tuning), children_(children.size()) {
   for (std::size_t child = 0; child < children.size(); ++child) {
     message::Status idle;
@@ -35,7 +35,7 @@ Broker::Broker(const std::vector<std::vector<int>>& children, const Tuning& tuni
   }
 }
 
-void Broker::heard(int child, const message::Status& status) {
+void LoadBalancer::heard(int child, const message::Status& status) {
   View& at = view(child);
   for (const Wish& wish : at.wishes) wishes_.erase(wish);
   at.wishes.clear();
@@ -46,12 +46,12 @@ void Broker::heard(int child, const message::Status& status) {
   offer(child, status.spare);
 }
 
-void Broker::arrived(int rank) {
+void LoadBalancer::arrived(int rank) {
   awaiting_.erase(rank);
 }
 
 // The best of what it can spare.
-void Broker::offer(int child, std::vector<message::Spare> spare) {
+void LoadBalancer::offer(int child, std::vector<message::Spare> spare) {
   View& at = view(child);
   const auto best = [&] { return Offer(at.spare[0].bound, -all_of(at.spare[0]), child); };
   if (!at.spare.empty()) offers_.erase(best());
@@ -59,7 +59,7 @@ void Broker::offer(int child, std::vector<message::Spare> spare) {
   if (!at.spare.empty()) offers_.insert(best());
 }
 
-void Broker::take(int child, std::int64_t nodes) {
+void LoadBalancer::take(int child, std::int64_t nodes) {
   std::vector<message::Spare> left = view(child).spare;
   message::Spare& best = left[0];
   const std::int64_t few = std::min(nodes, best.nodes);
@@ -70,7 +70,7 @@ void Broker::take(int child, std::int64_t nodes) {
 }
 
 // Wishes come in order of need: where nothing helps one, nothing helps those after it.
-std::optional<Broker::Gift> Broker::next() {
+std::optional<LoadBalancer::Gift> LoadBalancer::next() {
   for (const auto& [wish, child] : wishes_) {
     const auto& [busy, minus_best, to] = wish;
     if (awaiting_.contains(to)) continue;
@@ -95,14 +95,14 @@ std::optional<Broker::Gift> Broker::next() {
   return std::nullopt;
 }
 
-int Broker::giver(std::int64_t nodes) {
+int LoadBalancer::giver(std::int64_t nodes) {
   if (offers_.empty()) return 0;
   const int child = std::get<int>(*offers_.begin());
   take(child, nodes);
   return child;
 }
 
-std::vector<message::Spare> Broker::spare() const {
+std::vector<message::Spare> LoadBalancer::spare() const {
   std::map<Cost, message::Spare> sums;
   for (const View& child : children_)
     for (const message::Spare& spare : child.spare) {
@@ -114,7 +114,7 @@ std::vector<message::Spare> Broker::spare() const {
   return best;
 }
 
-std::vector<message::Want> Broker::wants() const {
+std::vector<message::Want> LoadBalancer::wants() const {
   std::vector<message::Want> wants;
   for (const auto& [wish, child] : wishes_) {
     const auto& [busy, minus_best, rank] = wish;

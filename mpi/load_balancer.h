@@ -16,7 +16,7 @@ namespace grove::detail {
 
 // Matches ranks that have nothing to expand, or nothing as good as others, with children of a
 // coordinator that have most to spare. Decides nothing that an answer depends on. Of one thread.
-class Broker {
+class LoadBalancer {
  public:
   struct Gift {
     int from = 0;            // the child
@@ -26,7 +26,7 @@ class Broker {
   };
 
   // The ranks that each child is, or that are below it; nobody has nodes yet.
-  explicit Broker(const std::vector<std::vector<int>>& children, const Tuning& tuning = {});
+  explicit LoadBalancer(const std::vector<std::vector<int>>& children, const Tuning& tuning = {});
 
   // A child's new status.
   void heard(int child, const message::Status& status);
