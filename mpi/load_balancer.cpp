@@ -37,10 +37,10 @@ LoadBalancer::LoadBalancer(const std::vector<std::vector<int>>& children, const 
 
 void LoadBalancer::heard(int child, const message::Status& status) {
   View& at = view(child);
-  for (const Wish& wish : at.wishes) wishes_.erase(wish);
+  for (const Request& wish : at.wishes) wishes_.erase(wish);
   at.wishes.clear();
   for (const message::Want& want : status.wants) {
-    const Wish& wish = at.wishes.emplace_back(!want.idle, -want.best, want.rank);
+    const Request& wish = at.wishes.emplace_back(!want.idle, -want.best, want.rank);
     wishes_[wish] = child;
   }
   offer(child, status.spare);
@@ -70,7 +70,7 @@ void LoadBalancer::take(int child, std::int64_t nodes) {
 }
 
 // Wishes come in order of need: where nothing helps one, nothing helps those after it.
-std::optional<LoadBalancer::Gift> LoadBalancer::next() {
+std::optional<LoadBalancer::Transfer> LoadBalancer::next() {
   for (const auto& [wish, child] : wishes_) {
     const auto& [busy, minus_best, to] = wish;
     if (awaiting_.contains(to)) continue;
@@ -87,7 +87,7 @@ std::optional<LoadBalancer::Gift> LoadBalancer::next() {
     if (!helps) break;
     const std::int64_t nodes = busy ? spare.nodes : all_of(spare);
     if (nodes == 0) continue;
-    const Gift gift{from, to, std::min(nodes, tuning_.gift_nodes), !busy};
+    const Transfer gift{from, to, std::min(nodes, tuning_.gift_nodes), !busy};
     take(from, gift.nodes);
     awaiting_.insert(to);
     return gift;
@@ -95,7 +95,7 @@ std::optional<LoadBalancer::Gift> LoadBalancer::next() {
   return std::nullopt;
 }
 
-int LoadBalancer::giver(std::int64_t nodes) {
+int LoadBalancer::donor(std::int64_t nodes) {
   if (offers_.empty()) return 0;
   const int child = std::get<int>(*offers_.begin());
   take(child, nodes);

@@ -18,7 +18,7 @@ namespace grove::detail {
 // coordinator that have most to spare. Decides nothing that an answer depends on. Of one thread.
 class LoadBalancer {
  public:
-  struct Gift {
+  struct Transfer {
     int from = 0;            // the child
     int to = 0;              // the rank, which is not there
     std::int64_t nodes = 0;  // at most
@@ -33,11 +33,11 @@ class LoadBalancer {
   // A gift to this rank has arrived.
   void arrived(int rank);
   // What to order next. Until it has arrived the receiver is given nothing else.
-  std::optional<Gift> next();
+  std::optional<Transfer> next();
 
   // The child that is to give so many nodes to somebody elsewhere: the one that can spare the best,
   // or any.
-  int giver(std::int64_t nodes);
+  int donor(std::int64_t nodes);
   // What all children together can spare of their best bounds, and who of them needs nodes most:
   // for a superior, to match with those of others.
   std::vector<message::Spare> spare() const;
@@ -45,11 +45,11 @@ class LoadBalancer {
 
  private:
   using Offer = std::tuple<Cost, std::int64_t, int>;  // bound, minus all nodes, child
-  using Wish = std::tuple<bool, Cost, int>;           // has nodes in hand, minus best bound, rank
+  using Request = std::tuple<bool, Cost, int>;        // has nodes in hand, minus best bound, rank
 
   struct View {
     std::vector<message::Spare> spare;  // ascending in bound, none of them empty
-    std::vector<Wish> wishes;
+    std::vector<Request> wishes;
   };
 
   View& view(int child) { return children_[static_cast<std::size_t>(child)]; }
@@ -59,8 +59,8 @@ class LoadBalancer {
   const Tuning tuning_;
   std::vector<View> children_;
   std::set<Offer> offers_;
-  std::map<Wish, int> wishes_;  // whose child they are
-  std::set<int> awaiting_;      // ranks, a gift
+  std::map<Request, int> wishes_;  // whose child they are
+  std::set<int> awaiting_;         // ranks, a gift
 };
 
 }  // namespace grove::detail

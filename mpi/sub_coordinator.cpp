@@ -101,7 +101,7 @@ void SubCoordinator::farewell(const message::Farewell& said) {
 
 // Somebody must: the receiver waits for it, even if it brings nothing.
 void SubCoordinator::order(const message::Order& order) {
-  children_.tell(load_balancer_.giver(order.count), order);
+  children_.tell(load_balancer_.donor(order.count), order);
 }
 
 void SubCoordinator::begin_anew(const message::BeginAnew& anew) {

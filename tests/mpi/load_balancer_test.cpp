@@ -122,13 +122,13 @@ TEST(LoadBalancer, PassesOnWhatItCannotMatch) {
   broker.heard(1, status);
   EXPECT_EQ(broker.spare(), Spare({{10, 6}, {11, 92}}));
   EXPECT_TRUE(broker.wants().empty());
-  EXPECT_EQ(broker.giver(6), 0);
+  EXPECT_EQ(broker.donor(6), 0);
   EXPECT_EQ(broker.spare(), Spare({{11, 92}}));
-  EXPECT_EQ(broker.giver(100), 1);
+  EXPECT_EQ(broker.donor(100), 1);
   EXPECT_EQ(broker.spare(), Spare({{11, 2}}));
-  EXPECT_EQ(broker.giver(100), 0);
+  EXPECT_EQ(broker.donor(100), 0);
   EXPECT_TRUE(broker.spare().empty());
-  EXPECT_EQ(broker.giver(100), 0) << "somebody must";
+  EXPECT_EQ(broker.donor(100), 0) << "somebody must";
 }
 
 }  // namespace broker_test
