@@ -30,7 +30,7 @@ LoadBalancer::LoadBalancer(const std::vector<std::vector<int>>& children, const 
   for (std::size_t child = 0; child < children.size(); ++child) {
     message::Status idle;
     for (const int rank : children[child] | std::views::take(kWishesPassedOn))
-      idle.wants.push_back({rank, true, kInfiniteCost});
+      idle.work_requests.push_back({rank, true, kInfiniteCost});
     heard(static_cast<int>(child), idle);
   }
 }
@@ -39,7 +39,7 @@ void LoadBalancer::heard(int child, const message::Status& status) {
   View& at = view(child);
   for (const Request& wish : at.wishes) wishes_.erase(wish);
   at.wishes.clear();
-  for (const message::Want& want : status.wants) {
+  for (const message::WorkRequest& want : status.work_requests) {
     const Request& wish = at.wishes.emplace_back(!want.idle, -want.best, want.rank);
     wishes_[wish] = child;
   }
@@ -114,14 +114,14 @@ std::vector<message::Spare> LoadBalancer::spare() const {
   return best;
 }
 
-std::vector<message::Want> LoadBalancer::wants() const {
-  std::vector<message::Want> wants;
+std::vector<message::WorkRequest> LoadBalancer::work_requests() const {
+  std::vector<message::WorkRequest> work_requests;
   for (const auto& [wish, child] : wishes_) {
     const auto& [busy, minus_best, rank] = wish;
-    if (wants.size() == kWishesPassedOn) break;
-    if (!awaiting_.contains(rank)) wants.push_back({rank, !busy, -minus_best});
+    if (work_requests.size() == kWishesPassedOn) break;
+    if (!awaiting_.contains(rank)) work_requests.push_back({rank, !busy, -minus_best});
   }
-  return wants;
+  return work_requests;
 }
 
 }  // namespace grove::detail

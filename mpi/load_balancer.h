@@ -41,7 +41,7 @@ class LoadBalancer {
   // What all children together can spare of their best bounds, and who of them needs nodes most:
   // for a superior, to match with those of others.
   std::vector<message::Spare> spare() const;
-  std::vector<message::Want> wants() const;
+  std::vector<message::WorkRequest> work_requests() const;
 
  private:
   using Offer = std::tuple<Cost, std::int64_t, int>;  // bound, minus all nodes, child

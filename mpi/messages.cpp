@@ -100,7 +100,7 @@ void serialize(Archive& archive, Spare& spare) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Want& want) {
+void serialize(Archive& archive, WorkRequest& want) {
   archive(want.rank, want.idle, want.best);
 }
 
@@ -114,7 +114,7 @@ void serialize(Archive& archive, Status& s) {
   archive(s.bound, s.evicted_bound, s.proven, s.live, s.open, s.expanded, s.era, s.entrusted);
   enumerated(archive, s.proven_by, kLastProvenBy);
   enumerated(archive, s.stopped, StopReason::kInterrupt);
-  archive(s.spare, s.wants, s.taken);
+  archive(s.spare, s.work_requests, s.taken);
 }
 
 template <class Archive>

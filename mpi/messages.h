@@ -37,12 +37,12 @@ struct Spare {
 };
 
 // A rank that would expand better nodes if it had some.
-struct Want {
+struct WorkRequest {
   std::int32_t rank = 0;
   bool idle = true;           // it has no node that the end waits for
   Cost best = kInfiniteCost;  // of its open nodes that the end waits for
 
-  friend bool operator==(const Want&, const Want&) = default;
+  friend bool operator==(const WorkRequest&, const WorkRequest&) = default;
 };
 
 // That many batches of rank `from` have been taken over by rank `by`.
@@ -69,7 +69,7 @@ struct Status {
   std::int64_t entrusted = 0;              // how many Entrust it has obeyed
   StopReason stopped = StopReason::kNone;  // a limit that struck there
   std::vector<Spare> spare;                // of the least bounds of which any can be spared
-  std::vector<Want> wants;                 // the neediest first; not of all ranks below
+  std::vector<WorkRequest> work_requests;  // the neediest first; not of all ranks below
   std::vector<Taken> taken;                // since the last status; from ranks not below
 
   friend bool operator==(const Status&, const Status&) = default;

@@ -16,7 +16,7 @@ constexpr double kPausePerSibling = 50e-6;
 constexpr double kNothingToSay = std::numeric_limits<double>::infinity();
 
 bool has_idle(const message::Status& status) {
-  return !status.wants.empty() && status.wants.front().idle;
+  return !status.work_requests.empty() && status.work_requests.front().idle;
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ std::vector<message::Spare> spare_of(const std::vector<Frontier::Level>& levels,
 // As it stands at the beginning.
 message::Status first_status(int rank) {
   message::Status status;
-  status.wants = {{rank, true, kInfiniteCost}};
+  status.work_requests = {{rank, true, kInfiniteCost}};
   return status;
 }
 
@@ -231,7 +231,8 @@ message::Status Rank::status() const {
   std::erase_if(levels, [&](const Frontier::Level& level) { return !is_wanted(level.bound); });
   const bool idle = live == in_custody_ || (has_open && levels.empty());
   status.spare = spare_of(levels, keeps_next());
-  status.wants = {{transport_.rank(), idle, levels.empty() ? kInfiniteCost : levels.front().bound}};
+  status.work_requests = {
+      {transport_.rank(), idle, levels.empty() ? kInfiniteCost : levels.front().bound}};
   status.open = static_cast<std::int64_t>(nodes_.frontier.open());
   status.expanded = nodes_.expanded;
   status.era = era_;

@@ -15,7 +15,7 @@ namespace {
 // As it stands at the beginning, when all below are idle.
 message::Status first_status(const LoadBalancer& broker) {
   message::Status status;
-  status.wants = broker.wants();
+  status.work_requests = broker.work_requests();
   return status;
 }
 
@@ -113,7 +113,7 @@ message::Status SubCoordinator::status() const {
   message::Status status = nodes_.merged();
   status.entrusted = entrusted_;
   status.spare = load_balancer_.spare();
-  status.wants = load_balancer_.wants();
+  status.work_requests = load_balancer_.work_requests();
   status.taken = taken_;
   return status;
 }

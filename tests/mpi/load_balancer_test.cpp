@@ -18,7 +18,7 @@ std::vector<std::vector<int>> alone(int ranks) {
 message::Status with(int rank, Cost bound, std::int64_t spare) {
   message::Status status;
   if (spare > 0) status.spare = {{bound, spare}};
-  status.wants = {{rank, bound == kInfiniteCost, bound}};
+  status.work_requests = {{rank, bound == kInfiniteCost, bound}};
   return status;
 }
 
@@ -102,7 +102,7 @@ TEST(LoadBalancer, RanksOfOneChildAreLeftToIt) {
   LoadBalancer broker({{0, 1, 2}, {3, 4, 5}});
   message::Status status;
   status.spare = {{10, 100}};
-  status.wants = {{1, true, kInfiniteCost}, {2, true, kInfiniteCost}};
+  status.work_requests = {{1, true, kInfiniteCost}, {2, true, kInfiniteCost}};
   broker.heard(0, status);
   std::vector<int> given;
   while (const auto gift = broker.next()) {
@@ -121,7 +121,7 @@ TEST(LoadBalancer, PassesOnWhatItCannotMatch) {
   status.spare = {{11, 90}};
   broker.heard(1, status);
   EXPECT_EQ(broker.spare(), Spare({{10, 6}, {11, 92}}));
-  EXPECT_TRUE(broker.wants().empty());
+  EXPECT_TRUE(broker.work_requests().empty());
   EXPECT_EQ(broker.donor(6), 0);
   EXPECT_EQ(broker.spare(), Spare({{11, 92}}));
   EXPECT_EQ(broker.donor(100), 1);

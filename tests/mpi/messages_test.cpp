@@ -16,7 +16,7 @@ message::Status some_status() {
   status.era = 2;
   status.stopped = StopReason::kMemory;
   status.spare = {{17, 2}, {19, 1}};
-  status.wants = {{3, true, kInfiniteCost}, {5, false, 19}};
+  status.work_requests = {{3, true, kInfiniteCost}, {5, false, 19}};
   status.taken = {{3, 4, 9}};
   return status;
 }

@@ -378,7 +378,7 @@ TEST(SubCoordinatorAlone, ServesItsOwnAndOffersWhatIsLeft) {
   EXPECT_EQ(orders[1].to, 5);
   ASSERT_EQ(status.spare.size(), 1);
   EXPECT_EQ(status.spare[0].nodes, 200 - orders[0].count - orders[1].count);
-  EXPECT_TRUE(status.wants.empty()) << "those who wait for a gift want none";
+  EXPECT_TRUE(status.work_requests.empty()) << "those who wait for a gift want none";
   s.sub.handle(0, message::Order{7, 10});
   ASSERT_EQ(s.transport.sent<message::Order>(4).size(), 3);
   EXPECT_EQ(s.transport.sent<message::Order>(4).back().to, 7);

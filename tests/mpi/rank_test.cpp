@@ -84,7 +84,7 @@ TEST(Rank, OffersNodesThatTheEndWaitsFor) {
     RankWithRoot rank(Omega(), excess);
     const auto status = rank.send_updates(0);
     ASSERT_TRUE(status);
-    EXPECT_EQ(status->wants, (std::vector<message::Want>{{0, false, rank.bound()}}));
+    EXPECT_EQ(status->work_requests, (std::vector<message::WorkRequest>{{0, false, rank.bound()}}));
     EXPECT_TRUE(status->spare.empty()) << "it has but one";
   }
 }
@@ -93,7 +93,7 @@ TEST(Rank, IsIdleWithNodesThatTheIncumbentIsWithinOmegaOf) {
   RankWithRoot rank(Omega::parse("0.5"), 1);
   const auto status = rank.send_updates(0);
   ASSERT_TRUE(status);
-  EXPECT_EQ(status->wants, (std::vector<message::Want>{{0, true, kInfiniteCost}}));
+  EXPECT_EQ(status->work_requests, (std::vector<message::WorkRequest>{{0, true, kInfiniteCost}}));
   EXPECT_TRUE(status->spare.empty());
   EXPECT_TRUE(status->live) << "it counts all the same";
   EXPECT_EQ(status->bound, rank.bound());
