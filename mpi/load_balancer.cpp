@@ -19,8 +19,8 @@ namespace {
 constexpr std::size_t kWishesPassedOn = 16;
 constexpr std::size_t kLevelsPassedOn = 4;
 
-std::int64_t all_of(const message::Spare& spare) {
-  return spare.nodes + spare.next;
+std::int64_t all_of(const message::Surplus& surplus) {
+  return surplus.nodes + surplus.next;
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ void LoadBalancer::heard(int child, const message::Status& status) {
     const Request& wish = at.wishes.emplace_back(!want.idle, -want.best, want.rank);
     wishes_[wish] = child;
   }
-  offer(child, status.spare);
+  offer(child, status.surplus);
 }
 
 void LoadBalancer::arrived(int rank) {
@@ -51,17 +51,17 @@ void LoadBalancer::arrived(int rank) {
 }
 
 // The best of what it can spare.
-void LoadBalancer::offer(int child, std::vector<message::Spare> spare) {
+void LoadBalancer::offer(int child, std::vector<message::Surplus> surplus) {
   View& at = view(child);
-  const auto best = [&] { return Offer(at.spare[0].bound, -all_of(at.spare[0]), child); };
-  if (!at.spare.empty()) offers_.erase(best());
-  at.spare = std::move(spare);
-  if (!at.spare.empty()) offers_.insert(best());
+  const auto best = [&] { return Offer(at.surplus[0].bound, -all_of(at.surplus[0]), child); };
+  if (!at.surplus.empty()) offers_.erase(best());
+  at.surplus = std::move(surplus);
+  if (!at.surplus.empty()) offers_.insert(best());
 }
 
 void LoadBalancer::take(int child, std::int64_t nodes) {
-  std::vector<message::Spare> left = view(child).spare;
-  message::Spare& best = left[0];
+  std::vector<message::Surplus> left = view(child).surplus;
+  message::Surplus& best = left[0];
   const std::int64_t few = std::min(nodes, best.nodes);
   best.nodes -= few;
   best.next -= std::min(nodes - few, best.next);
@@ -81,11 +81,11 @@ std::optional<LoadBalancer::Transfer> LoadBalancer::next() {
       continue;
     }
     const int from = std::get<int>(*best);
-    const message::Spare& spare = view(from).spare[0];
+    const message::Surplus& surplus = view(from).surplus[0];
     const bool helps = -minus_best == kInfiniteCost ||
-                       (-minus_best > spare.bound && spare.nodes >= tuning_.plenty_nodes);
+                       (-minus_best > surplus.bound && surplus.nodes >= tuning_.plenty_nodes);
     if (!helps) break;
-    const std::int64_t nodes = busy ? spare.nodes : all_of(spare);
+    const std::int64_t nodes = busy ? surplus.nodes : all_of(surplus);
     if (nodes == 0) continue;
     const Transfer gift{from, to, std::min(nodes, tuning_.gift_nodes), !busy};
     take(from, gift.nodes);
@@ -102,14 +102,14 @@ int LoadBalancer::donor(std::int64_t nodes) {
   return child;
 }
 
-std::vector<message::Spare> LoadBalancer::spare() const {
-  std::map<Cost, message::Spare> sums;
+std::vector<message::Surplus> LoadBalancer::surplus() const {
+  std::map<Cost, message::Surplus> sums;
   for (const View& child : children_)
-    for (const message::Spare& spare : child.spare) {
-      message::Spare& sum = sums[spare.bound];
-      sum = {spare.bound, sum.nodes + spare.nodes, sum.next + spare.next};
+    for (const message::Surplus& surplus : child.surplus) {
+      message::Surplus& sum = sums[surplus.bound];
+      sum = {surplus.bound, sum.nodes + surplus.nodes, sum.next + surplus.next};
     }
-  std::vector<message::Spare> best;
+  std::vector<message::Surplus> best;
   for (const auto& [bound, sum] : sums | std::views::take(kLevelsPassedOn)) best.push_back(sum);
   return best;
 }

@@ -40,7 +40,7 @@ class LoadBalancer {
   int donor(std::int64_t nodes);
   // What all children together can spare of their best bounds, and who of them needs nodes most:
   // for a superior, to match with those of others.
-  std::vector<message::Spare> spare() const;
+  std::vector<message::Surplus> surplus() const;
   std::vector<message::WorkRequest> work_requests() const;
 
  private:
@@ -48,12 +48,12 @@ class LoadBalancer {
   using Request = std::tuple<bool, Cost, int>;        // has nodes in hand, minus best bound, rank
 
   struct View {
-    std::vector<message::Spare> spare;  // ascending in bound, none of them empty
+    std::vector<message::Surplus> surplus;  // ascending in bound, none of them empty
     std::vector<Request> wishes;
   };
 
   View& view(int child) { return children_[static_cast<std::size_t>(child)]; }
-  void offer(int child, std::vector<message::Spare> spare);
+  void offer(int child, std::vector<message::Surplus> surplus);
   void take(int child, std::int64_t nodes);
 
   const Tuning tuning_;

@@ -95,8 +95,8 @@ void serialize(Archive& archive, Prices& prices) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Spare& spare) {
-  archive(spare.bound, spare.nodes, spare.next);
+void serialize(Archive& archive, Surplus& surplus) {
+  archive(surplus.bound, surplus.nodes, surplus.next);
 }
 
 template <class Archive>
@@ -114,7 +114,7 @@ void serialize(Archive& archive, Status& s) {
   archive(s.bound, s.evicted_bound, s.proven, s.live, s.open, s.expanded, s.era, s.entrusted);
   enumerated(archive, s.proven_by, kLastProvenBy);
   enumerated(archive, s.stopped, StopReason::kInterrupt);
-  archive(s.spare, s.work_requests, s.taken);
+  archive(s.surplus, s.work_requests, s.taken);
 }
 
 template <class Archive>

@@ -26,14 +26,14 @@
 namespace grove::detail::message {
 
 // Nodes of one bound.
-struct Spare {
+struct Surplus {
   Cost bound = kInfiniteCost;
   std::int64_t nodes = 0;
   // Beside these, for idle ranks only: the next nodes of ranks that are at another one. (Busy ranks
   // would hand each other their best nodes for ever.)
   std::int64_t next = 0;
 
-  friend bool operator==(const Spare&, const Spare&) = default;
+  friend bool operator==(const Surplus&, const Surplus&) = default;
 };
 
 // A rank that would expand better nodes if it had some.
@@ -68,7 +68,7 @@ struct Status {
   std::int32_t era = 0;                    // how many BeginAnew all have obeyed
   std::int64_t entrusted = 0;              // how many Entrust it has obeyed
   StopReason stopped = StopReason::kNone;  // a limit that struck there
-  std::vector<Spare> spare;                // of the least bounds of which any can be spared
+  std::vector<Surplus> surplus;            // of the least bounds of which any can be spared
   std::vector<WorkRequest> work_requests;  // the neediest first; not of all ranks below
   std::vector<Taken> taken;                // since the last status; from ranks not below
 

@@ -35,7 +35,7 @@ void ParentLink::tell(const message::Message& message) {
 // What can be spared matters at once when it has doubled: while few ranks have nodes the others
 // would wait a pause for each doubling.
 bool ParentLink::is_urgent(const message::Status& status) const {
-  const bool has_more = !status.spare.empty() && status.open / 2 > 2 * (said_.open / 2);
+  const bool has_more = !status.surplus.empty() && status.open / 2 > 2 * (said_.open / 2);
   return has_more || !status.taken.empty() || status.entrusted != said_.entrusted ||
          status.era != said_.era || status.bound != said_.bound || status.proven != said_.proven ||
          status.stopped != said_.stopped || status.live != said_.live ||

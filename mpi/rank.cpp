@@ -21,15 +21,16 @@ constexpr std::size_t kNodesInAPart = 500;
 constexpr double kBytesPerMegabyte = 1e6;
 
 // What a rank with these open nodes can spare; see Frontier::take_for_transfer().
-std::vector<message::Spare> spare_of(const std::vector<Frontier::Level>& levels, bool keeps_next) {
-  std::vector<message::Spare> spare;
+std::vector<message::Surplus> spare_of(const std::vector<Frontier::Level>& levels,
+                                       bool keeps_next) {
+  std::vector<message::Surplus> surplus;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const bool is_best = i == 0;
     const std::int64_t half = (levels[i].open + (is_best ? 0 : 1)) / 2;
     const std::int64_t next = is_best && !keeps_next ? levels[i].open % 2 : 0;
-    if (half + next > 0) spare.push_back({levels[i].bound, half, next});
+    if (half + next > 0) surplus.push_back({levels[i].bound, half, next});
   }
-  return spare;
+  return surplus;
 }
 
 // As it stands at the beginning.
@@ -230,7 +231,7 @@ message::Status Rank::status() const {
   const bool has_open = !levels.empty();
   std::erase_if(levels, [&](const Frontier::Level& level) { return !is_wanted(level.bound); });
   const bool idle = live == in_custody_ || (has_open && levels.empty());
-  status.spare = spare_of(levels, keeps_next());
+  status.surplus = spare_of(levels, keeps_next());
   status.work_requests = {
       {transport_.rank(), idle, levels.empty() ? kInfiniteCost : levels.front().bound}};
   status.open = static_cast<std::int64_t>(nodes_.frontier.open());

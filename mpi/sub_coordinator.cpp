@@ -112,7 +112,7 @@ void SubCoordinator::begin_anew(const message::BeginAnew& anew) {
 message::Status SubCoordinator::status() const {
   message::Status status = nodes_.merged();
   status.entrusted = entrusted_;
-  status.spare = load_balancer_.spare();
+  status.surplus = load_balancer_.surplus();
   status.work_requests = load_balancer_.work_requests();
   status.taken = taken_;
   return status;

@@ -15,9 +15,9 @@ std::vector<std::vector<int>> alone(int ranks) {
   return children;
 }
 
-message::Status with(int rank, Cost bound, std::int64_t spare) {
+message::Status with(int rank, Cost bound, std::int64_t surplus) {
   message::Status status;
-  if (spare > 0) status.spare = {{bound, spare}};
+  if (surplus > 0) status.surplus = {{bound, surplus}};
   status.work_requests = {{rank, bound == kInfiniteCost, bound}};
   return status;
 }
@@ -47,7 +47,7 @@ TEST(LoadBalancer, NobodyIsGivenMoreBeforeTheLastHasArrived) {
 TEST(LoadBalancer, TheSecondBestBoundWillDo) {
   LoadBalancer broker(alone(3), {.gift_nodes = 1});
   message::Status status = with(0, 10, 1);
-  status.spare.push_back({11, 1});
+  status.surplus.push_back({11, 1});
   broker.heard(0, status);
   for (int gifts = 0; gifts < 2; ++gifts) EXPECT_TRUE(broker.next());
   EXPECT_FALSE(broker.next());
@@ -82,7 +82,7 @@ TEST(LoadBalancer, NextNodesAreForIdleRanksOnly) {
   broker.heard(1, with(1, 15, 0));
   broker.heard(2, with(2, kInfiniteCost, 0));
   message::Status status = with(0, 10, 0);
-  status.spare = {{10, 0, 1}};
+  status.surplus = {{10, 0, 1}};
   broker.heard(0, status);
   const auto expect_a_node_for = [&](int rank, bool is_idle) {
     const auto gift = broker.next();
@@ -92,16 +92,16 @@ TEST(LoadBalancer, NextNodesAreForIdleRanksOnly) {
     EXPECT_EQ(gift->nodes, 1);
   };
   expect_a_node_for(2, true);
-  status.spare = {{10, 1, 1}};
+  status.surplus = {{10, 1, 1}};
   broker.heard(0, status);
   expect_a_node_for(1, false);
-  EXPECT_EQ(broker.spare(), std::vector<message::Spare>({{10, 0, 1}}));
+  EXPECT_EQ(broker.surplus(), std::vector<message::Surplus>({{10, 0, 1}}));
 }
 
 TEST(LoadBalancer, RanksOfOneChildAreLeftToIt) {
   LoadBalancer broker({{0, 1, 2}, {3, 4, 5}});
   message::Status status;
-  status.spare = {{10, 100}};
+  status.surplus = {{10, 100}};
   status.work_requests = {{1, true, kInfiniteCost}, {2, true, kInfiniteCost}};
   broker.heard(0, status);
   std::vector<int> given;
@@ -115,19 +115,19 @@ TEST(LoadBalancer, RanksOfOneChildAreLeftToIt) {
 TEST(LoadBalancer, PassesOnWhatItCannotMatch) {
   LoadBalancer broker({{0, 1}, {2, 3}});
   message::Status status;
-  using Spare = std::vector<message::Spare>;
-  status.spare = {{10, 6}, {11, 2}};
+  using Surplus = std::vector<message::Surplus>;
+  status.surplus = {{10, 6}, {11, 2}};
   broker.heard(0, status);
-  status.spare = {{11, 90}};
+  status.surplus = {{11, 90}};
   broker.heard(1, status);
-  EXPECT_EQ(broker.spare(), Spare({{10, 6}, {11, 92}}));
+  EXPECT_EQ(broker.surplus(), Surplus({{10, 6}, {11, 92}}));
   EXPECT_TRUE(broker.work_requests().empty());
   EXPECT_EQ(broker.donor(6), 0);
-  EXPECT_EQ(broker.spare(), Spare({{11, 92}}));
+  EXPECT_EQ(broker.surplus(), Surplus({{11, 92}}));
   EXPECT_EQ(broker.donor(100), 1);
-  EXPECT_EQ(broker.spare(), Spare({{11, 2}}));
+  EXPECT_EQ(broker.surplus(), Surplus({{11, 2}}));
   EXPECT_EQ(broker.donor(100), 0);
-  EXPECT_TRUE(broker.spare().empty());
+  EXPECT_TRUE(broker.surplus().empty());
   EXPECT_EQ(broker.donor(100), 0) << "somebody must";
 }
 

@@ -15,7 +15,7 @@ message::Status some_status() {
   status.live = true;
   status.era = 2;
   status.stopped = StopReason::kMemory;
-  status.spare = {{17, 2}, {19, 1}};
+  status.surplus = {{17, 2}, {19, 1}};
   status.work_requests = {{3, true, kInfiniteCost}, {5, false, 19}};
   status.taken = {{3, 4, 9}};
   return status;

@@ -119,10 +119,10 @@ TEST(RankAlone, AtANodeGivesItsNextOneToAnIdleRankOnly) {
   ASSERT_TRUE(taken);
   const auto kept = r.status_after(0, message::Order{2, 1, false});
   EXPECT_EQ(kept.open, 1);
-  EXPECT_EQ(kept.spare, std::vector<message::Spare>({{root->bound(), 0, 1}}));
+  EXPECT_EQ(kept.surplus, std::vector<message::Surplus>({{root->bound(), 0, 1}}));
   const auto given = r.status_after(0, message::Order{2, 1, true});
   EXPECT_EQ(given.open, 0);
-  EXPECT_TRUE(given.spare.empty());
+  EXPECT_TRUE(given.surplus.empty());
 }
 
 TEST(RankAlone, MayEndWithANodeUnfinished) {
@@ -311,7 +311,7 @@ struct SubAlone {
     status.live = true;
     status.bound = bound;
     status.open = 2 * nodes;
-    if (nodes > 0) status.spare = {{bound, nodes}};
+    if (nodes > 0) status.surplus = {{bound, nodes}};
     return status;
   }
 };
@@ -376,8 +376,8 @@ TEST(SubCoordinatorAlone, ServesItsOwnAndOffersWhatIsLeft) {
   ASSERT_EQ(orders.size(), 2);
   EXPECT_EQ(orders[0].to, 3);
   EXPECT_EQ(orders[1].to, 5);
-  ASSERT_EQ(status.spare.size(), 1);
-  EXPECT_EQ(status.spare[0].nodes, 200 - orders[0].count - orders[1].count);
+  ASSERT_EQ(status.surplus.size(), 1);
+  EXPECT_EQ(status.surplus[0].nodes, 200 - orders[0].count - orders[1].count);
   EXPECT_TRUE(status.work_requests.empty()) << "those who wait for a gift want none";
   s.sub.handle(0, message::Order{7, 10});
   ASSERT_EQ(s.transport.sent<message::Order>(4).size(), 3);

@@ -85,7 +85,7 @@ TEST(Rank, OffersNodesThatTheEndWaitsFor) {
     const auto status = rank.send_updates(0);
     ASSERT_TRUE(status);
     EXPECT_EQ(status->work_requests, (std::vector<message::WorkRequest>{{0, false, rank.bound()}}));
-    EXPECT_TRUE(status->spare.empty()) << "it has but one";
+    EXPECT_TRUE(status->surplus.empty()) << "it has but one";
   }
 }
 
@@ -94,7 +94,7 @@ TEST(Rank, IsIdleWithNodesThatTheIncumbentIsWithinOmegaOf) {
   const auto status = rank.send_updates(0);
   ASSERT_TRUE(status);
   EXPECT_EQ(status->work_requests, (std::vector<message::WorkRequest>{{0, true, kInfiniteCost}}));
-  EXPECT_TRUE(status->spare.empty());
+  EXPECT_TRUE(status->surplus.empty());
   EXPECT_TRUE(status->live) << "it counts all the same";
   EXPECT_EQ(status->bound, rank.bound());
   EXPECT_EQ(status->open, 1);
