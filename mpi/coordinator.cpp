@@ -177,7 +177,7 @@ void Coordinator::heard(int child, message::Status status) {
   if (ending_) return;  // a batch sent after a farewell would be left under way
   run_.trees().instantiate_due_tree();
   while (const auto gift = load_balancer_.next())
-    children_.tell(gift->from, message::Order{gift->to, gift->nodes, gift->to_idle});
+    children_.tell(gift->from, message::SendNodes{gift->to, gift->nodes, gift->to_idle});
 }
 
 // One at a time; the last one when the search is over, before the ranks are told.

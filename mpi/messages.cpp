@@ -164,7 +164,7 @@ void serialize(Archive& archive, Part& part) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Order& order) {
+void serialize(Archive& archive, SendNodes& order) {
   archive(order.to, order.count, order.to_idle);
 }
 

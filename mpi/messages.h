@@ -134,7 +134,7 @@ struct Entrust {
 
 // Coordinator to a child: a rank there is to send up to `count` nodes to rank `to`, in one batch;
 // see Spare::next.
-struct Order {
+struct SendNodes {
   std::int32_t to = 0;
   std::int64_t count = 0;
   bool to_idle = false;
@@ -189,8 +189,8 @@ struct Goodbye {
 
 using Message = std::variant<Status, Found, Gathered, Part, ProcessStatistics, Farewell,  // up
                              Batch, AskPrices, Prices, Facts,  // from rank to rank
-                             NewTree, Entrust, Order, Release, Incumbent, BeginAnew, Gather, More,
-                             Alive, End, Goodbye>;  // down
+                             NewTree, Entrust, SendNodes, Release, Incumbent, BeginAnew, Gather,
+                             More, Alive, End, Goodbye>;  // down
 
 struct Addressed {
   int level = 0;  // whom it is for, on the rank that it has come to; see Post

@@ -88,7 +88,7 @@ void Rank::handle(int from, message::Message&& message) {
                    take_over_held();
                  },
                  [&](message::Entrust& entrusted) { accept(entrusted); },
-                 [&](message::Order& order) { give(order); },
+                 [&](message::SendNodes& order) { give(order); },
                  [&](message::Release& covered) { release(covered); },
                  [&](message::Incumbent& incumbent) {
                    const Cost cost = incumbent.plan.cost;
@@ -133,7 +133,7 @@ void Rank::take_over_held() {
 }
 
 // What is given stays in custody: taken from the frontier, but not settled.
-void Rank::give(const message::Order& order) {
+void Rank::give(const message::SendNodes& order) {
   if (order.to_idle) others_wait();
   const bool keeps = !order.to_idle || keeps_next();
   const auto nodes =

@@ -70,7 +70,7 @@ class Rank {
   void take_over(int from, message::Batch& batch);
   void take_over_held();
   bool is_early(const message::Batch& batch) const;
-  void give(const message::Order& order);
+  void give(const message::SendNodes& order);
   bool keeps_next() const;
   void others_wait();
   void release(const message::Release& release);

@@ -42,7 +42,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
           [&](message::ProcessStatistics& account) { parent_.tell(account); },
           [&](message::Gathered& parts) { gathered(parts); },
           [&](message::Farewell& said) { farewell(said); },
-          [&](message::Order& ordered) { order(ordered); },
+          [&](message::SendNodes& ordered) { order(ordered); },
           [&](message::Release& release) { children_.tell(children_.with(release.from), release); },
           [&](message::Entrust& nodes) {
             ++entrusted_;
@@ -85,7 +85,7 @@ void SubCoordinator::heard(int child, message::Status&& status) {
   nodes_.update(child, std::move(status));
   if (ending_) return;  // a batch sent after a farewell would be left under way
   while (const auto gift = load_balancer_.next())
-    children_.tell(gift->from, message::Order{gift->to, gift->nodes, gift->to_idle});
+    children_.tell(gift->from, message::SendNodes{gift->to, gift->nodes, gift->to_idle});
 }
 
 // All of the plans that were found before have been passed on by then.
@@ -100,7 +100,7 @@ void SubCoordinator::farewell(const message::Farewell& said) {
 }
 
 // Somebody must: the receiver waits for it, even if it brings nothing.
-void SubCoordinator::order(const message::Order& order) {
+void SubCoordinator::order(const message::SendNodes& order) {
   children_.tell(load_balancer_.donor(order.count), order);
 }
 

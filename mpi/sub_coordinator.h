@@ -33,7 +33,7 @@ class SubCoordinator {
   void heard(int child, message::Status&& status);
   void gathered(const message::Gathered& gathered);
   void farewell(const message::Farewell& said);
-  void order(const message::Order& order);
+  void order(const message::SendNodes& order);
   void begin_anew(const message::BeginAnew& anew);
   message::Status status() const;
 

@@ -34,7 +34,7 @@ Kind returned(const Kind& sent) {
 
 TEST(Messages, ArriveAsTheyWereSent) {
   EXPECT_EQ(returned(some_status()), some_status());
-  const auto order = returned(message::Order{3, 64, true});
+  const auto order = returned(message::SendNodes{3, 64, true});
   EXPECT_EQ(order.to, 3);
   EXPECT_EQ(order.count, 64);
   EXPECT_TRUE(order.to_idle);

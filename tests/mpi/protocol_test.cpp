@@ -99,7 +99,7 @@ TEST(RankAlone, CoversWhatItGaveAwayUntilItIsReleased) {
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
   r.rank.handle(0, message::Entrust{{record_of(*root), record_of(*root)}, kInfiniteCost});
-  const auto given = r.status_after(0, message::Order{2, 1});
+  const auto given = r.status_after(0, message::SendNodes{2, 1});
   EXPECT_EQ(r.rank.nodes().frontier.live(), 2);
   EXPECT_EQ(given.open, 1);
   ASSERT_EQ(r.transport.sent<message::Batch>(2).size(), 1);
@@ -117,10 +117,10 @@ TEST(RankAlone, AtANodeGivesItsNextOneToAnIdleRankOnly) {
   r.rank.handle(0, message::Entrust{{record_of(*root), record_of(*root)}, kInfiniteCost});
   const NodePtr taken = r.rank.search().take();
   ASSERT_TRUE(taken);
-  const auto kept = r.status_after(0, message::Order{2, 1, false});
+  const auto kept = r.status_after(0, message::SendNodes{2, 1, false});
   EXPECT_EQ(kept.open, 1);
   EXPECT_EQ(kept.surplus, std::vector<message::Surplus>({{root->bound(), 0, 1}}));
-  const auto given = r.status_after(0, message::Order{2, 1, true});
+  const auto given = r.status_after(0, message::SendNodes{2, 1, true});
   EXPECT_EQ(given.open, 0);
   EXPECT_TRUE(given.surplus.empty());
 }
@@ -177,9 +177,9 @@ TEST(RankAlone, IsInHasteAsLongAsOthersWaitForNodes) {
   EXPECT_EQ(search.bounding_effort(), BoundingEffort::kCachedOnly) << "it is the beginning";
   for (int i = 0; i < 5; ++i) expand();
   EXPECT_EQ(search.bounding_effort(), BoundingEffort::kFull);
-  r.rank.handle(0, message::Order{2, 1, false});
+  r.rank.handle(0, message::SendNodes{2, 1, false});
   EXPECT_EQ(search.bounding_effort(), BoundingEffort::kFull);
-  r.rank.handle(0, message::Order{2, 1, true});
+  r.rank.handle(0, message::SendNodes{2, 1, true});
   EXPECT_EQ(search.bounding_effort(), BoundingEffort::kCachedOnly);
   expand();
   EXPECT_EQ(search.bounding_effort(), BoundingEffort::kCachedOnly);
@@ -372,22 +372,22 @@ TEST(SubCoordinatorAlone, IsOfTheOldEraUntilAllBelowHaveBegunAnew) {
 TEST(SubCoordinatorAlone, ServesItsOwnAndOffersWhatIsLeft) {
   SubAlone s;
   const auto status = s.status_after(4, SubAlone::with(20, 200));
-  const auto orders = s.transport.sent<message::Order>(4);
+  const auto orders = s.transport.sent<message::SendNodes>(4);
   ASSERT_EQ(orders.size(), 2);
   EXPECT_EQ(orders[0].to, 3);
   EXPECT_EQ(orders[1].to, 5);
   ASSERT_EQ(status.surplus.size(), 1);
   EXPECT_EQ(status.surplus[0].nodes, 200 - orders[0].count - orders[1].count);
   EXPECT_TRUE(status.work_requests.empty()) << "those who wait for a gift want none";
-  s.sub.handle(0, message::Order{7, 10});
-  ASSERT_EQ(s.transport.sent<message::Order>(4).size(), 3);
-  EXPECT_EQ(s.transport.sent<message::Order>(4).back().to, 7);
+  s.sub.handle(0, message::SendNodes{7, 10});
+  ASSERT_EQ(s.transport.sent<message::SendNodes>(4).size(), 3);
+  EXPECT_EQ(s.transport.sent<message::SendNodes>(4).back().to, 7);
 }
 
 TEST(SubCoordinatorAlone, PassesOnAnOrderThatNobodyHasNodesFor) {
   SubAlone s;
-  s.sub.handle(0, message::Order{7, 10});
-  EXPECT_EQ(s.transport.sent<message::Order>(3).size(), 1) << "the receiver waits for it";
+  s.sub.handle(0, message::SendNodes{7, 10});
+  EXPECT_EQ(s.transport.sent<message::SendNodes>(3).size(), 1) << "the receiver waits for it";
 }
 
 TEST(SubCoordinatorAlone, DropsPlansNoBetterThanTheIncumbentOnly) {
@@ -417,7 +417,7 @@ TEST(SubCoordinatorAlone, SaysFarewellForAllAndThatAlone) {
   }
   s.sub.send_updates(s.now += 10);
   EXPECT_TRUE(s.transport.sent<message::Status>(0).empty());
-  EXPECT_TRUE(s.transport.sent<message::Order>(4).empty());
+  EXPECT_TRUE(s.transport.sent<message::SendNodes>(4).empty());
   const auto said = s.transport.sent<message::Farewell>(0);
   ASSERT_EQ(said.size(), 1);
   EXPECT_EQ(said[0].survey.whole.counts.at("nodes_expanded"), 12);
