@@ -126,9 +126,9 @@ void Coordinator::restore(CheckpointReader& checkpoint) {
   const auto roots = run_.restore(checkpoint.header());
   restored_ = roots.has_value();
   if (!roots) return;
-  nodes_.entrust({{}, checkpoint.header().evicted_bound});
+  nodes_.assign({{}, checkpoint.header().evicted_bound});
   std::vector<NodeRecord> nodes;
-  const auto send = [&] { nodes_.entrust({std::exchange(nodes, {}), kInfiniteCost}); };
+  const auto send = [&] { nodes_.assign({std::exchange(nodes, {}), kInfiniteCost}); };
   while (auto next = checkpoint.next()) {
     const NodePtr& root = roots->at(next->tree);
     check(*next, *root, instance_);

@@ -149,8 +149,8 @@ void serialize(Archive& archive, NewTree& tree) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Entrust& entrust) {
-  archive(entrust.nodes, entrust.evicted_bound);
+void serialize(Archive& archive, AssignNodes& assign) {
+  archive(assign.nodes, assign.evicted_bound);
 }
 
 template <class Archive>

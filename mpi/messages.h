@@ -127,7 +127,7 @@ struct NewTree {
 };
 
 // Coordinator to a child: these nodes are yours; and others, of this bound at least, were given up.
-struct Entrust {
+struct AssignNodes {
   std::vector<NodeRecord> nodes;
   Cost evicted_bound = kInfiniteCost;
 };
@@ -189,7 +189,7 @@ struct Goodbye {
 
 using Message = std::variant<Status, Found, Gathered, Part, ProcessStatistics, Farewell,  // up
                              Batch, AskPrices, Prices, Facts,  // from rank to rank
-                             NewTree, Entrust, SendNodes, Release, Incumbent, BeginAnew, Gather,
+                             NewTree, AssignNodes, SendNodes, Release, Incumbent, BeginAnew, Gather,
                              More, Alive, End, Goodbye>;  // down
 
 struct Addressed {

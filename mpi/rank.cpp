@@ -87,7 +87,7 @@ void Rank::handle(int from, message::Message&& message) {
                    trees_of_facts_.add(root->tree());
                    take_over_held();
                  },
-                 [&](message::Entrust& entrusted) { accept(entrusted); },
+                 [&](message::AssignNodes& entrusted) { accept(entrusted); },
                  [&](message::SendNodes& order) { give(order); },
                  [&](message::Release& covered) { release(covered); },
                  [&](message::Incumbent& incumbent) {
@@ -174,10 +174,10 @@ void Rank::release(const message::Release& covered) {
   }
 }
 
-void Rank::accept(const message::Entrust& entrusted) {
+void Rank::accept(const message::AssignNodes& entrusted) {
   push(entrusted.nodes, {});
   nodes_.frontier.record_evicted_bound(entrusted.evicted_bound);
-  ++entrusted_;
+  ++assigned_;
   parent_.urge();
 }
 
@@ -237,7 +237,7 @@ message::Status Rank::status() const {
   status.open = static_cast<std::int64_t>(nodes_.frontier.open());
   status.expanded = nodes_.expanded;
   status.era = era_;
-  status.entrusted = entrusted_;
+  status.entrusted = assigned_;
   limits_.stop_requested();  // nobody else may look
   status.stopped = limits_.reason();
   for (const auto& [rank, peer] : peers_)

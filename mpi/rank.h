@@ -74,7 +74,7 @@ class Rank {
   bool keeps_next() const;
   void others_wait();
   void release(const message::Release& release);
-  void accept(const message::Entrust& entrusted);
+  void accept(const message::AssignNodes& entrusted);
   void gather();
   void send_part();
   void send_found();
@@ -106,7 +106,7 @@ class Rank {
   TreeIndex trees_of_facts_;
   Knowledge knowledge_;
   std::int32_t era_ = 0;
-  std::int64_t entrusted_ = 0;
+  std::int64_t assigned_ = 0;
   std::vector<Held> held_;
 
   struct Peer {

@@ -77,10 +77,10 @@ message::Status RankNodes::merged() const {
 
 void RankNodes::push(const NodePtr& root) {
   tell(root->tree());
-  entrust({{record_of(*root)}, kInfiniteCost});
+  assign({{record_of(*root)}, kInfiniteCost});
 }
 
-void RankNodes::entrust(int child, message::Entrust nodes) {
+void RankNodes::assign(int child, message::AssignNodes nodes) {
   Cost bound = nodes.evicted_bound;
   for (const NodeRecord& node : nodes.nodes) bound = std::min(bound, node.bound);
   bounds_.insert(bound);

@@ -38,8 +38,8 @@ class RankNodes : public LiveNodes {
 
   // Nodes for a child, by default the one with least to do, of trees that have been told; the bound
   // also covers what was given up.
-  void entrust(int child, message::Entrust nodes);
-  void entrust(message::Entrust nodes) { entrust(idlest(), std::move(nodes)); }
+  void assign(int child, message::AssignNodes nodes);
+  void assign(message::AssignNodes nodes) { assign(idlest(), std::move(nodes)); }
   // Tells all of a tree, once.
   void tell(const Tree& tree);
   // Tells all; until a child's status is of the new era it is not known what it holds.

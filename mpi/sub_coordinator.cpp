@@ -44,9 +44,9 @@ void SubCoordinator::handle(int from, message::Message&& message) {
           [&](message::Farewell& said) { farewell(said); },
           [&](message::SendNodes& ordered) { order(ordered); },
           [&](message::Release& release) { children_.tell(children_.with(release.from), release); },
-          [&](message::Entrust& nodes) {
-            ++entrusted_;
-            nodes_.entrust(std::move(nodes));
+          [&](message::AssignNodes& nodes) {
+            ++assigned_;
+            nodes_.assign(std::move(nodes));
             parent_.urge();
           },
           [&](message::BeginAnew& anew) { begin_anew(anew); },
@@ -111,7 +111,7 @@ void SubCoordinator::begin_anew(const message::BeginAnew& anew) {
 
 message::Status SubCoordinator::status() const {
   message::Status status = nodes_.merged();
-  status.entrusted = entrusted_;
+  status.entrusted = assigned_;
   status.surplus = load_balancer_.surplus();
   status.work_requests = load_balancer_.work_requests();
   status.taken = taken_;

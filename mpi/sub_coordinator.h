@@ -42,7 +42,7 @@ class SubCoordinator {
   LoadBalancer load_balancer_;
   ParentLink parent_;
   bool changed_ = false;               // since the last status
-  std::int64_t entrusted_ = 0;         // how many Entrust it has obeyed
+  std::int64_t assigned_ = 0;          // how many Entrust it has obeyed
   std::vector<message::Taken> taken_;  // not said yet
   Cost cutoff_ = kInfiniteCost;        // what the incumbent costs
   message::Gathered gathered_;         // of those that have looked

@@ -98,7 +98,7 @@ TEST(RankAlone, CoversWhatItGaveAwayUntilItIsReleased) {
   RankAlone r;
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
-  r.rank.handle(0, message::Entrust{{record_of(*root), record_of(*root)}, kInfiniteCost});
+  r.rank.handle(0, message::AssignNodes{{record_of(*root), record_of(*root)}, kInfiniteCost});
   const auto given = r.status_after(0, message::SendNodes{2, 1});
   EXPECT_EQ(r.rank.nodes().frontier.live(), 2);
   EXPECT_EQ(given.open, 1);
@@ -114,7 +114,7 @@ TEST(RankAlone, AtANodeGivesItsNextOneToAnIdleRankOnly) {
   RankAlone r;
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
-  r.rank.handle(0, message::Entrust{{record_of(*root), record_of(*root)}, kInfiniteCost});
+  r.rank.handle(0, message::AssignNodes{{record_of(*root), record_of(*root)}, kInfiniteCost});
   const NodePtr taken = r.rank.search().take();
   ASSERT_TRUE(taken);
   const auto kept = r.status_after(0, message::SendNodes{2, 1, false});
@@ -129,7 +129,7 @@ TEST(RankAlone, MayEndWithANodeUnfinished) {
   RankAlone r;
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
-  r.rank.handle(0, message::Entrust{{record_of(*root)}, kInfiniteCost});
+  r.rank.handle(0, message::AssignNodes{{record_of(*root)}, kInfiniteCost});
   Expansion expansion;
   expansion.unfinished = true;
   r.rank.search().finish(r.rank.search().take(), std::move(expansion), 0);
@@ -144,7 +144,7 @@ TEST(RankAlone, SaysMoreRarelyWhatCanWaitTheLongerARunTakes) {
   RankAlone r;
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
-  r.rank.handle(0, message::Entrust{std::vector(300, record_of(*root)), kInfiniteCost});
+  r.rank.handle(0, message::AssignNodes{std::vector(300, record_of(*root)), kInfiniteCost});
   const auto statuses_from = [&](double begin) {
     r.rank.send_updates(begin);
     r.transport.take();
@@ -167,7 +167,7 @@ TEST(RankAlone, IsInHasteAsLongAsOthersWaitForNodes) {
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
   const auto give = [&](std::size_t nodes) {
-    r.rank.handle(0, message::Entrust{std::vector(nodes, record_of(*root)), kInfiniteCost});
+    r.rank.handle(0, message::AssignNodes{std::vector(nodes, record_of(*root)), kInfiniteCost});
   };
   const auto expand = [&] {
     search.finish(search.take(), {}, 0);
@@ -197,7 +197,7 @@ TEST(RankNodes, CoverAllRootsOfANewBeginningUntilARankSaysThatItHasThem) {
   std::int64_t entrusted = 0;
   for (int rank = 0; rank < 2; ++rank) {
     EXPECT_EQ(transport.sent<message::BeginAnew>(rank).size(), 1);
-    const auto told = transport.sent<message::Entrust>(rank);
+    const auto told = transport.sent<message::AssignNodes>(rank);
     entrusted += std::ssize(told);
     for (std::int64_t obeyed = 0; obeyed < std::ssize(told); ++obeyed) {
       EXPECT_EQ(nodes.bound(), roots.front()->bound());
@@ -333,12 +333,12 @@ TEST(SubCoordinatorAlone, CoversWhatItPassesOnUntilAChildSaysThatItHasIt) {
   Setting setting;
   SubAlone s;
   const NodePtr root = setting.new_root();
-  const message::Entrust nodes{{record_of(*root)}, kInfiniteCost};
+  const message::AssignNodes nodes{{record_of(*root)}, kInfiniteCost};
   auto status = s.status_after(0, nodes);
   EXPECT_EQ(status.entrusted, 1);
   EXPECT_EQ(status.bound, root->bound());
   EXPECT_TRUE(status.live);
-  ASSERT_EQ(s.transport.sent<message::Entrust>(3).size(), 1);
+  ASSERT_EQ(s.transport.sent<message::AssignNodes>(3).size(), 1);
   message::Status has_it = SubAlone::with(root->bound() + 1, 0);
   has_it.entrusted = 1;
   status = s.status_after(3, has_it);
