@@ -164,10 +164,10 @@ void Coordinator::handle(int from, message::Message&& message) {
 
 void Coordinator::heard(int child, message::Status status) {
   load_balancer_.heard(child, status);
-  for (const message::Taken& taken : status.taken) {
+  for (const message::BatchReceived& taken : status.taken) {
     load_balancer_.arrived(taken.by);
     children_.tell(children_.with(taken.from),
-                   message::Release{taken.from, taken.by, taken.batches});
+                   message::ReleaseCustody{taken.from, taken.by, taken.batches});
   }
   if (status.stopped != StopReason::kNone) limits_.stop(status.stopped);
   if (status.proven > 0) run_.ledger().prove(status.proven, status.proven_by);

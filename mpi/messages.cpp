@@ -105,7 +105,7 @@ void serialize(Archive& archive, WorkRequest& want) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Taken& taken) {
+void serialize(Archive& archive, BatchReceived& taken) {
   archive(taken.by, taken.from, taken.batches);
 }
 
@@ -169,7 +169,7 @@ void serialize(Archive& archive, SendNodes& order) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Release& release) {
+void serialize(Archive& archive, ReleaseCustody& release) {
   archive(release.from, release.to, release.batches);
 }
 

@@ -46,12 +46,12 @@ struct WorkRequest {
 };
 
 // That many batches of rank `from` have been taken over by rank `by`.
-struct Taken {
+struct BatchReceived {
   std::int32_t by = 0;
   std::int32_t from = 0;
   std::int64_t batches = 0;
 
-  friend bool operator==(const Taken&, const Taken&) = default;
+  friend bool operator==(const BatchReceived&, const BatchReceived&) = default;
 };
 
 // To the superior: where a rank stands, or all that are below a coordinator. Covers the nodes it
@@ -70,7 +70,7 @@ struct Status {
   StopReason stopped = StopReason::kNone;  // a limit that struck there
   std::vector<Surplus> surplus;            // of the least bounds of which any can be spared
   std::vector<WorkRequest> work_requests;  // the neediest first; not of all ranks below
-  std::vector<Taken> taken;                // since the last status; from ranks not below
+  std::vector<BatchReceived> taken;        // since the last status; from ranks not below
 
   friend bool operator==(const Status&, const Status&) = default;
 };
@@ -142,7 +142,7 @@ struct SendNodes {
 
 // On its way to rank `from`: what it sent to rank `to`, up to this number of batches, is covered by
 // that rank's status.
-struct Release {
+struct ReleaseCustody {
   std::int32_t from = 0;
   std::int32_t to = 0;
   std::int64_t batches = 0;
@@ -189,8 +189,8 @@ struct Goodbye {
 
 using Message = std::variant<Status, Found, Gathered, Part, ProcessStatistics, Farewell,  // up
                              Batch, AskPrices, Prices, Facts,  // from rank to rank
-                             NewTree, AssignNodes, SendNodes, Release, Incumbent, BeginAnew, Gather,
-                             More, Alive, End, Goodbye>;  // down
+                             NewTree, AssignNodes, SendNodes, ReleaseCustody, Incumbent, BeginAnew,
+                             Gather, More, Alive, End, Goodbye>;  // down
 
 struct Addressed {
   int level = 0;  // whom it is for, on the rank that it has come to; see Post

@@ -89,7 +89,7 @@ void Rank::handle(int from, message::Message&& message) {
                  },
                  [&](message::AssignNodes& entrusted) { accept(entrusted); },
                  [&](message::SendNodes& order) { give(order); },
-                 [&](message::Release& covered) { release(covered); },
+                 [&](message::ReleaseCustody& covered) { release(covered); },
                  [&](message::Incumbent& incumbent) {
                    const Cost cost = incumbent.plan.cost;
                    ledger_.adopt(std::move(incumbent.plan));
@@ -165,7 +165,7 @@ bool Rank::keeps_next() const {
          static_cast<std::int64_t>(nodes_.frontier.open()) + in_custody_;
 }
 
-void Rank::release(const message::Release& covered) {
+void Rank::release(const message::ReleaseCustody& covered) {
   Peer& peer = peers_[covered.to];
   while (!peer.custody.empty() && peer.custody.begin()->first <= covered.batches) {
     for (const NodePtr& node : peer.custody.begin()->second) nodes_.frontier.settle(node);

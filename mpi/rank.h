@@ -73,7 +73,7 @@ class Rank {
   void give(const message::SendNodes& order);
   bool keeps_next() const;
   void others_wait();
-  void release(const message::Release& release);
+  void release(const message::ReleaseCustody& release);
   void accept(const message::AssignNodes& entrusted);
   void gather();
   void send_part();

@@ -34,39 +34,40 @@ void SubCoordinator::handle(int from, message::Message&& message) {
     throw std::invalid_argument("a message for somebody else came to a coordinator of some ranks");
   };
   std::visit(
-      Overloaded{
-          [&](message::Status& status) { heard(child(), std::move(status)); },
-          [&](message::Found& found) {
-            if (found.plan.cost < cutoff_) parent_.tell(found);
-          },
-          [&](message::ProcessStatistics& account) { parent_.tell(account); },
-          [&](message::Gathered& parts) { gathered(parts); },
-          [&](message::Farewell& said) { farewell(said); },
-          [&](message::SendNodes& ordered) { order(ordered); },
-          [&](message::Release& release) { children_.tell(children_.with(release.from), release); },
-          [&](message::AssignNodes& nodes) {
-            ++assigned_;
-            nodes_.assign(std::move(nodes));
-            parent_.urge();
-          },
-          [&](message::BeginAnew& anew) { begin_anew(anew); },
-          [&](message::Incumbent& incumbent) {
-            cutoff_ = std::min(cutoff_, incumbent.plan.cost);
-            children_.broadcast(incumbent);
-          },
-          [&](message::NewTree& tree) { children_.broadcast(tree); },
-          [&](message::Gather& gather) {
-            looked_ = 0;
-            gathered_ = {};
-            children_.broadcast(gather);
-          },
-          [&](message::Alive& alive) { children_.broadcast(alive); },
-          [&](message::End& end) {
-            ending_ = true;
-            parent_.end_reports();
-            children_.broadcast(end);
-          },
-          [&](message::Goodbye& goodbye) { children_.say_goodbye(goodbye); }, unexpected},
+      Overloaded{[&](message::Status& status) { heard(child(), std::move(status)); },
+                 [&](message::Found& found) {
+                   if (found.plan.cost < cutoff_) parent_.tell(found);
+                 },
+                 [&](message::ProcessStatistics& account) { parent_.tell(account); },
+                 [&](message::Gathered& parts) { gathered(parts); },
+                 [&](message::Farewell& said) { farewell(said); },
+                 [&](message::SendNodes& ordered) { order(ordered); },
+                 [&](message::ReleaseCustody& release) {
+                   children_.tell(children_.with(release.from), release);
+                 },
+                 [&](message::AssignNodes& nodes) {
+                   ++assigned_;
+                   nodes_.assign(std::move(nodes));
+                   parent_.urge();
+                 },
+                 [&](message::BeginAnew& anew) { begin_anew(anew); },
+                 [&](message::Incumbent& incumbent) {
+                   cutoff_ = std::min(cutoff_, incumbent.plan.cost);
+                   children_.broadcast(incumbent);
+                 },
+                 [&](message::NewTree& tree) { children_.broadcast(tree); },
+                 [&](message::Gather& gather) {
+                   looked_ = 0;
+                   gathered_ = {};
+                   children_.broadcast(gather);
+                 },
+                 [&](message::Alive& alive) { children_.broadcast(alive); },
+                 [&](message::End& end) {
+                   ending_ = true;
+                   parent_.end_reports();
+                   children_.broadcast(end);
+                 },
+                 [&](message::Goodbye& goodbye) { children_.say_goodbye(goodbye); }, unexpected},
       message);
   changed_ = true;
 }
@@ -74,11 +75,11 @@ void SubCoordinator::handle(int from, message::Message&& message) {
 // A batch between two of those below is covered by what is merged here, before and after.
 void SubCoordinator::heard(int child, message::Status&& status) {
   load_balancer_.heard(child, status);
-  for (const message::Taken& taken : status.taken) {
+  for (const message::BatchReceived& taken : status.taken) {
     load_balancer_.arrived(taken.by);
     if (children_.include(taken.from))
       children_.tell(children_.with(taken.from),
-                     message::Release{taken.from, taken.by, taken.batches});
+                     message::ReleaseCustody{taken.from, taken.by, taken.batches});
     else
       taken_.push_back(taken);
   }

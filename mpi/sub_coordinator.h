@@ -41,11 +41,11 @@ class SubCoordinator {
   RankNodes nodes_;
   LoadBalancer load_balancer_;
   ParentLink parent_;
-  bool changed_ = false;               // since the last status
-  std::int64_t assigned_ = 0;          // how many Entrust it has obeyed
-  std::vector<message::Taken> taken_;  // not said yet
-  Cost cutoff_ = kInfiniteCost;        // what the incumbent costs
-  message::Gathered gathered_;         // of those that have looked
+  bool changed_ = false;                       // since the last status
+  std::int64_t assigned_ = 0;                  // how many Entrust it has obeyed
+  std::vector<message::BatchReceived> taken_;  // not said yet
+  Cost cutoff_ = kInfiniteCost;                // what the incumbent costs
+  message::Gathered gathered_;                 // of those that have looked
   int looked_ = 0;
   message::Farewell farewell_;  // of those that have said it
   int farewells_ = 0;

@@ -60,14 +60,14 @@ struct RankAlone : Setting {
   }
 };
 
-using Taken = std::vector<message::Taken>;
+using BatchReceived = std::vector<message::BatchReceived>;
 
 TEST(RankAlone, SaysThatABatchWasTakenOverWhenItWas) {
   RankAlone r;
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
   const auto status = r.status_after(2, message::Batch{0, {record_of(*root)}, {}});
-  EXPECT_EQ(status.taken, Taken({{1, 2, 1}}));
+  EXPECT_EQ(status.taken, BatchReceived({{1, 2, 1}}));
   EXPECT_EQ(status.bound, root->bound());
 }
 
@@ -76,9 +76,10 @@ TEST(RankAlone, SaysNothingOfABatchWhoseTreeItHasNotHeardOf) {
   const NodePtr root = r.new_root();
   const message::Batch batch{0, {record_of(*root)}, {}};
   EXPECT_TRUE(r.status_after(2, batch).taken.empty());
-  EXPECT_EQ(r.status_after(2, message::Batch{}).taken, Taken()) << "those of a rank keep order";
+  EXPECT_EQ(r.status_after(2, message::Batch{}).taken, BatchReceived())
+      << "those of a rank keep order";
   const auto status = r.status_after(0, message::NewTree{0, record_of(root->tree())});
-  EXPECT_EQ(status.taken, Taken({{1, 2, 2}}));
+  EXPECT_EQ(status.taken, BatchReceived({{1, 2, 2}}));
   EXPECT_EQ(status.bound, root->bound());
 }
 
@@ -89,7 +90,7 @@ TEST(RankAlone, SaysNothingOfABatchOfALaterEra) {
   const auto early = r.status_after(2, message::Batch{1, {record_of(*root)}, {}});
   EXPECT_TRUE(early.taken.empty());
   const auto status = r.status_after(0, message::BeginAnew{0});
-  EXPECT_EQ(status.taken, Taken({{1, 2, 1}}));
+  EXPECT_EQ(status.taken, BatchReceived({{1, 2, 1}}));
   EXPECT_EQ(status.era, 1);
   EXPECT_EQ(status.bound, root->bound());
 }
@@ -104,9 +105,9 @@ TEST(RankAlone, CoversWhatItGaveAwayUntilItIsReleased) {
   EXPECT_EQ(given.open, 1);
   ASSERT_EQ(r.transport.sent<message::Batch>(2).size(), 1);
   const Frontier& frontier = r.rank.nodes().frontier;
-  r.rank.handle(0, message::Release{1, 2, 0});
+  r.rank.handle(0, message::ReleaseCustody{1, 2, 0});
   EXPECT_EQ(frontier.live(), 2);
-  r.rank.handle(0, message::Release{1, 2, 1});
+  r.rank.handle(0, message::ReleaseCustody{1, 2, 1});
   EXPECT_EQ(frontier.live(), 1);
 }
 
@@ -350,9 +351,9 @@ TEST(SubCoordinatorAlone, ReleasesWhatWentBetweenItsRanksAndPassesOnTheRest) {
   message::Status took = SubAlone::with(20, 0);
   took.taken = {{4, 5, 3}, {4, 8, 1}};
   const auto status = s.status_after(4, took);
-  EXPECT_EQ(status.taken, Taken({{4, 8, 1}}));
+  EXPECT_EQ(status.taken, BatchReceived({{4, 8, 1}}));
   EXPECT_EQ(status.bound, 20) << "the same status covers them";
-  const auto released = s.transport.sent<message::Release>(5);
+  const auto released = s.transport.sent<message::ReleaseCustody>(5);
   ASSERT_EQ(released.size(), 1);
   EXPECT_EQ(released[0].to, 4);
   EXPECT_EQ(released[0].batches, 3);
