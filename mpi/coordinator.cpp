@@ -147,7 +147,7 @@ void Coordinator::handle(int from, message::Message&& message) {
   std::visit(
       Overloaded{
           [&](message::Status& status) { heard(children_.with(from), std::move(status)); },
-          [&](message::Found& found) { run_.ledger().post(std::move(found.plan), found.source); },
+          [&](message::NewPlan& found) { run_.ledger().post(std::move(found.plan), found.source); },
           [&](message::Gathered& gathered) {
             if (gathering_) gathering_->handle(gathered);  // else it was given up
           },

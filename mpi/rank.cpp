@@ -297,7 +297,7 @@ void Rank::receive(message::Facts& facts) {
 
 void Rank::send_found() {
   if (auto found = ledger_.take_found())
-    parent_.tell(message::Found{std::move(found->plan), found->source});
+    parent_.tell(message::NewPlan{std::move(found->plan), found->source});
 }
 
 RunStatistics Rank::survey(Stats counts) const {

@@ -35,7 +35,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
   };
   std::visit(
       Overloaded{[&](message::Status& status) { heard(child(), std::move(status)); },
-                 [&](message::Found& found) {
+                 [&](message::NewPlan& found) {
                    if (found.plan.cost < cutoff_) parent_.tell(found);
                  },
                  [&](message::ProcessStatistics& account) { parent_.tell(account); },

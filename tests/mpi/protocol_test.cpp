@@ -396,12 +396,12 @@ TEST(SubCoordinatorAlone, DropsPlansNoBetterThanTheIncumbentOnly) {
   Plan plan;
   plan.cost = 50;
   s.sub.handle(0, message::Incumbent{plan});
-  s.sub.handle(4, message::Found{plan, PlanSource{}});
-  EXPECT_TRUE(s.transport.sent<message::Found>(0).empty());
+  s.sub.handle(4, message::NewPlan{plan, PlanSource{}});
+  EXPECT_TRUE(s.transport.sent<message::NewPlan>(0).empty());
   plan.cost = 49;
-  s.sub.handle(4, message::Found{plan, PlanSource{}});
-  s.sub.handle(5, message::Found{plan, PlanSource{}});
-  EXPECT_EQ(s.transport.sent<message::Found>(0).size(), 2) << "nobody has checked the first yet";
+  s.sub.handle(4, message::NewPlan{plan, PlanSource{}});
+  s.sub.handle(5, message::NewPlan{plan, PlanSource{}});
+  EXPECT_EQ(s.transport.sent<message::NewPlan>(0).size(), 2) << "nobody has checked the first yet";
 }
 
 TEST(SubCoordinatorAlone, SaysFarewellForAllAndThatAlone) {
