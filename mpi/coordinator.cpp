@@ -157,7 +157,7 @@ void Coordinator::handle(int from, message::Message&& message) {
           [&](message::ProcessStatistics& account) {
             for (const auto& [rank, survey] : account.survey.ranks) surveys_[rank] = account.survey;
           },
-          [&](message::Farewell& said) { leave(said); }, unexpected},
+          [&](message::RankFinished& said) { leave(said); }, unexpected},
       message);
   heard_at_ = limits_.now();  // after that: a checkpoint takes time to be written
 }
@@ -204,7 +204,7 @@ void Coordinator::step() {
   }
 }
 
-void Coordinator::leave(const message::Farewell& said) {
+void Coordinator::leave(const message::RankFinished& said) {
   add(said, farewell_);
   if (++farewells_ == children_.count()) children_.say_goodbye({farewell_.messages});
 }

@@ -62,7 +62,7 @@ class Coordinator {
   void restore(CheckpointReader& checkpoint);
   void heard(int child, message::Status status);
   void look_after_checkpoints();
-  void leave(const message::Farewell& said);
+  void leave(const message::RankFinished& said);
   RunStatistics told() const;
   RunStatistics survey() const;
 
@@ -86,7 +86,7 @@ class Coordinator {
   Clock::time_point heard_at_;                   // anybody, last
   std::optional<Clock::time_point> stopped_at_;  // when a limit was first seen to have struck
   int farewells_ = 0;
-  message::Farewell farewell_;            // of those that have said it
+  message::RankFinished farewell_;        // of those that have said it
   std::map<int, RunStatistics> surveys_;  // by rank, before the farewells; the last one
 };
 

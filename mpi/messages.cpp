@@ -129,8 +129,8 @@ void serialize(Archive& archive, ProcessStatistics& account) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Farewell& farewell) {
-  archive(farewell.survey, farewell.messages);
+void serialize(Archive& archive, RankFinished& send_finished) {
+  archive(send_finished.survey, send_finished.messages);
 }
 
 template <class Archive>
@@ -206,7 +206,7 @@ void save(Archive& archive, const ToAddress& parts) {
   archive(parts.level, parts.message);
 }
 
-void add(const Farewell& part, Farewell& sum) {
+void add(const RankFinished& part, RankFinished& sum) {
   detail::add(part.survey, sum.survey);
   for (const auto& [rank, messages] : part.messages) sum.messages[rank] += messages;
 }

@@ -98,13 +98,13 @@ struct ProcessStatistics {
 
 // To the superior, after End: what was done, and how many messages were sent to whom that went
 // directly from rank to rank. The sender sends nothing more.
-struct Farewell {
+struct RankFinished {
   RunStatistics survey;
   std::map<std::int32_t, std::int64_t> messages;
 };
 
 // What two say together.
-void add(const Farewell& part, Farewell& sum);
+void add(const RankFinished& part, RankFinished& sum);
 
 // Rank to rank: nodes and what is known about them. Perhaps none.
 struct Batch {
@@ -187,7 +187,7 @@ struct Goodbye {
   std::map<std::int32_t, std::int64_t> messages;
 };
 
-using Message = std::variant<Status, Found, Gathered, Part, ProcessStatistics, Farewell,  // up
+using Message = std::variant<Status, Found, Gathered, Part, ProcessStatistics, RankFinished,  // up
                              Batch, AskPrices, Prices, Facts,  // from rank to rank
                              NewTree, AssignNodes, SendNodes, ReleaseCustody, Incumbent, BeginAnew,
                              Gather, More, Alive, End, Goodbye>;  // down

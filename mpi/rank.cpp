@@ -324,9 +324,9 @@ void Rank::send_statistics(Stats counts) {
 }
 
 // Limits may strike just when a plan was found.
-void Rank::farewell(Stats counts) {
+void Rank::send_finished(Stats counts) {
   send_found();
-  parent_.tell(message::Farewell{survey(std::move(counts)), told_});
+  parent_.tell(message::RankFinished{survey(std::move(counts)), told_});
 }
 
 bool Rank::left() const {

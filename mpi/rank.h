@@ -57,7 +57,7 @@ class Rank {
   void send_statistics(Stats counts);
   // Is it time for workers to end? Then, when they have, say farewell: what they counted.
   bool ended() const { return ended_; }
-  void farewell(Stats counts);
+  void send_finished(Stats counts);
   // Is nothing more to come?
   bool left() const;
 

@@ -125,7 +125,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
       accounted = now;
     }
     if (!said_farewell && searching.ended() && member.rank().ended()) {
-      member.rank().farewell(searching.counts());
+      member.rank().send_finished(searching.counts());
       said_farewell = true;
     }
     if (heard) heard_at = now;

@@ -40,7 +40,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
                  },
                  [&](message::ProcessStatistics& account) { parent_.tell(account); },
                  [&](message::Gathered& parts) { gathered(parts); },
-                 [&](message::Farewell& said) { farewell(said); },
+                 [&](message::RankFinished& said) { send_finished(said); },
                  [&](message::SendNodes& ordered) { order(ordered); },
                  [&](message::ReleaseCustody& release) {
                    children_.tell(children_.with(release.from), release);
@@ -95,7 +95,7 @@ void SubCoordinator::gathered(const message::Gathered& parts) {
   if (++looked_ == children_.count()) parent_.tell(gathered_);
 }
 
-void SubCoordinator::farewell(const message::Farewell& said) {
+void SubCoordinator::send_finished(const message::RankFinished& said) {
   add(said, farewell_);
   if (++farewells_ == children_.count()) parent_.tell(farewell_);
 }

@@ -32,7 +32,7 @@ class SubCoordinator {
  private:
   void heard(int child, message::Status&& status);
   void gathered(const message::Gathered& gathered);
-  void farewell(const message::Farewell& said);
+  void send_finished(const message::RankFinished& said);
   void order(const message::SendNodes& order);
   void begin_anew(const message::BeginAnew& anew);
   message::Status status() const;
@@ -47,7 +47,7 @@ class SubCoordinator {
   Cost cutoff_ = kInfiniteCost;                // what the incumbent costs
   message::Gathered gathered_;                 // of those that have looked
   int looked_ = 0;
-  message::Farewell farewell_;  // of those that have said it
+  message::RankFinished farewell_;  // of those that have said it
   int farewells_ = 0;
   bool ending_ = false;
 };

@@ -163,7 +163,7 @@ class Simulation {
     const bool heard = r.member.exchange_messages(now_);
     if (r.member.rank().ended() && !r.said_farewell) {
       if (r.player.busy()) abandon_work(r);
-      r.member.rank().farewell({});
+      r.member.rank().send_finished({});
       r.said_farewell = true;
     }
     r.talking_processor_s += processor_time() - before_s;

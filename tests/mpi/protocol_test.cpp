@@ -266,9 +266,9 @@ TEST(CoordinatorAlone, DoesWithoutTheSilentWhenALimitHasStruck) {
   coordinator.handle(2, message::Gathered{});  // late
   coordinator.step();
   EXPECT_EQ(transport.sent<message::End>(1).size(), 1);
-  message::Farewell farewell;
-  farewell.survey.ranks[1] = {};
-  coordinator.handle(1, std::move(farewell));
+  message::RankFinished send_finished;
+  send_finished.survey.ranks[1] = {};
+  coordinator.handle(1, std::move(send_finished));
   EXPECT_EQ(coordinator.give_up_the_silent(), 0);
   wait();
   EXPECT_EQ(coordinator.give_up_the_silent(), 1) << "rank 2; this one does not stand still";
@@ -409,17 +409,17 @@ TEST(SubCoordinatorAlone, SaysFarewellForAllAndThatAlone) {
   s.sub.handle(0, message::End{});
   s.status_after(4, SubAlone::with(20, 8));
   for (const int rank : {3, 4, 5}) {
-    EXPECT_TRUE(s.transport.sent<message::Farewell>(0).empty());
-    message::Farewell farewell;
-    farewell.survey.whole.counts["nodes_expanded"] = rank;
-    farewell.survey.ranks[rank].expanded = rank;
-    farewell.messages = {{8, 1}, {rank, 2}};
-    s.sub.handle(rank, std::move(farewell));
+    EXPECT_TRUE(s.transport.sent<message::RankFinished>(0).empty());
+    message::RankFinished send_finished;
+    send_finished.survey.whole.counts["nodes_expanded"] = rank;
+    send_finished.survey.ranks[rank].expanded = rank;
+    send_finished.messages = {{8, 1}, {rank, 2}};
+    s.sub.handle(rank, std::move(send_finished));
   }
   s.sub.send_updates(s.now += 10);
   EXPECT_TRUE(s.transport.sent<message::Status>(0).empty());
   EXPECT_TRUE(s.transport.sent<message::SendNodes>(4).empty());
-  const auto said = s.transport.sent<message::Farewell>(0);
+  const auto said = s.transport.sent<message::RankFinished>(0);
   ASSERT_EQ(said.size(), 1);
   EXPECT_EQ(said[0].survey.whole.counts.at("nodes_expanded"), 12);
   EXPECT_EQ(said[0].survey.ranks.size(), 3);

@@ -96,7 +96,7 @@ struct Process {
       if (worker->turn) return;
       worker->add_counts(stats);
     }
-    member.rank().farewell(stats);
+    member.rank().send_finished(stats);
     said_farewell = true;
   }
 
