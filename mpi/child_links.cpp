@@ -21,8 +21,8 @@ void ChildLinks::broadcast(const message::Message& message) {
     transport_.send(hierarchy_.child(post_, child).rank, bytes);
 }
 
-void ChildLinks::say_goodbye(const message::Goodbye& goodbye) {
-  std::vector<message::Goodbye> parts(static_cast<std::size_t>(count()));
+void ChildLinks::send_message_counts(const message::MessageCounts& goodbye) {
+  std::vector<message::MessageCounts> parts(static_cast<std::size_t>(count()));
   for (const auto& [rank, messages] : goodbye.messages)
     parts.at(static_cast<std::size_t>(with(rank))).messages[rank] = messages;
   for (int child = 0; child < count(); ++child) tell(child, parts[static_cast<std::size_t>(child)]);

@@ -27,7 +27,7 @@ class ChildLinks {
   void tell(int child, const message::Message& message);
   void broadcast(const message::Message& message);
   // Each its part of this.
-  void say_goodbye(const message::Goodbye& goodbye);
+  void send_message_counts(const message::MessageCounts& goodbye);
 
  private:
   Transport& transport_;

@@ -206,7 +206,7 @@ void Coordinator::step() {
 
 void Coordinator::leave(const message::RankFinished& said) {
   add(said, farewell_);
-  if (++farewells_ == children_.count()) children_.say_goodbye({farewell_.messages});
+  if (++farewells_ == children_.count()) children_.send_message_counts({farewell_.messages});
 }
 
 // What is known of a rank that stands still goes on to hold. Until the limit there may have been

@@ -184,7 +184,7 @@ void serialize(Archive& archive, BeginAnew& anew) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Goodbye& goodbye) {
+void serialize(Archive& archive, MessageCounts& goodbye) {
   archive(goodbye.messages);
 }
 

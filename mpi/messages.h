@@ -183,14 +183,14 @@ struct Alive {};
 struct End {};
 
 // To all below, after their farewells: how many messages were sent to each directly, by rank.
-struct Goodbye {
+struct MessageCounts {
   std::map<std::int32_t, std::int64_t> messages;
 };
 
 using Message = std::variant<Status, Found, Gathered, Part, ProcessStatistics, RankFinished,  // up
                              Batch, AskPrices, Prices, Facts,  // from rank to rank
                              NewTree, AssignNodes, SendNodes, ReleaseCustody, Incumbent, BeginAnew,
-                             Gather, More, Alive, End, Goodbye>;  // down
+                             Gather, More, Alive, End, MessageCounts>;  // down
 
 struct Addressed {
   int level = 0;  // whom it is for, on the rank that it has come to; see Post

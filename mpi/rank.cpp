@@ -65,46 +65,47 @@ void Rank::handle(int from, message::Message&& message) {
     throw std::invalid_argument("a message for the coordinator came to a rank");
   };
   std::visit(
-      Overloaded{[&](message::Batch& batch) {
-                   ++heard_;
-                   take_over(from, batch);
-                 },
-                 [&](message::AskPrices& ask) {
-                   ++heard_;
-                   search_.lagrangian().help(problem_.instance, std::move(ask.share));
-                 },
-                 [&](message::Prices& prices) {
-                   ++heard_;
-                   ledger_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
-                                 BoundSource::kLagrangian);
-                 },
-                 [&](message::Facts& facts) {
-                   ++heard_;
-                   receive(facts);
-                 },
-                 [&](message::NewTree& tree) {
-                   const NodePtr& root = roots_[tree.number] = trees_.add(tree.tree, tree.number);
-                   trees_of_facts_.add(root->tree());
-                   take_over_held();
-                 },
-                 [&](message::AssignNodes& entrusted) { accept(entrusted); },
-                 [&](message::SendNodes& order) { give(order); },
-                 [&](message::ReleaseCustody& covered) { release(covered); },
-                 [&](message::Incumbent& incumbent) {
-                   const Cost cost = incumbent.plan.cost;
-                   ledger_.adopt(std::move(incumbent.plan));
-                   nodes_.prune(cost);
-                 },
-                 [&](message::BeginAnew& anew) { begin_anew(anew.proven); },
-                 [&](message::Gather&) { gather(); }, [&](message::More&) { send_part(); },
-                 [](message::Alive&) {},
-                 [&](message::End&) {
-                   ended_ = true;
-                   parent_.end_reports();
-                   ledger_.end();
-                 },
-                 [&](message::Goodbye& goodbye) { to_hear_ = goodbye.messages[transport_.rank()]; },
-                 unexpected},
+      Overloaded{
+          [&](message::Batch& batch) {
+            ++heard_;
+            take_over(from, batch);
+          },
+          [&](message::AskPrices& ask) {
+            ++heard_;
+            search_.lagrangian().help(problem_.instance, std::move(ask.share));
+          },
+          [&](message::Prices& prices) {
+            ++heard_;
+            ledger_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
+                          BoundSource::kLagrangian);
+          },
+          [&](message::Facts& facts) {
+            ++heard_;
+            receive(facts);
+          },
+          [&](message::NewTree& tree) {
+            const NodePtr& root = roots_[tree.number] = trees_.add(tree.tree, tree.number);
+            trees_of_facts_.add(root->tree());
+            take_over_held();
+          },
+          [&](message::AssignNodes& entrusted) { accept(entrusted); },
+          [&](message::SendNodes& order) { give(order); },
+          [&](message::ReleaseCustody& covered) { release(covered); },
+          [&](message::Incumbent& incumbent) {
+            const Cost cost = incumbent.plan.cost;
+            ledger_.adopt(std::move(incumbent.plan));
+            nodes_.prune(cost);
+          },
+          [&](message::BeginAnew& anew) { begin_anew(anew.proven); },
+          [&](message::Gather&) { gather(); }, [&](message::More&) { send_part(); },
+          [](message::Alive&) {},
+          [&](message::End&) {
+            ended_ = true;
+            parent_.end_reports();
+            ledger_.end();
+          },
+          [&](message::MessageCounts& goodbye) { to_hear_ = goodbye.messages[transport_.rank()]; },
+          unexpected},
       message);
 }
 

@@ -67,7 +67,8 @@ void SubCoordinator::handle(int from, message::Message&& message) {
                    parent_.end_reports();
                    children_.broadcast(end);
                  },
-                 [&](message::Goodbye& goodbye) { children_.say_goodbye(goodbye); }, unexpected},
+                 [&](message::MessageCounts& goodbye) { children_.send_message_counts(goodbye); },
+                 unexpected},
       message);
   changed_ = true;
 }

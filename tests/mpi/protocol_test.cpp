@@ -425,9 +425,9 @@ TEST(SubCoordinatorAlone, SaysFarewellForAllAndThatAlone) {
   EXPECT_EQ(said[0].survey.ranks.size(), 3);
   EXPECT_EQ(said[0].messages,
             (std::map<std::int32_t, std::int64_t>{{3, 2}, {4, 2}, {5, 2}, {8, 3}}));
-  s.sub.handle(0, message::Goodbye{{{3, 7}, {5, 9}}});
-  EXPECT_EQ(s.transport.sent<message::Goodbye>(5).at(0).messages.at(5), 9);
-  EXPECT_TRUE(s.transport.sent<message::Goodbye>(4).at(0).messages.empty());
+  s.sub.handle(0, message::MessageCounts{{{3, 7}, {5, 9}}});
+  EXPECT_EQ(s.transport.sent<message::MessageCounts>(5).at(0).messages.at(5), 9);
+  EXPECT_TRUE(s.transport.sent<message::MessageCounts>(4).at(0).messages.empty());
 }
 
 }  // namespace protocol_test
