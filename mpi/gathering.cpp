@@ -64,14 +64,14 @@ void Gathering::handle(const message::Gathered& gathered) {
 }
 
 // Who has sent its part, or is still to be asked, would take rank 0 for one that stands still.
-void Gathering::give_sign_of_life() {
+void Gathering::send_heartbeat() {
   if (limits_.now() - said_ < kLongestPause) return;
-  children_.broadcast(message::Alive{});
+  children_.broadcast(message::Heartbeat{});
   said_ = limits_.now();
 }
 
 void Gathering::handle(message::Part&& part) {
-  give_sign_of_life();
+  send_heartbeat();
   write([&] {
     for (NodeRecord& node : part.nodes) {
       if (node.tree >= trees_) continue;

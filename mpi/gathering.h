@@ -32,7 +32,7 @@ class Gathering {
   using Clock = Limits::Clock;
 
   void ask_next();
-  void give_sign_of_life();
+  void send_heartbeat();
   // Calls `what`, which may fail; then nothing more is written.
   template <class Write>
   void write(Write what);

@@ -177,7 +177,7 @@ struct Part {
 };
 
 // To all below, while a checkpoint is written: rank 0 does not stand still.
-struct Alive {};
+struct Heartbeat {};
 
 // To all below: it is over; say farewell.
 struct End {};
@@ -190,7 +190,7 @@ struct MessageCounts {
 using Message = std::variant<Status, Found, Gathered, Part, ProcessStatistics, RankFinished,  // up
                              Batch, AskPrices, Prices, Facts,  // from rank to rank
                              NewTree, AssignNodes, SendNodes, ReleaseCustody, Incumbent, BeginAnew,
-                             Gather, More, Alive, End, MessageCounts>;  // down
+                             Gather, More, Heartbeat, End, MessageCounts>;  // down
 
 struct Addressed {
   int level = 0;  // whom it is for, on the rank that it has come to; see Post

@@ -98,7 +98,7 @@ void Rank::handle(int from, message::Message&& message) {
           },
           [&](message::BeginAnew& anew) { begin_anew(anew.proven); },
           [&](message::Gather&) { gather(); }, [&](message::More&) { send_part(); },
-          [](message::Alive&) {},
+          [](message::Heartbeat&) {},
           [&](message::End&) {
             ended_ = true;
             parent_.end_reports();

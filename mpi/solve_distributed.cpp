@@ -21,8 +21,8 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kAccountInterval_s = 2;  // of what nobody but who looks on has to know
-constexpr double kSignsOfLife_s = 0.3;    // while all wait for a worker to end
+constexpr double kAccountInterval_s = 2;      // of what nobody but who looks on has to know
+constexpr double kHeartbeatInterval_s = 0.3;  // while all wait for a worker to end
 
 constexpr double kLeastNap_s = 1e-5;  // or a look would be taken for the next one
 
@@ -119,7 +119,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
       const std::int64_t silent = coordinator->give_up_the_silent();
       if (silent > 0) throw SilentRanks(coordinator->conclude(), silent);
     }
-    const double interval = member.rank().ended() ? kSignsOfLife_s : kAccountInterval_s;
+    const double interval = member.rank().ended() ? kHeartbeatInterval_s : kAccountInterval_s;
     if (!said_farewell && now - accounted > interval) {
       member.rank().send_statistics(searching.counts());
       accounted = now;

@@ -61,7 +61,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
                    gathered_ = {};
                    children_.broadcast(gather);
                  },
-                 [&](message::Alive& alive) { children_.broadcast(alive); },
+                 [&](message::Heartbeat& alive) { children_.broadcast(alive); },
                  [&](message::End& end) {
                    ending_ = true;
                    parent_.end_reports();
