@@ -211,7 +211,7 @@ void Coordinator::leave(const message::RankFinished& said) {
 
 // What is known of a rank that stands still goes on to hold. Until the limit there may have been
 // nothing to say. This rank does not stand still: its worker may be in the midst of something.
-std::int64_t Coordinator::give_up_the_silent() {
+std::int64_t Coordinator::check_unresponsive_ranks() {
   if (ended() || !limits_.stop_requested()) return 0;
   const Clock::time_point now = limits_.now();
   if (!stopped_at_) stopped_at_ = now;

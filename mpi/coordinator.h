@@ -41,7 +41,7 @@ class Coordinator {
   // If a limit has struck, and somebody who is waited for has said nothing for too long since then:
   // gives up a checkpoint that was being made; if there was none, says how many ranks but this one
   // have not said farewell, themselves or by who speaks for them. Else 0.
-  std::int64_t give_up_the_silent();
+  std::int64_t check_unresponsive_ranks();
   // When ended(), or without those ranks: the answer.
   Solution conclude();
 

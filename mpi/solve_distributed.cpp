@@ -75,7 +75,7 @@ class Searching {
 
 // For how long nothing was heard. Of a time in which this process did not run hardly anything
 // counts: what came meanwhile is still to be heard.
-class Silence {
+class ReceiveTimeout {
  public:
   void go_on(double now, bool heard) {
     seconds_ = heard ? 0 : seconds_ + std::min(now - last_, kMostAtOnce_s);
@@ -92,7 +92,7 @@ class Silence {
 
 }  // namespace
 
-SilentRanks::SilentRanks(Solution found, std::int64_t count)
+UnresponsiveRanks::UnresponsiveRanks(Solution found, std::int64_t count)
     : std::runtime_error(
           fmt::format("{} ranks say nothing any more after a limit has struck", count)),
       solution(std::move(found)),
@@ -106,7 +106,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
   RankProcess member(problem, options, limits, observer, transport);
   Searching searching(problem, options, limits, member.rank(), transport.rank());
   const double patience = options.tuning.patience;
-  Silence silence;
+  ReceiveTimeout silence;
   bool said_farewell = false;
   double accounted = 0;
   double heard_at = 0;
@@ -116,8 +116,8 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
     const bool heard = member.exchange_messages(now);
     meanwhile();
     if (auto* coordinator = member.coordinator()) {
-      const std::int64_t silent = coordinator->give_up_the_silent();
-      if (silent > 0) throw SilentRanks(coordinator->conclude(), silent);
+      const std::int64_t silent = coordinator->check_unresponsive_ranks();
+      if (silent > 0) throw UnresponsiveRanks(coordinator->conclude(), silent);
     }
     const double interval = member.rank().ended() ? kHeartbeatInterval_s : kAccountInterval_s;
     if (!said_farewell && now - accounted > interval) {

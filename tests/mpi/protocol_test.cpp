@@ -253,25 +253,25 @@ TEST(CoordinatorAlone, DoesWithoutTheSilentWhenALimitHasStruck) {
   coordinator.step();
   const auto wait = [&] { clock.advance(milliseconds(701)); };
   wait();
-  EXPECT_EQ(coordinator.give_up_the_silent(), 0);
+  EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0);
   coordinator.handle(1, message::Gathered{});  // it counts: nothing was given up before a limit
   s.limits.stop(StopReason::kTime);
-  EXPECT_EQ(coordinator.give_up_the_silent(), 0) << "it has just been heard";
+  EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0) << "it has just been heard";
   clock.advance(milliseconds(699));
-  EXPECT_EQ(coordinator.give_up_the_silent(), 0) << "that is not long";
+  EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0) << "that is not long";
   coordinator.step();
   EXPECT_TRUE(transport.sent<message::End>(1).empty());
   clock.advance(milliseconds(1));
-  EXPECT_EQ(coordinator.give_up_the_silent(), 0) << "the checkpoint comes first";
+  EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0) << "the checkpoint comes first";
   coordinator.handle(2, message::Gathered{});  // late
   coordinator.step();
   EXPECT_EQ(transport.sent<message::End>(1).size(), 1);
   message::RankFinished send_finished;
   send_finished.survey.ranks[1] = {};
   coordinator.handle(1, std::move(send_finished));
-  EXPECT_EQ(coordinator.give_up_the_silent(), 0);
+  EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0);
   wait();
-  EXPECT_EQ(coordinator.give_up_the_silent(), 1) << "rank 2; this one does not stand still";
+  EXPECT_EQ(coordinator.check_unresponsive_ranks(), 1) << "rank 2; this one does not stand still";
   EXPECT_GT(coordinator.conclude().lower_bound, 0);
 }
 
@@ -286,11 +286,12 @@ TEST(CoordinatorAlone, CallsNobodySilentForWhatWasBeforeTheLimit) {
     s.limits.stop(StopReason::kTime);
     coordinator.step();
     EXPECT_EQ(transport.sent<message::End>(0).size(), 1);
-    EXPECT_EQ(coordinator.give_up_the_silent(), 0);
+    EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0);
     clock.advance(milliseconds(1399));
-    EXPECT_EQ(coordinator.give_up_the_silent(), 0) << "ranks may be in the midst of something";
+    EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0)
+        << "ranks may be in the midst of something";
     clock.advance(milliseconds(1));
-    EXPECT_EQ(coordinator.give_up_the_silent(), ranks - 1);
+    EXPECT_EQ(coordinator.check_unresponsive_ranks(), ranks - 1);
   }
 }
 

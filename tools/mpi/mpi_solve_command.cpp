@@ -160,7 +160,7 @@ class Run {
     try {
       const auto network = session_.connect();
       return solve_distributed(problem, options_, limits_, *network, observer, [] {});
-    } catch (SilentRanks& silence) {
+    } catch (UnresponsiveRanks& silence) {
       missing_ = silence.ranks;
       return std::move(silence.solution);
     } catch (const InputError& error) {
