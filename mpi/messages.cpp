@@ -179,7 +179,7 @@ void serialize(Archive& archive, Incumbent& incumbent) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, BeginAnew& anew) {
+void serialize(Archive& archive, Restart& anew) {
   archive(anew.proven);
 }
 

@@ -65,7 +65,7 @@ struct Status {
   bool live = false;  // is any node?
   std::int64_t open = 0;
   std::int64_t expanded = 0;
-  std::int32_t era = 0;                    // how many BeginAnew all have obeyed
+  std::int32_t era = 0;                    // how many Restart all have obeyed
   std::int64_t entrusted = 0;              // how many Entrust it has obeyed
   StopReason stopped = StopReason::kNone;  // a limit that struck there
   std::vector<Surplus> surplus;            // of the least bounds of which any can be spared
@@ -155,7 +155,7 @@ struct Incumbent {
 
 // To all below: no node is live anywhere; forget what was given up, the roots come again.
 // Every plan that was not pruned costs `proven` at least.
-struct BeginAnew {
+struct Restart {
   Cost proven = 0;
 };
 
@@ -189,7 +189,7 @@ struct MessageCounts {
 
 using Message = std::variant<Status, Found, Gathered, Part, ProcessStatistics, RankFinished,  // up
                              Batch, AskPrices, Prices, Facts,  // from rank to rank
-                             NewTree, AssignNodes, SendNodes, ReleaseCustody, Incumbent, BeginAnew,
+                             NewTree, AssignNodes, SendNodes, ReleaseCustody, Incumbent, Restart,
                              Gather, More, Heartbeat, End, MessageCounts>;  // down
 
 struct Addressed {

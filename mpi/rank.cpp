@@ -96,7 +96,7 @@ void Rank::handle(int from, message::Message&& message) {
             ledger_.adopt(std::move(incumbent.plan));
             nodes_.prune(cost);
           },
-          [&](message::BeginAnew& anew) { begin_anew(anew.proven); },
+          [&](message::Restart& anew) { begin_anew(anew.proven); },
           [&](message::Gather&) { gather(); }, [&](message::More&) { send_part(); },
           [](message::Heartbeat&) {},
           [&](message::End&) {

@@ -104,7 +104,7 @@ int RankNodes::idlest() const {
 }
 
 void RankNodes::begin_anew(Cost proven) {
-  children_.broadcast(message::BeginAnew{proven});
+  children_.broadcast(message::Restart{proven});
   ++era_;
   children_of_this_era_ = 0;
 }

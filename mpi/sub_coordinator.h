@@ -34,7 +34,7 @@ class SubCoordinator {
   void gathered(const message::Gathered& gathered);
   void send_finished(const message::RankFinished& said);
   void order(const message::SendNodes& order);
-  void begin_anew(const message::BeginAnew& anew);
+  void begin_anew(const message::Restart& anew);
   message::Status status() const;
 
   ChildLinks children_;

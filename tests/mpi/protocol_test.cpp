@@ -89,7 +89,7 @@ TEST(RankAlone, SaysNothingOfABatchOfALaterEra) {
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
   const auto early = r.status_after(2, message::Batch{1, {record_of(*root)}, {}});
   EXPECT_TRUE(early.taken.empty());
-  const auto status = r.status_after(0, message::BeginAnew{0});
+  const auto status = r.status_after(0, message::Restart{0});
   EXPECT_EQ(status.taken, BatchReceived({{1, 2, 1}}));
   EXPECT_EQ(status.era, 1);
   EXPECT_EQ(status.bound, root->bound());
@@ -197,7 +197,7 @@ TEST(RankNodes, CoverAllRootsOfANewBeginningUntilARankSaysThatItHasThem) {
   nodes.restart(roots, 0);
   std::int64_t entrusted = 0;
   for (int rank = 0; rank < 2; ++rank) {
-    EXPECT_EQ(transport.sent<message::BeginAnew>(rank).size(), 1);
+    EXPECT_EQ(transport.sent<message::Restart>(rank).size(), 1);
     const auto told = transport.sent<message::AssignNodes>(rank);
     entrusted += std::ssize(told);
     for (std::int64_t obeyed = 0; obeyed < std::ssize(told); ++obeyed) {
@@ -363,12 +363,12 @@ TEST(SubCoordinatorAlone, ReleasesWhatWentBetweenItsRanksAndPassesOnTheRest) {
 
 TEST(SubCoordinatorAlone, IsOfTheOldEraUntilAllBelowHaveBegunAnew) {
   SubAlone s;
-  EXPECT_EQ(s.status_after(0, message::BeginAnew{7}).era, 0);
+  EXPECT_EQ(s.status_after(0, message::Restart{7}).era, 0);
   message::Status anew;
   anew.era = 1;
   for (const int rank : {3, 4}) EXPECT_EQ(s.status_after(rank, anew).era, 0);
   EXPECT_EQ(s.status_after(5, anew).era, 1);
-  for (const int rank : {3, 4, 5}) EXPECT_EQ(s.transport.sent<message::BeginAnew>(rank).size(), 1);
+  for (const int rank : {3, 4, 5}) EXPECT_EQ(s.transport.sent<message::Restart>(rank).size(), 1);
 }
 
 TEST(SubCoordinatorAlone, ServesItsOwnAndOffersWhatIsLeft) {
