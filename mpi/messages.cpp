@@ -111,7 +111,7 @@ void serialize(Archive& archive, BatchReceived& taken) {
 
 template <class Archive>
 void serialize(Archive& archive, Status& s) {
-  archive(s.bound, s.evicted_bound, s.proven, s.live, s.open, s.expanded, s.era, s.entrusted);
+  archive(s.bound, s.evicted_bound, s.proven, s.live, s.open, s.expanded, s.epoch, s.entrusted);
   enumerated(archive, s.proven_by, kLastProvenBy);
   enumerated(archive, s.stopped, StopReason::kInterrupt);
   archive(s.surplus, s.work_requests, s.taken);
@@ -135,7 +135,7 @@ void serialize(Archive& archive, RankFinished& send_finished) {
 
 template <class Archive>
 void serialize(Archive& archive, Batch& batch) {
-  archive(batch.era, batch.nodes, batch.findings);
+  archive(batch.epoch, batch.nodes, batch.findings);
 }
 
 template <class Archive>

@@ -65,7 +65,7 @@ struct Status {
   bool live = false;  // is any node?
   std::int64_t open = 0;
   std::int64_t expanded = 0;
-  std::int32_t era = 0;                    // how many Restart all have obeyed
+  std::int32_t epoch = 0;                  // how many Restart all have obeyed
   std::int64_t entrusted = 0;              // how many Entrust it has obeyed
   StopReason stopped = StopReason::kNone;  // a limit that struck there
   std::vector<Surplus> surplus;            // of the least bounds of which any can be spared
@@ -108,7 +108,7 @@ void add(const RankFinished& part, RankFinished& sum);
 
 // Rank to rank: nodes and what is known about them. Perhaps none.
 struct Batch {
-  std::int32_t era = 0;
+  std::int32_t epoch = 0;
   std::vector<NodeRecord> nodes;
   std::vector<GroupBound> findings;
 };

@@ -37,9 +37,9 @@ void ParentLink::tell(const message::Message& message) {
 bool ParentLink::is_urgent(const message::Status& status) const {
   const bool has_more = !status.surplus.empty() && status.open / 2 > 2 * (said_.open / 2);
   return has_more || !status.taken.empty() || status.entrusted != said_.entrusted ||
-         status.era != said_.era || status.bound != said_.bound || status.proven != said_.proven ||
-         status.stopped != said_.stopped || status.live != said_.live ||
-         has_idle(status) != has_idle(said_);
+         status.epoch != said_.epoch || status.bound != said_.bound ||
+         status.proven != said_.proven || status.stopped != said_.stopped ||
+         status.live != said_.live || has_idle(status) != has_idle(said_);
 }
 
 bool ParentLink::report(message::Status status, double now) {

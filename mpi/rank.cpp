@@ -111,7 +111,7 @@ void Rank::handle(int from, message::Message&& message) {
 
 // Its tree may not have been heard of yet, or what was given up here has yet to be forgotten.
 bool Rank::is_early(const message::Batch& batch) const {
-  return batch.era > era_ || std::ranges::any_of(batch.nodes, [&](const NodeRecord& node) {
+  return batch.epoch > epoch_ || std::ranges::any_of(batch.nodes, [&](const NodeRecord& node) {
            return !roots_.contains(node.tree);
          });
 }
@@ -140,7 +140,7 @@ void Rank::give(const message::SendNodes& order) {
   const auto nodes =
       nodes_.frontier.take_for_transfer(static_cast<std::size_t>(order.count), keeps);
   message::Batch batch;
-  batch.era = era_;
+  batch.epoch = epoch_;
   for (const NodePtr& node : nodes) batch.nodes.push_back(record_of(*node));
   batch.findings = group_bounds_of(nodes, *search_.memory());
   Peer& peer = peers_[order.to];
@@ -214,7 +214,7 @@ void Rank::send_part() {
 
 void Rank::begin_anew(Cost proven) {
   nodes_.restart({}, proven);
-  ++era_;
+  ++epoch_;
   parent_.urge();
   take_over_held();
 }
@@ -237,7 +237,7 @@ message::Status Rank::status() const {
       {transport_.rank(), idle, levels.empty() ? kInfiniteCost : levels.front().bound}};
   status.open = static_cast<std::int64_t>(nodes_.frontier.open());
   status.expanded = nodes_.expanded;
-  status.era = era_;
+  status.epoch = epoch_;
   status.entrusted = assigned_;
   limits_.stop_requested();  // nobody else may look
   status.stopped = limits_.reason();

@@ -105,7 +105,7 @@ class Rank {
   std::map<std::uint32_t, NodePtr> roots_;  // by the number of the tree
   TreeIndex trees_of_facts_;
   Knowledge knowledge_;
-  std::int32_t era_ = 0;
+  std::int32_t epoch_ = 0;
   std::int64_t assigned_ = 0;
   std::vector<Held> held_;
 

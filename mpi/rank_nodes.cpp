@@ -23,7 +23,8 @@ void RankNodes::update(int child, message::Status status) {
   message::Status& latest = latest_.at(place);
   std::deque<Cost>& sent = under_way_[place];
   const std::int64_t arrived = status.entrusted - latest.entrusted;
-  if (arrived < 0 || arrived > std::ssize(sent) || status.era < latest.era || status.era > era_)
+  if (arrived < 0 || arrived > std::ssize(sent) || status.epoch < latest.epoch ||
+      status.epoch > epoch_)
     throw std::invalid_argument("a status of a rank that does not fit what it was told");
   bounds_.insert(status.bound);
   bounds_.erase(bounds_.find(latest.bound));
@@ -41,7 +42,7 @@ void RankNodes::add(const message::Status& status, int sign) {
   counts_.expanded += sign * status.expanded;
   counts_.open += sign * status.open;
   if (status.live) children_with_nodes_ += sign;
-  if (status.era == era_) children_of_this_era_ += sign;
+  if (status.epoch == epoch_) children_of_this_era_ += sign;
 }
 
 Cost RankNodes::bound() const {
@@ -64,10 +65,10 @@ message::Status RankNodes::merged() const {
   all.live = children_with_nodes_ > 0 || entrusted_under_way_ > 0;
   all.open = counts_.open;
   all.expanded = counts_.expanded;
-  all.era = era_;
+  all.epoch = epoch_;
   for (const message::Status& status : latest_) {
     all.evicted_bound = std::min(all.evicted_bound, status.evicted_bound);
-    all.era = std::min(all.era, status.era);
+    all.epoch = std::min(all.epoch, status.epoch);
     if (status.proven > all.proven)
       std::tie(all.proven, all.proven_by) = std::tie(status.proven, status.proven_by);
     if (all.stopped == StopReason::kNone) all.stopped = status.stopped;
@@ -105,7 +106,7 @@ int RankNodes::idlest() const {
 
 void RankNodes::begin_anew(Cost proven) {
   children_.broadcast(message::Restart{proven});
-  ++era_;
+  ++epoch_;
   children_of_this_era_ = 0;
 }
 

@@ -55,7 +55,7 @@ class RankNodes : public LiveNodes {
   std::multiset<Cost> bounds_;               // of both
   std::int64_t children_with_nodes_ = 0;
   std::int64_t entrusted_under_way_ = 0;
-  std::int32_t era_ = 0;
+  std::int32_t epoch_ = 0;
   std::int64_t children_of_this_era_;
   Counts counts_;
   std::set<std::uint32_t> told_;  // trees

@@ -13,7 +13,7 @@ message::Status some_status() {
   message::Status status;
   status.bound = 17;
   status.live = true;
-  status.era = 2;
+  status.epoch = 2;
   status.stopped = StopReason::kMemory;
   status.surplus = {{17, 2}, {19, 1}};
   status.work_requests = {{3, true, kInfiniteCost}, {5, false, 19}};

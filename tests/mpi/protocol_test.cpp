@@ -91,7 +91,7 @@ TEST(RankAlone, SaysNothingOfABatchOfALaterEra) {
   EXPECT_TRUE(early.taken.empty());
   const auto status = r.status_after(0, message::Restart{0});
   EXPECT_EQ(status.taken, BatchReceived({{1, 2, 1}}));
-  EXPECT_EQ(status.era, 1);
+  EXPECT_EQ(status.epoch, 1);
   EXPECT_EQ(status.bound, root->bound());
 }
 
@@ -204,7 +204,7 @@ TEST(RankNodes, CoverAllRootsOfANewBeginningUntilARankSaysThatItHasThem) {
       EXPECT_EQ(nodes.bound(), roots.front()->bound());
       EXPECT_TRUE(nodes.any());
       message::Status status;
-      status.era = 1;
+      status.epoch = 1;
       status.entrusted = obeyed + 1;
       nodes.update(rank, status);
     }
@@ -221,7 +221,7 @@ TEST(RankNodes, KnowNothingOfARankThatHasYetToHearOfANewBeginning) {
   RankNodes nodes(children);
   nodes.restart({}, 0);
   message::Status status;
-  status.era = 1;
+  status.epoch = 1;
   nodes.update(0, status);
   EXPECT_TRUE(nodes.any());
   nodes.update(1, status);
@@ -363,11 +363,11 @@ TEST(SubCoordinatorAlone, ReleasesWhatWentBetweenItsRanksAndPassesOnTheRest) {
 
 TEST(SubCoordinatorAlone, IsOfTheOldEraUntilAllBelowHaveBegunAnew) {
   SubAlone s;
-  EXPECT_EQ(s.status_after(0, message::Restart{7}).era, 0);
+  EXPECT_EQ(s.status_after(0, message::Restart{7}).epoch, 0);
   message::Status anew;
-  anew.era = 1;
-  for (const int rank : {3, 4}) EXPECT_EQ(s.status_after(rank, anew).era, 0);
-  EXPECT_EQ(s.status_after(5, anew).era, 1);
+  anew.epoch = 1;
+  for (const int rank : {3, 4}) EXPECT_EQ(s.status_after(rank, anew).epoch, 0);
+  EXPECT_EQ(s.status_after(5, anew).epoch, 1);
   for (const int rank : {3, 4, 5}) EXPECT_EQ(s.transport.sent<message::Restart>(rank).size(), 1);
 }
 
