@@ -148,10 +148,10 @@ void Coordinator::handle(int from, message::Message&& message) {
       Overloaded{
           [&](message::Status& status) { heard(children_.with(from), std::move(status)); },
           [&](message::NewPlan& found) { run_.ledger().post(std::move(found.plan), found.source); },
-          [&](message::Gathered& gathered) {
+          [&](message::SnapshotTaken& gathered) {
             if (gathering_) gathering_->handle(gathered);  // else it was given up
           },
-          [&](message::Part& part) {
+          [&](message::SnapshotPart& part) {
             if (gathering_) gathering_->handle(std::move(part));
           },
           [&](message::ProcessStatistics& account) {

@@ -36,7 +36,7 @@ Gathering::Gathering(const Checkpoints& checkpoints, const Limits& limits, RunSt
       transport_(transport),
       children_(children),
       trees_(run.trees().count()) {
-  children.broadcast(message::Gather{});
+  children.broadcast(message::SnapshotRequest{});
 }
 
 // The one before it stands if this one fails, and the run goes on.
@@ -53,7 +53,7 @@ void Gathering::write(Write what) {
   if (!report_.failure.empty()) writer_.reset();
 }
 
-void Gathering::handle(const message::Gathered& gathered) {
+void Gathering::handle(const message::SnapshotTaken& gathered) {
   evicted_bound_ = std::min(evicted_bound_, gathered.evicted_bound);
   if (++looked_ < children_.count()) return;
   write([&] {
@@ -70,7 +70,7 @@ void Gathering::send_heartbeat() {
   said_ = limits_.now();
 }
 
-void Gathering::handle(message::Part&& part) {
+void Gathering::handle(message::SnapshotPart&& part) {
   send_heartbeat();
   write([&] {
     for (NodeRecord& node : part.nodes) {
@@ -82,12 +82,12 @@ void Gathering::handle(message::Part&& part) {
   if (part.last)
     ask_next();
   else
-    transport_.send(asked_, bytes_of(message::More{}, 0));
+    transport_.send(asked_, bytes_of(message::SnapshotNext{}, 0));
 }
 
 void Gathering::ask_next() {
   if (++asked_ < transport_.ranks()) {
-    transport_.send(asked_, bytes_of(message::More{}, 0));
+    transport_.send(asked_, bytes_of(message::SnapshotNext{}, 0));
     return;
   }
   write([&] { writer_->finish(); });

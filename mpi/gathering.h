@@ -25,8 +25,8 @@ class Gathering {
 
   bool is_done() const { return done_; }
 
-  void handle(const message::Gathered& gathered);
-  void handle(message::Part&& part);
+  void handle(const message::SnapshotTaken& gathered);
+  void handle(message::SnapshotPart&& part);
 
  private:
   using Clock = Limits::Clock;

@@ -154,7 +154,7 @@ void serialize(Archive& archive, AssignNodes& assign) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Gathered& gathered) {
+void serialize(Archive& archive, SnapshotTaken& gathered) {
   archive(gathered.evicted_bound);
 }
 

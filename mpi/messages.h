@@ -160,15 +160,15 @@ struct Restart {
 };
 
 // To all below: look at your nodes, for a checkpoint.
-struct Gather {};
+struct SnapshotRequest {};
 
 // To the superior: all here have. The plans of nodes that were gone by then have been sent before.
-struct Gathered {
+struct SnapshotTaken {
   Cost evicted_bound = kInfiniteCost;
 };
 
 // The top to a rank: send some of what you saw then.
-struct More {};
+struct SnapshotNext {};
 
 // A rank to the top: some of it.
 struct Part {
@@ -187,10 +187,11 @@ struct MessageCounts {
   std::map<std::int32_t, std::int64_t> messages;
 };
 
-using Message = std::variant<Status, Found, Gathered, Part, ProcessStatistics, RankFinished,  // up
-                             Batch, AskPrices, Prices, Facts,  // from rank to rank
-                             NewTree, AssignNodes, SendNodes, ReleaseCustody, Incumbent, Restart,
-                             Gather, More, Heartbeat, End, MessageCounts>;  // down
+using Message =
+    std::variant<Status, Found, SnapshotTaken, Part, ProcessStatistics, RankFinished,  // up
+                 Batch, AskPrices, Prices, Facts,  // from rank to rank
+                 NewTree, AssignNodes, SendNodes, ReleaseCustody, Incumbent, Restart,
+                 SnapshotRequest, SnapshotNext, Heartbeat, End, MessageCounts>;  // down
 
 struct Addressed {
   int level = 0;  // whom it is for, on the rank that it has come to; see Post

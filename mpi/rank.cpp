@@ -97,8 +97,8 @@ void Rank::handle(int from, message::Message&& message) {
             nodes_.prune(cost);
           },
           [&](message::Restart& anew) { begin_anew(anew.proven); },
-          [&](message::Gather&) { gather(); }, [&](message::More&) { send_part(); },
-          [](message::Heartbeat&) {},
+          [&](message::SnapshotRequest&) { gather(); },
+          [&](message::SnapshotNext&) { send_part(); }, [](message::Heartbeat&) {},
           [&](message::End&) {
             ended_ = true;
             parent_.end_reports();
@@ -199,11 +199,11 @@ void Rank::gather() {
   Frontier::Snapshot snapshot = nodes_.frontier.snapshot();
   send_found();
   gathered_ = std::move(snapshot.live);
-  parent_.tell(message::Gathered{snapshot.evicted_bound});
+  parent_.tell(message::SnapshotTaken{snapshot.evicted_bound});
 }
 
 void Rank::send_part() {
-  message::Part part;
+  message::SnapshotPart part;
   while (!gathered_.empty() && part.nodes.size() < kNodesInAPart) {
     part.nodes.push_back(record_of(*gathered_.back()));
     gathered_.pop_back();

@@ -39,7 +39,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
                    if (found.plan.cost < cutoff_) parent_.tell(found);
                  },
                  [&](message::ProcessStatistics& account) { parent_.tell(account); },
-                 [&](message::Gathered& parts) { gathered(parts); },
+                 [&](message::SnapshotTaken& parts) { gathered(parts); },
                  [&](message::RankFinished& said) { send_finished(said); },
                  [&](message::SendNodes& ordered) { order(ordered); },
                  [&](message::ReleaseCustody& release) {
@@ -56,7 +56,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
                    children_.broadcast(incumbent);
                  },
                  [&](message::NewTree& tree) { children_.broadcast(tree); },
-                 [&](message::Gather& gather) {
+                 [&](message::SnapshotRequest& gather) {
                    looked_ = 0;
                    gathered_ = {};
                    children_.broadcast(gather);
@@ -91,7 +91,7 @@ void SubCoordinator::heard(int child, message::Status&& status) {
 }
 
 // All of the plans that were found before have been passed on by then.
-void SubCoordinator::gathered(const message::Gathered& parts) {
+void SubCoordinator::gathered(const message::SnapshotTaken& parts) {
   gathered_.evicted_bound = std::min(gathered_.evicted_bound, parts.evicted_bound);
   if (++looked_ == children_.count()) parent_.tell(gathered_);
 }

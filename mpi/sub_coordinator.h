@@ -31,7 +31,7 @@ class SubCoordinator {
 
  private:
   void heard(int child, message::Status&& status);
-  void gathered(const message::Gathered& gathered);
+  void gathered(const message::SnapshotTaken& gathered);
   void send_finished(const message::RankFinished& said);
   void order(const message::SendNodes& order);
   void begin_anew(const message::Restart& anew);
@@ -45,7 +45,7 @@ class SubCoordinator {
   std::int64_t assigned_ = 0;                  // how many Entrust it has obeyed
   std::vector<message::BatchReceived> taken_;  // not said yet
   Cost cutoff_ = kInfiniteCost;                // what the incumbent costs
-  message::Gathered gathered_;                 // of those that have looked
+  message::SnapshotTaken gathered_;            // of those that have looked
   int looked_ = 0;
   message::RankFinished farewell_;  // of those that have said it
   int farewells_ = 0;

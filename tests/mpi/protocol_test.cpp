@@ -238,7 +238,7 @@ TEST(CoordinatorAlone, TellsAllAtOnceToLookForACheckpoint) {
   coordinator.begin();
   coordinator.step();
   for (int rank = 0; rank < 3; ++rank)
-    EXPECT_EQ(transport.sent<message::Gather>(rank).size(), 1) << rank;
+    EXPECT_EQ(transport.sent<message::SnapshotRequest>(rank).size(), 1) << rank;
 }
 
 TEST(CoordinatorAlone, DoesWithoutTheSilentWhenALimitHasStruck) {
@@ -254,7 +254,8 @@ TEST(CoordinatorAlone, DoesWithoutTheSilentWhenALimitHasStruck) {
   const auto wait = [&] { clock.advance(milliseconds(701)); };
   wait();
   EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0);
-  coordinator.handle(1, message::Gathered{});  // it counts: nothing was given up before a limit
+  coordinator.handle(1,
+                     message::SnapshotTaken{});  // it counts: nothing was given up before a limit
   s.limits.stop(StopReason::kTime);
   EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0) << "it has just been heard";
   clock.advance(milliseconds(699));
@@ -263,7 +264,7 @@ TEST(CoordinatorAlone, DoesWithoutTheSilentWhenALimitHasStruck) {
   EXPECT_TRUE(transport.sent<message::End>(1).empty());
   clock.advance(milliseconds(1));
   EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0) << "the checkpoint comes first";
-  coordinator.handle(2, message::Gathered{});  // late
+  coordinator.handle(2, message::SnapshotTaken{});  // late
   coordinator.step();
   EXPECT_EQ(transport.sent<message::End>(1).size(), 1);
   message::RankFinished send_finished;
