@@ -9,7 +9,7 @@
 #include "engine/run_observer.h"
 #include "engine/run_state.h"
 #include "mpi/child_links.h"
-#include "mpi/gathering.h"
+#include "mpi/distributed_checkpoint.h"
 #include "mpi/load_balancer.h"
 #include "mpi/messages.h"
 #include "mpi/rank_nodes.h"
@@ -79,7 +79,7 @@ class Coordinator {
   LoadBalancer load_balancer_;
 
   CheckpointTimer timer_;
-  std::optional<Gathering> gathering_;
+  std::optional<DistributedCheckpoint> gathering_;
   bool restored_ = true;  // nothing of a checkpoint is missing
   bool gathered_at_end_ = false;
   bool ending_ = false;

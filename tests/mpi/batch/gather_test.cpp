@@ -10,7 +10,7 @@ namespace grove::detail::batch {
 namespace gather_test {
 
 // Round after round: who is quick must not be taken for who is slow.
-TEST(Gathering, TellsAllWhatEachSaid) {
+TEST(DistributedCheckpoint, TellsAllWhatEachSaid) {
   for (const int count : {1, 2, 3, 7})
     for (const std::uint64_t seed : {1, 2, 3}) {
       std::mt19937_64 random(seed);

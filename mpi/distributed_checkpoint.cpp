@@ -11,7 +11,7 @@
 // The rest is as in engine/local_checkpoints.cpp: trees are counted before anybody looks, nodes of
 // later ones left out, and the incumbent is asked for when all have looked and said what plans they
 // had found by then.
-#include "mpi/gathering.h"
+#include "mpi/distributed_checkpoint.h"
 
 #include <algorithm>
 #include <chrono>
@@ -28,8 +28,9 @@ constexpr auto kLongestPause = std::chrono::milliseconds(500);
 
 }  // namespace
 
-Gathering::Gathering(const Checkpoints& checkpoints, const Limits& limits, RunState& run,
-                     Transport& transport, ChildLinks& children)
+DistributedCheckpoint::DistributedCheckpoint(const Checkpoints& checkpoints, const Limits& limits,
+                                             RunState& run, Transport& transport,
+                                             ChildLinks& children)
     : checkpoints_(checkpoints),
       limits_(limits),
       run_(run),
@@ -41,7 +42,7 @@ Gathering::Gathering(const Checkpoints& checkpoints, const Limits& limits, RunSt
 
 // The one before it stands if this one fails, and the run goes on.
 template <class Write>
-void Gathering::write(Write what) {
+void DistributedCheckpoint::write(Write what) {
   if (!report_.failure.empty()) return;
   try {
     what();
@@ -53,7 +54,7 @@ void Gathering::write(Write what) {
   if (!report_.failure.empty()) writer_.reset();
 }
 
-void Gathering::handle(const message::SnapshotTaken& gathered) {
+void DistributedCheckpoint::handle(const message::SnapshotTaken& gathered) {
   evicted_bound_ = std::min(evicted_bound_, gathered.evicted_bound);
   if (++looked_ < children_.count()) return;
   write([&] {
@@ -64,13 +65,13 @@ void Gathering::handle(const message::SnapshotTaken& gathered) {
 }
 
 // Who has sent its part, or is still to be asked, would take rank 0 for one that stands still.
-void Gathering::send_heartbeat() {
+void DistributedCheckpoint::send_heartbeat() {
   if (limits_.now() - said_ < kLongestPause) return;
   children_.broadcast(message::Heartbeat{});
   said_ = limits_.now();
 }
 
-void Gathering::handle(message::SnapshotPart&& part) {
+void DistributedCheckpoint::handle(message::SnapshotPart&& part) {
   send_heartbeat();
   write([&] {
     for (NodeRecord& node : part.nodes) {
@@ -85,7 +86,7 @@ void Gathering::handle(message::SnapshotPart&& part) {
     transport_.send(asked_, bytes_of(message::SnapshotNext{}, 0));
 }
 
-void Gathering::ask_next() {
+void DistributedCheckpoint::ask_next() {
   if (++asked_ < transport_.ranks()) {
     transport_.send(asked_, bytes_of(message::SnapshotNext{}, 0));
     return;

@@ -17,11 +17,11 @@ namespace grove::detail {
 
 // All ranks look at their nodes while search goes on; then one after the other sends them. Why no
 // node is missed: gathering.cpp. Of one thread.
-class Gathering {
+class DistributedCheckpoint {
  public:
   // Tells all ranks, by way of the children of the top. All must outlive this.
-  Gathering(const Checkpoints& checkpoints, const Limits& limits, RunState& run,
-            Transport& transport, ChildLinks& children);
+  DistributedCheckpoint(const Checkpoints& checkpoints, const Limits& limits, RunState& run,
+                        Transport& transport, ChildLinks& children);
 
   bool is_done() const { return done_; }
 
