@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "mpi/looks.h"
+#include "mpi/polling.h"
 
 namespace grove::detail {
 namespace {

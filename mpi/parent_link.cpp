@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "mpi/looks.h"
+#include "mpi/polling.h"
 
 namespace grove::detail {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "engine/multicore.h"
 #include "engine/worker.h"
-#include "mpi/looks.h"
+#include "mpi/polling.h"
 #include "mpi/rank_process.h"
 #include "search/proof_log.h"
 
@@ -136,8 +136,8 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
                       "the job ends without an answer",
                       patience));
     const double rested = seconds();
-    const double nap = longest_nap(member.rank().ended());
-    if (!heard) sleep(next_look(heard_at, rested + kLeastNap_s, nap) - rested);
+    const double interval = max_poll_interval(member.rank().ended());
+    if (!heard) sleep(next_poll(heard_at, rested + kLeastNap_s, interval) - rested);
   }
   if (!member.coordinator()) return std::nullopt;
   if (options.proof != nullptr) member.rank().search().lagrangian().log_proof(*options.proof);

@@ -2,7 +2,7 @@
 // The machine that a simulation takes for granted.
 #pragma once
 
-#include "mpi/looks.h"
+#include "mpi/polling.h"
 
 namespace grove::detail {
 
@@ -11,10 +11,10 @@ namespace grove::detail {
 // between. A rank has a processor that searches and another that speaks, which looks at the network
 // as looks.h says, or as soon as it has dealt with what it found there last.
 struct Machine {
-  double latency = 2e-6;        // seconds
-  double bandwidth = 1e9;       // bytes per second, packing and unpacking included
-  double message_cost = 2e-6;   // seconds
-  double poll = kLongestNap_s;  // seconds: the longest nap between two looks
+  double latency = 2e-6;             // seconds
+  double bandwidth = 1e9;            // bytes per second, packing and unpacking included
+  double message_cost = 2e-6;        // seconds
+  double poll = kMaxPollInterval_s;  // seconds: the longest nap between two looks
   // A turn takes so many seconds per unit of its work (search/work.h), or, if 0, the processor time
   // that it really took here, with which no two runs are the same.
   double seconds_per_work = 0;

@@ -22,7 +22,7 @@
 #include <utility>
 
 #include "engine/techniques_of.h"
-#include "mpi/looks.h"
+#include "mpi/polling.h"
 #include "mpi/rank_process.h"
 #include "mpi/simulated_network.h"
 #include "mpi/simulator/busy_profile.h"
@@ -140,8 +140,8 @@ class Simulation {
 
   // When its talker can speak or listen, at `time` or later.
   double first_talk(SimulatedRank& r, double time) const {
-    const double nap = longest_nap(r.member.rank().ended(), setting_.machine.poll);
-    if (time > r.talks_until) time = next_look(r.heard_at, time, nap);
+    const double interval = max_poll_interval(r.member.rank().ended(), setting_.machine.poll);
+    if (time > r.talks_until) time = next_poll(r.heard_at, time, interval);
     return std::max(time, r.talks_until);
   }
 

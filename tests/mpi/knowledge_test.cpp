@@ -6,7 +6,7 @@
 #include <deque>
 #include <limits>
 
-#include "mpi/looks.h"
+#include "mpi/polling.h"
 
 namespace grove::detail {
 namespace knowledge_test {

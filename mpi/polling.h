@@ -14,24 +14,24 @@ namespace grove::detail {
 // 4, ... parts of the longest nap, and at the end of each nap of that length. (Simulated, naps of 4
 // ms instead of one make no difference with 128 and 1,024 ranks; with naps of 16 an instance took
 // 128 a tenth longer.)
-constexpr double kLongestNap_s = 4e-3;
-constexpr double kShortestNap = 1.0 / 16;  // of the longest
+constexpr double kMaxPollInterval_s = 4e-3;
+constexpr double kMinPollInterval = 1.0 / 16;  // of the longest
 
 // The longest nap of a rank whose search goes on or `has_ended`: then nothing is left to be
 // disturbed, and the job waits for what is still to be said.
-inline double longest_nap(bool has_ended, double of_who_searches = kLongestNap_s) {
-  return has_ended ? of_who_searches * kShortestNap : of_who_searches;
+inline double max_poll_interval(bool has_ended, double of_who_searches = kMaxPollInterval_s) {
+  return has_ended ? of_who_searches * kMinPollInterval : of_who_searches;
 }
 
 // The first look at `time` or later, of a rank that heard something last at `heard`. All in seconds
 // of one clock.
-inline double next_look(double heard, double time, double longest_nap = kLongestNap_s) {
-  if (longest_nap <= 0) return time;
-  const double elapsed = std::max(time - heard, kShortestNap * longest_nap);
-  double nap = kShortestNap * longest_nap;
-  while (nap < std::min(elapsed, longest_nap)) nap *= 2;
-  if (elapsed > nap) nap = longest_nap * std::ceil(elapsed / longest_nap);
-  return std::max(time, heard + nap);  // rounding must not make it earlier
+inline double next_poll(double heard, double time, double max_poll_interval = kMaxPollInterval_s) {
+  if (max_poll_interval <= 0) return time;
+  const double elapsed = std::max(time - heard, kMinPollInterval * max_poll_interval);
+  double interval = kMinPollInterval * max_poll_interval;
+  while (interval < std::min(elapsed, max_poll_interval)) interval *= 2;
+  if (elapsed > interval) interval = max_poll_interval * std::ceil(elapsed / max_poll_interval);
+  return std::max(time, heard + interval);  // rounding must not make it earlier
 }
 
 constexpr double kLongestPause_s = 20e-3;

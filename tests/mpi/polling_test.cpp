@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mpi/looks.h"
+#include "mpi/polling.h"
 
 #include <gtest/gtest.h>
 
@@ -11,24 +11,24 @@ namespace looks_test {
 TEST(Looks, GetRarer) {
   std::vector<double> looks;
   for (double time = 100; looks.size() < 8; time = looks.back() + 1e-9)
-    looks.push_back(next_look(100, time, 16));
+    looks.push_back(next_poll(100, time, 16));
   const std::vector<double> expected{101, 102, 104, 108, 116, 132, 148, 164};
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(looks[i], expected[i], 1e-6);
 }
 
 TEST(Looks, AreNeverBeforeTheirTime) {
   for (double elapsed = 0; elapsed < 100; elapsed += 0.37) {
-    const double look = next_look(7, 7 + elapsed, 16);
+    const double look = next_poll(7, 7 + elapsed, 16);
     EXPECT_GE(look, 7 + elapsed);
     EXPECT_LE(look, 7 + elapsed + 16);
   }
-  EXPECT_EQ(next_look(3, 9, 0), 9) << "without naps";
+  EXPECT_EQ(next_poll(3, 9, 0), 9) << "without naps";
 }
 
 TEST(Looks, AreFrequentWhenTheSearchHasEnded) {
-  EXPECT_EQ(longest_nap(false, 16), 16);
+  EXPECT_EQ(max_poll_interval(false, 16), 16);
   for (double elapsed = 0; elapsed < 100; elapsed += 0.37)
-    EXPECT_LE(next_look(0, elapsed, longest_nap(true, 16)), elapsed + 1 + 1e-9);
+    EXPECT_LE(next_poll(0, elapsed, max_poll_interval(true, 16)), elapsed + 1 + 1e-9);
 }
 
 TEST(Pauses, GrowWithTheRunUpToABound) {
