@@ -44,8 +44,8 @@ void Knowledge::add(const Piece& piece, Waiting& waiting) {
   std::make_heap(waiting.begin(), waiting.end());
 }
 
-std::vector<Knowledge::Parcel> Knowledge::due(double now) {
-  std::vector<Parcel> parcels;
+std::vector<Knowledge::OutgoingMessage> Knowledge::due(double now) {
+  std::vector<OutgoingMessage> parcels;
   if (waiting_.empty() || now < next_) return parcels;
   const double pause = pause_at(now, kPause_s);
   const double rate = rate_at(now);

@@ -20,7 +20,7 @@ namespace grove::detail {
 // it is of use, and nothing may depend on it. Of one thread.
 class Knowledge {
  public:
-  struct Parcel {
+  struct OutgoingMessage {
     int to;
     message::Facts facts;
   };
@@ -37,7 +37,7 @@ class Knowledge {
   void add(double utility, std::string fact, int reach);
 
   // What is to be said now, in seconds since the beginning.
-  std::vector<Parcel> due(double now);
+  std::vector<OutgoingMessage> due(double now);
   // When there may be something; infinity: unless something is added, never.
   double next_send_time() const {
     return waiting_.empty() ? std::numeric_limits<double>::infinity() : next_;

@@ -34,7 +34,7 @@ TEST_P(Ranks, AreToldEachFactOnceByWhoeverFoundIt) {
     int rounds = 1;
     for (bool news = true; news; ++rounds) {
       news = false;
-      std::vector<Knowledge::Parcel> under_way;
+      std::vector<Knowledge::OutgoingMessage> under_way;
       for (Knowledge& one : all)
         for (auto& parcel : one.due(rounds)) under_way.push_back(std::move(parcel));
       for (auto& [to, message] : under_way) {
