@@ -42,7 +42,7 @@ void MpiTransport::do_send(int to, std::string bytes) {
             communicator_, &sending.request);
 }
 
-std::optional<Parcel> MpiTransport::receive() {
+std::optional<ReceivedMessage> MpiTransport::receive() {
   forget_sent();
   int arrived = 0;
   MPI_Message message;
@@ -51,7 +51,7 @@ std::optional<Parcel> MpiTransport::receive() {
   if (arrived == 0) return std::nullopt;
   int size = 0;
   MPI_Get_count(&status, MPI_BYTE, &size);
-  Parcel parcel{status.MPI_SOURCE, std::string(static_cast<std::size_t>(size), '\0')};
+  ReceivedMessage parcel{status.MPI_SOURCE, std::string(static_cast<std::size_t>(size), '\0')};
   MPI_Mrecv(parcel.bytes.data(), size, MPI_BYTE, &message, MPI_STATUS_IGNORE);
   return parcel;
 }

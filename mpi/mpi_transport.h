@@ -22,7 +22,7 @@ class MpiTransport : public Transport {
 
   int rank() const override { return rank_; }
   int ranks() const override { return ranks_; }
-  std::optional<Parcel> receive() override;
+  std::optional<ReceivedMessage> receive() override;
 
  private:
   struct Sending {

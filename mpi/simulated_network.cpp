@@ -13,7 +13,7 @@ class SimulatedNetwork::End : public Transport {
 
   int rank() const override { return rank_; }
   int ranks() const override { return static_cast<int>(network_.ends_.size()); }
-  std::optional<Parcel> receive() override { return network_.receive(rank_); }
+  std::optional<ReceivedMessage> receive() override { return network_.receive(rank_); }
 
  private:
   void do_send(int to, std::string bytes) override { network_.send(rank_, to, std::move(bytes)); }
@@ -50,11 +50,11 @@ void SimulatedNetwork::send(int from, int to, std::string bytes) {
   inboxes_[static_cast<std::size_t>(to)].push({last, serial_++, {from, std::move(bytes)}});
 }
 
-std::optional<Parcel> SimulatedNetwork::receive(int rank) {
+std::optional<ReceivedMessage> SimulatedNetwork::receive(int rank) {
   Inbox& inbox = inboxes_[static_cast<std::size_t>(rank)];
   if (inbox.empty() || inbox.top().arrival > now_) return std::nullopt;
   // Moving the bytes out does not touch what the order depends on.
-  Parcel parcel = std::move(const_cast<UnderWay&>(inbox.top()).parcel);
+  ReceivedMessage parcel = std::move(const_cast<UnderWay&>(inbox.top()).parcel);
   inbox.pop();
   return parcel;
 }

@@ -39,7 +39,7 @@ class SimulatedNetwork {
   struct UnderWay {
     double arrival;
     std::int64_t serial;  // the order in which messages were sent
-    Parcel parcel;
+    ReceivedMessage parcel;
   };
   struct Later {
     bool operator()(const UnderWay& a, const UnderWay& b) const {
@@ -49,7 +49,7 @@ class SimulatedNetwork {
   using Inbox = std::priority_queue<UnderWay, std::vector<UnderWay>, Later>;
 
   void send(int from, int to, std::string bytes);
-  std::optional<Parcel> receive(int rank);
+  std::optional<ReceivedMessage> receive(int rank);
 
   const Delay delay_;
   std::vector<std::unique_ptr<End>> ends_;

@@ -10,7 +10,7 @@
 namespace grove::detail {
 
 // A message and where it comes from.
-struct Parcel {
+struct ReceivedMessage {
   int from = 0;
   std::string bytes;
 };
@@ -34,7 +34,7 @@ class Transport {
     do_send(to, std::move(bytes));
   }
   // The next message that has arrived, if any has; returns at once.
-  virtual std::optional<Parcel> receive() = 0;
+  virtual std::optional<ReceivedMessage> receive() = 0;
 
   // Sent so far.
   std::int64_t messages() const { return messages_; }

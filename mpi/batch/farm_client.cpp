@@ -153,12 +153,12 @@ std::optional<FarmMessage> FarmClient::receive_from_master() {
     master_->poll();
     return master_->take_own();
   }
-  const std::optional<Parcel> parcel = world_.receive();
+  const std::optional<ReceivedMessage> parcel = world_.receive();
   return parcel ? std::optional(decode(parcel->bytes)) : std::nullopt;
 }
 
 std::optional<FarmMessage> FarmClient::receive_from_group() {
-  const std::optional<Parcel> parcel = group_.receive();
+  const std::optional<ReceivedMessage> parcel = group_.receive();
   return parcel ? std::optional(decode(parcel->bytes)) : std::nullopt;
 }
 

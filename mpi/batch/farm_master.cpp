@@ -38,7 +38,7 @@ FarmMaster::FarmMaster(Transport& world, Grouping grouping, std::vector<Entry> e
 
 void FarmMaster::poll() {
   if (done()) return;
-  while (std::optional<Parcel> parcel = world_.receive()) {
+  while (std::optional<ReceivedMessage> parcel = world_.receive()) {
     FarmMessage message = decode(parcel->bytes);
     std::visit([&](auto& content) { on(parcel->from, content); }, message);
   }

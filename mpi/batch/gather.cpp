@@ -11,9 +11,9 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-Parcel next(Transport& transport, const std::function<void()>& wait) {
+ReceivedMessage next(Transport& transport, const std::function<void()>& wait) {
   for (;;) {
-    if (std::optional<Parcel> parcel = transport.receive()) return std::move(*parcel);
+    if (std::optional<ReceivedMessage> parcel = transport.receive()) return std::move(*parcel);
     wait();
   }
 }
@@ -29,7 +29,7 @@ std::vector<std::string> gather(Transport& transport, const std::string& mine,
   Texts texts(static_cast<std::size_t>(transport.ranks()));
   texts[0] = mine;
   for (int left = transport.ranks() - 1; left > 0; --left) {
-    Parcel parcel = next(transport, wait);
+    ReceivedMessage parcel = next(transport, wait);
     texts[static_cast<std::size_t>(parcel.from)] = std::move(parcel.bytes);
   }
   const std::string all = to_bytes(texts);

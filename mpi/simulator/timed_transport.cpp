@@ -5,7 +5,7 @@
 
 namespace grove::detail {
 
-std::optional<Parcel> TimedTransport::receive() {
+std::optional<ReceivedMessage> TimedTransport::receive() {
   const double arrival = network_.next_arrival(rank());
   auto parcel = end_.receive();
   if (!parcel) return std::nullopt;

@@ -30,7 +30,7 @@ class TimedTransport : public Transport {
 
   int rank() const override { return end_.rank(); }
   int ranks() const override { return end_.ranks(); }
-  std::optional<Parcel> receive() override;
+  std::optional<ReceivedMessage> receive() override;
 
   // Messages, so far.
   std::int64_t received() const { return received_; }

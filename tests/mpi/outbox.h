@@ -18,7 +18,7 @@ class Outbox : public Transport {
   Outbox(int rank, int ranks) : rank_(rank), ranks_(ranks) {}
   int rank() const override { return rank_; }
   int ranks() const override { return ranks_; }
-  std::optional<Parcel> receive() override { return std::nullopt; }
+  std::optional<ReceivedMessage> receive() override { return std::nullopt; }
 
   // Everything that was sent since the last call, in order.
   std::vector<message::Message> take() {

@@ -54,14 +54,14 @@ class ThreadNetwork {
         : network_(network), rank_(rank), ranks_(ranks) {}
     int rank() const override { return rank_; }
     int ranks() const override { return ranks_; }
-    std::optional<Parcel> receive() override {
+    std::optional<ReceivedMessage> receive() override {
       const std::lock_guard lock(network_.mutex_);
       ++looks_;
       for (int i = 0; i < ranks_; ++i) {
         const int from = next_++ % ranks_;
         auto& link = network_.link(from, rank_);
         if (link.empty() || link.front().first > looks_) continue;
-        Parcel parcel{from, std::move(link.front().second)};
+        ReceivedMessage parcel{from, std::move(link.front().second)};
         link.pop_front();
         const auto addressed = message::message_of(parcel.bytes);
         network_.answers_ += std::holds_alternative<message::Prices>(addressed.message);

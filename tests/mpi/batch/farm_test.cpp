@@ -65,7 +65,7 @@ class WatchedTransport : public Transport {
   WatchedTransport(Transport& other, Look look) : other_(other), look_(std::move(look)) {}
   int rank() const override { return other_.rank(); }
   int ranks() const override { return other_.ranks(); }
-  std::optional<Parcel> receive() override { return other_.receive(); }
+  std::optional<ReceivedMessage> receive() override { return other_.receive(); }
 
  private:
   void do_send(int to, std::string bytes) override {
