@@ -13,8 +13,8 @@
 #include "engine/local_nodes.h"
 #include "engine/shared_search.h"
 #include "engine/solve.h"
+#include "mpi/bound_broadcast.h"
 #include "mpi/hierarchy.h"
-#include "mpi/knowledge.h"
 #include "mpi/ledger_copy.h"
 #include "mpi/messages.h"
 #include "mpi/parent_link.h"
@@ -104,7 +104,7 @@ class Rank {
 
   std::map<std::uint32_t, NodePtr> roots_;  // by the number of the tree
   TreeIndex trees_of_facts_;
-  Knowledge knowledge_;
+  BoundBroadcast knowledge_;
   std::int32_t epoch_ = 0;
   std::int64_t assigned_ = 0;
   std::vector<Held> held_;

@@ -18,7 +18,7 @@ namespace grove::detail {
 // one in the middle, which tells it to the further half, and goes on with the nearer half. It says
 // the most worthwhile first and no more than ranks can bear; what waits too long is never said. So
 // it is of use, and nothing may depend on it. Of one thread.
-class Knowledge {
+class BoundBroadcast {
  public:
   struct OutgoingMessage {
     int to;
@@ -27,7 +27,7 @@ class Knowledge {
 
   // `rate`: bytes per second that it may tell in the first second, and less and less after it; 0:
   // nothing.
-  Knowledge(int rank, int ranks, double rate) : rank_(rank), ranks_(ranks), rate_(rate) {}
+  BoundBroadcast(int rank, int ranks, double rate) : rank_(rank), ranks_(ranks), rate_(rate) {}
 
   bool is_on() const { return ranks_ > 1 && rate_ > 0; }
 

@@ -2,7 +2,7 @@
 // *Claim: each rank is told a fact once at most.* A rank of reach n has to do with the n ranks from
 // itself on. To the one at h = ceil(n / 2) from it goes the reach n - h, it keeps h; these are the
 // two parts of n, so no rank is in both, and it ends at 1.
-#include "mpi/knowledge.h"
+#include "mpi/bound_broadcast.h"
 
 #include <algorithm>
 #include <utility>
@@ -23,18 +23,18 @@ constexpr std::size_t kBytesOfSize = 1;  // of a fact, in a message: about
 
 }  // namespace
 
-void Knowledge::add(const LearnedBound& fact) {
+void BoundBroadcast::add(const LearnedBound& fact) {
   add(fact.utility(), message::packed(fact), ranks_);
 }
 
-void Knowledge::add(double utility, std::string fact, int reach) {
+void BoundBroadcast::add(double utility, std::string fact, int reach) {
   reach = std::min(reach, ranks_);
   if (reach <= 1 || fact.size() > kLongest) return;
   const Piece piece{utility, std::make_shared<const std::string>(std::move(fact))};
   for (int n = reach; n > 1; n = (n + 1) / 2) add(piece, waiting_[n]);
 }
 
-void Knowledge::add(const Piece& piece, Waiting& waiting) {
+void BoundBroadcast::add(const Piece& piece, Waiting& waiting) {
   waiting.push_back(piece);
   std::push_heap(waiting.begin(), waiting.end());
   if (waiting.size() <= 2 * kMostWaiting) return;
@@ -44,7 +44,7 @@ void Knowledge::add(const Piece& piece, Waiting& waiting) {
   std::make_heap(waiting.begin(), waiting.end());
 }
 
-std::vector<Knowledge::OutgoingMessage> Knowledge::due(double now) {
+std::vector<BoundBroadcast::OutgoingMessage> BoundBroadcast::due(double now) {
   std::vector<OutgoingMessage> parcels;
   if (waiting_.empty() || now < next_) return parcels;
   const double pause = pause_at(now, kPause_s);
@@ -67,11 +67,11 @@ std::vector<Knowledge::OutgoingMessage> Knowledge::due(double now) {
 
 // In the beginning all are at the same nodes. Later each is in a part of the tree of its own, and
 // what it finds out is of less use to others; and memories are finite.
-double Knowledge::rate_at(double now) const {
+double BoundBroadcast::rate_at(double now) const {
   return rate_ * kFullRate_s / std::max(now, kFullRate_s);
 }
 
-message::Facts Knowledge::best_of(Waiting& waiting, double bytes, int reach) {
+message::Facts BoundBroadcast::best_of(Waiting& waiting, double bytes, int reach) {
   message::Facts told{reach, {}};
   while (!waiting.empty()) {
     const std::string& best = *waiting.front().fact;

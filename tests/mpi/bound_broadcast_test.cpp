@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mpi/knowledge.h"
+#include "mpi/bound_broadcast.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ LearnedBound fact(AgentIndex agent, std::int32_t expansions = 0) {
   return {{{0, agent, {}}}, {7, true}, {0, false, expansions}};
 }
 
-void add_facts(int count, Knowledge& knowledge) {
+void add_facts(int count, BoundBroadcast& knowledge) {
   for (int i = 0; i < count; ++i) knowledge.add(fact(i, i));
 }
 
@@ -27,15 +27,15 @@ INSTANTIATE_TEST_SUITE_P(Counts, Ranks, ::testing::Values(2, 3, 4, 5, 7, 8, 13, 
 TEST_P(Ranks, AreToldEachFactOnceByWhoeverFoundIt) {
   const int ranks = GetParam();
   for (const int finder : {0, ranks / 2, ranks - 1}) {
-    std::deque<Knowledge> all;
+    std::deque<BoundBroadcast> all;
     for (int rank = 0; rank < ranks; ++rank) all.emplace_back(rank, ranks, kPlenty);
     std::vector<int> told(static_cast<std::size_t>(ranks));
     all[finder].add(fact(3));
     int rounds = 1;
     for (bool news = true; news; ++rounds) {
       news = false;
-      std::vector<Knowledge::OutgoingMessage> under_way;
-      for (Knowledge& one : all)
+      std::vector<BoundBroadcast::OutgoingMessage> under_way;
+      for (BoundBroadcast& one : all)
         for (auto& parcel : one.due(rounds)) under_way.push_back(std::move(parcel));
       for (auto& [to, message] : under_way) {
         news = true;
@@ -50,15 +50,15 @@ TEST_P(Ranks, AreToldEachFactOnceByWhoeverFoundIt) {
   }
 }
 
-TEST(Knowledge, IsOffWhereThereIsNobodyToTellOrNothingMayBeSaid) {
-  EXPECT_FALSE(Knowledge(0, 1, 1e6).is_on());
-  EXPECT_FALSE(Knowledge(0, 9, 0).is_on());
-  EXPECT_TRUE(Knowledge(0, 2, 1).is_on());
+TEST(BoundBroadcast, IsOffWhereThereIsNobodyToTellOrNothingMayBeSaid) {
+  EXPECT_FALSE(BoundBroadcast(0, 1, 1e6).is_on());
+  EXPECT_FALSE(BoundBroadcast(0, 9, 0).is_on());
+  EXPECT_TRUE(BoundBroadcast(0, 2, 1).is_on());
 }
 
-TEST(Knowledge, SaysNoMoreThanItMayAndTheMostWorthwhileFirst) {
+TEST(BoundBroadcast, SaysNoMoreThanItMayAndTheMostWorthwhileFirst) {
   constexpr double kRate = 5e4;
-  Knowledge knowledge(0, 2, kRate);
+  BoundBroadcast knowledge(0, 2, kRate);
   knowledge.due(0);
   add_facts(1500, knowledge);
   double said = 0;
@@ -82,8 +82,8 @@ TEST(Knowledge, SaysNoMoreThanItMayAndTheMostWorthwhileFirst) {
   EXPECT_GT(now, 0.5);
 }
 
-TEST(Knowledge, SpeaksMoreRarelyLaterInARun) {
-  Knowledge knowledge(0, 2, 1e4);
+TEST(BoundBroadcast, SpeaksMoreRarelyLaterInARun) {
+  BoundBroadcast knowledge(0, 2, 1e4);
   add_facts(3000, knowledge);
   for (const double now : {0.0, 1.0, 100.0}) {
     knowledge.due(now);
@@ -91,10 +91,10 @@ TEST(Knowledge, SpeaksMoreRarelyLaterInARun) {
   }
 }
 
-TEST(Knowledge, SaysLessLaterInARun) {
+TEST(BoundBroadcast, SaysLessLaterInARun) {
   constexpr double kRate = 1e5;
   const auto said_in_a_second_after = [&](double begin) {
-    Knowledge knowledge(0, 2, kRate);
+    BoundBroadcast knowledge(0, 2, kRate);
     add_facts(2000, knowledge);
     knowledge.due(begin);  // what was saved up
     double said = 0;
@@ -110,9 +110,9 @@ TEST(Knowledge, SaysLessLaterInARun) {
 }
 
 // However little may be said: what does not fit now fits later, or nobody waits for it.
-TEST(Knowledge, IsNotHeldUpByALongFact) {
+TEST(BoundBroadcast, IsNotHeldUpByALongFact) {
   for (const int constraints : {150, 20'000}) {
-    Knowledge knowledge(0, 2, 1e6);
+    BoundBroadcast knowledge(0, 2, 1e6);
     knowledge.due(36'000);
     LearnedBound dear;
     dear.agents.emplace_back(0, 0, PackedConstraints(std::vector<Constraint>(constraints)));
@@ -127,8 +127,8 @@ TEST(Knowledge, IsNotHeldUpByALongFact) {
 }
 
 // What is worth least is given up when too much waits.
-TEST(Knowledge, KeepsSomeHundredWaiting) {
-  Knowledge knowledge(0, 2, kPlenty);
+TEST(BoundBroadcast, KeepsSomeHundredWaiting) {
+  BoundBroadcast knowledge(0, 2, kPlenty);
   for (int i = 0; i < 30; ++i) add_facts(1000, knowledge);
   std::size_t count = 0;
   for (const auto& parcel : knowledge.due(1)) count += parcel.facts.facts.size();
