@@ -15,9 +15,9 @@
 #include "engine/solve.h"
 #include "mpi/bound_broadcast.h"
 #include "mpi/hierarchy.h"
-#include "mpi/ledger_copy.h"
 #include "mpi/messages.h"
 #include "mpi/parent_link.h"
+#include "mpi/remote_bounds.h"
 #include "mpi/transport.h"
 #include "planning/agent_stops_cache.h"
 #include "search/problem.h"
@@ -97,7 +97,7 @@ class Rank {
   LocalNodes nodes_;
   AgentStopsCache stops_;
   Trees trees_;  // outlives all that holds nodes of them
-  LedgerCopy ledger_;
+  RemoteBounds ledger_;
   TreeSource elsewhere_;    // the coordinator brings trees,
   WorkObserver unwatched_;  // and counts what is done
   SharedSearch search_;

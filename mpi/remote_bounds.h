@@ -16,7 +16,7 @@ namespace grove::detail {
 
 // What was last heard of the ledger, and the plans that it has yet to hear of. What workers ask may
 // be asked from any thread; the rest is for the thread that speaks for this rank.
-class LedgerCopy : public SharedBounds {
+class RemoteBounds : public SharedBounds {
  public:
   struct Found {
     Plan plan;
@@ -24,7 +24,7 @@ class LedgerCopy : public SharedBounds {
   };
 
   // Both must outlive this.
-  LedgerCopy(const Limits& limits, const Frontier& frontier)
+  RemoteBounds(const Limits& limits, const Frontier& frontier)
       : limits_(limits), frontier_(frontier) {}
 
   bool over() const override { return over_ || limits_.stop_requested(); }

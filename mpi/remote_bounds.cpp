@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT
-#include "mpi/ledger_copy.h"
+#include "mpi/remote_bounds.h"
 
 namespace grove::detail {
 
-std::optional<Plan> LedgerCopy::plan_below(Cost cost) const {
+std::optional<Plan> RemoteBounds::plan_below(Cost cost) const {
   if (cutoff_ >= cost) return std::nullopt;
   const std::lock_guard lock(mutex_);
   return incumbent_;
 }
 
-void LedgerCopy::post(Plan plan, PlanSource source) {
+void RemoteBounds::post(Plan plan, PlanSource source) {
   const std::lock_guard lock(mutex_);
   const Cost best = found_ ? found_->plan.cost : cutoff_.load();
   if (plan.cost < best) found_ = Found{std::move(plan), source};
 }
 
-std::optional<LedgerCopy::Found> LedgerCopy::take_found() {
+std::optional<RemoteBounds::Found> RemoteBounds::take_found() {
   const std::lock_guard lock(mutex_);
   return std::exchange(found_, std::nullopt);
 }
 
-void LedgerCopy::adopt(Plan plan) {
+void RemoteBounds::adopt(Plan plan) {
   const std::lock_guard lock(mutex_);
   if (plan.cost >= cutoff_) return;
   const Cost cost = plan.cost;
@@ -28,17 +28,17 @@ void LedgerCopy::adopt(Plan plan) {
   cutoff_ = cost;
 }
 
-void LedgerCopy::end() {
+void RemoteBounds::end() {
   over_ = true;
   limits_.cancel_workers();
 }
 
-void LedgerCopy::prove(Cost bound, BoundSource by) {
+void RemoteBounds::prove(Cost bound, BoundSource by) {
   const std::lock_guard lock(mutex_);
   if (bound > proven_.first) proven_ = {bound, by};
 }
 
-std::pair<Cost, BoundSource> LedgerCopy::proven() const {
+std::pair<Cost, BoundSource> RemoteBounds::proven() const {
   const std::lock_guard lock(mutex_);
   return proven_;
 }
