@@ -58,7 +58,7 @@ std::vector<BoundBroadcast::OutgoingMessage> BoundBroadcast::due(double now) {
   for (auto at = waiting_.rbegin(); at != waiting_.rend(); ++at, --left) {
     const int reach = at->first;
     const int to = (rank_ + (reach + 1) / 2) % ranks_;
-    message::Facts facts = best_of(at->second, allowance_ / left, reach / 2);
+    message::LearnedBounds facts = best_of(at->second, allowance_ / left, reach / 2);
     if (!facts.facts.empty()) parcels.push_back({to, std::move(facts)});
   }
   std::erase_if(waiting_, [](const auto& entry) { return entry.second.empty(); });
@@ -71,8 +71,8 @@ double BoundBroadcast::rate_at(double now) const {
   return rate_ * kFullRate_s / std::max(now, kFullRate_s);
 }
 
-message::Facts BoundBroadcast::best_of(Waiting& waiting, double bytes, int reach) {
-  message::Facts told{reach, {}};
+message::LearnedBounds BoundBroadcast::best_of(Waiting& waiting, double bytes, int reach) {
+  message::LearnedBounds told{reach, {}};
   while (!waiting.empty()) {
     const std::string& best = *waiting.front().fact;
     const auto more = static_cast<double>(best.size() + kBytesOfSize);

@@ -22,7 +22,7 @@ class BoundBroadcast {
  public:
   struct OutgoingMessage {
     int to;
-    message::Facts facts;
+    message::LearnedBounds facts;
   };
 
   // `rate`: bytes per second that it may tell in the first second, and less and less after it; 0:
@@ -53,7 +53,7 @@ class BoundBroadcast {
 
   static void add(const Piece& piece, Waiting& waiting);
   double rate_at(double now) const;
-  message::Facts best_of(Waiting& waiting, double bytes, int reach);
+  message::LearnedBounds best_of(Waiting& waiting, double bytes, int reach);
 
   const int rank_;
   const int ranks_;

@@ -66,20 +66,20 @@ void Rank::handle(int from, message::Message&& message) {
   };
   std::visit(
       Overloaded{
-          [&](message::Batch& batch) {
+          [&](message::NodeBatch& batch) {
             ++heard_;
             take_over(from, batch);
           },
-          [&](message::AskPrices& ask) {
+          [&](message::RequestPricing& ask) {
             ++heard_;
             search_.lagrangian().help(problem_.instance, std::move(ask.share));
           },
-          [&](message::Prices& prices) {
+          [&](message::PricingDone& prices) {
             ++heard_;
             ledger_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
                           BoundSource::kLagrangian);
           },
-          [&](message::Facts& facts) {
+          [&](message::LearnedBounds& facts) {
             ++heard_;
             receive(facts);
           },
@@ -110,13 +110,13 @@ void Rank::handle(int from, message::Message&& message) {
 }
 
 // Its tree may not have been heard of yet, or what was given up here has yet to be forgotten.
-bool Rank::is_early(const message::Batch& batch) const {
+bool Rank::is_early(const message::NodeBatch& batch) const {
   return batch.epoch > epoch_ || std::ranges::any_of(batch.nodes, [&](const NodeRecord& node) {
            return !roots_.contains(node.tree);
          });
 }
 
-void Rank::take_over(int from, message::Batch& batch) {
+void Rank::take_over(int from, message::NodeBatch& batch) {
   const bool must_wait = std::ranges::any_of(held_, [&](const Held& h) { return h.from == from; });
   if (must_wait || is_early(batch)) {
     held_.push_back({from, std::move(batch)});
@@ -139,7 +139,7 @@ void Rank::give(const message::SendNodes& order) {
   const bool keeps = !order.to_idle || keeps_next();
   const auto nodes =
       nodes_.frontier.take_for_transfer(static_cast<std::size_t>(order.count), keeps);
-  message::Batch batch;
+  message::NodeBatch batch;
   batch.epoch = epoch_;
   for (const NodePtr& node : nodes) batch.nodes.push_back(record_of(*node));
   batch.findings = group_bounds_of(nodes, *search_.memory());
@@ -269,9 +269,9 @@ void Rank::send_updates(double now) {
 
 void Rank::speak_of_prices() {
   for (auto& [rank, share] : search_.lagrangian().dispatch_pricing())
-    tell(rank, message::AskPrices{std::move(share)});
+    tell(rank, message::RequestPricing{std::move(share)});
   if (auto answer = search_.lagrangian().take_answer())
-    tell(0, message::Prices{std::move(*answer)});
+    tell(0, message::PricingDone{std::move(*answer)});
 }
 
 void Rank::speak_of_facts(double now) {
@@ -286,7 +286,7 @@ void Rank::speak_of_facts(double now) {
 }
 
 // Others further on have to be told even if there is no room here.
-void Rank::receive(message::Facts& facts) {
+void Rank::receive(message::LearnedBounds& facts) {
   const auto memory = search_.memory();
   const bool has_room = search_.has_room_for_facts();
   for (std::string& bytes : facts.facts) {

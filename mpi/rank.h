@@ -64,12 +64,12 @@ class Rank {
  private:
   struct Held {  // that arrived before what it needs
     int from;
-    message::Batch batch;
+    message::NodeBatch batch;
   };
 
-  void take_over(int from, message::Batch& batch);
+  void take_over(int from, message::NodeBatch& batch);
   void take_over_held();
-  bool is_early(const message::Batch& batch) const;
+  bool is_early(const message::NodeBatch& batch) const;
   void give(const message::SendNodes& order);
   bool keeps_next() const;
   void others_wait();
@@ -80,7 +80,7 @@ class Rank {
   void send_found();
   void speak_of_prices();
   void speak_of_facts(double now);
-  void receive(message::Facts& facts);
+  void receive(message::LearnedBounds& facts);
   void push(const std::vector<NodeRecord>& records, const std::vector<GroupBound>& findings);
   void begin_anew(Cost proven);
   message::Status status() const;

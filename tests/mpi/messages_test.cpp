@@ -84,13 +84,13 @@ TEST(Messages, PackFacts) {
   EXPECT_EQ(back.excess, fact.excess);
   EXPECT_THROW(message::unpacked(bytes.substr(1)), std::invalid_argument);
   EXPECT_THROW(message::unpacked(bytes + "x"), std::invalid_argument);
-  const auto told = returned(message::Facts{512, {bytes, bytes}});
+  const auto told = returned(message::LearnedBounds{512, {bytes, bytes}});
   EXPECT_EQ(told.reach, 512);
   EXPECT_EQ(told.facts, (std::vector{bytes, bytes}));
 }
 
-message::AskPrices some_question() {
-  message::AskPrices ask;
+message::RequestPricing some_question() {
+  message::RequestPricing ask;
   ask.share.round = 7;
   ask.share.first = 2;
   ask.share.known = {4096, kNoCost};
@@ -106,7 +106,7 @@ TEST(Messages, AskForPricesAndTellThem) {
   EXPECT_EQ(share.known, some_question().share.known);
   EXPECT_EQ(share.news.rows, some_question().share.news.rows);
   EXPECT_EQ(share.news.charges, some_question().share.news.charges);
-  message::Prices sent;
+  message::PricingDone sent;
   sent.answer.round = 7;
   sent.answer.digest = 0xfedcba9876543210;
   sent.answer.first = 2;

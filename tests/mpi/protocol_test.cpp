@@ -66,7 +66,7 @@ TEST(RankAlone, SaysThatABatchWasTakenOverWhenItWas) {
   RankAlone r;
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
-  const auto status = r.status_after(2, message::Batch{0, {record_of(*root)}, {}});
+  const auto status = r.status_after(2, message::NodeBatch{0, {record_of(*root)}, {}});
   EXPECT_EQ(status.taken, BatchReceived({{1, 2, 1}}));
   EXPECT_EQ(status.bound, root->bound());
 }
@@ -74,9 +74,9 @@ TEST(RankAlone, SaysThatABatchWasTakenOverWhenItWas) {
 TEST(RankAlone, SaysNothingOfABatchWhoseTreeItHasNotHeardOf) {
   RankAlone r;
   const NodePtr root = r.new_root();
-  const message::Batch batch{0, {record_of(*root)}, {}};
+  const message::NodeBatch batch{0, {record_of(*root)}, {}};
   EXPECT_TRUE(r.status_after(2, batch).taken.empty());
-  EXPECT_EQ(r.status_after(2, message::Batch{}).taken, BatchReceived())
+  EXPECT_EQ(r.status_after(2, message::NodeBatch{}).taken, BatchReceived())
       << "those of a rank keep order";
   const auto status = r.status_after(0, message::NewTree{0, record_of(root->tree())});
   EXPECT_EQ(status.taken, BatchReceived({{1, 2, 2}}));
@@ -87,7 +87,7 @@ TEST(RankAlone, SaysNothingOfABatchOfALaterEra) {
   RankAlone r;
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
-  const auto early = r.status_after(2, message::Batch{1, {record_of(*root)}, {}});
+  const auto early = r.status_after(2, message::NodeBatch{1, {record_of(*root)}, {}});
   EXPECT_TRUE(early.taken.empty());
   const auto status = r.status_after(0, message::Restart{0});
   EXPECT_EQ(status.taken, BatchReceived({{1, 2, 1}}));
@@ -103,7 +103,7 @@ TEST(RankAlone, CoversWhatItGaveAwayUntilItIsReleased) {
   const auto given = r.status_after(0, message::SendNodes{2, 1});
   EXPECT_EQ(r.rank.nodes().frontier.live(), 2);
   EXPECT_EQ(given.open, 1);
-  ASSERT_EQ(r.transport.sent<message::Batch>(2).size(), 1);
+  ASSERT_EQ(r.transport.sent<message::NodeBatch>(2).size(), 1);
   const Frontier& frontier = r.rank.nodes().frontier;
   r.rank.handle(0, message::ReleaseCustody{1, 2, 0});
   EXPECT_EQ(frontier.live(), 2);

@@ -64,7 +64,7 @@ class ThreadNetwork {
         ReceivedMessage parcel{from, std::move(link.front().second)};
         link.pop_front();
         const auto addressed = message::message_of(parcel.bytes);
-        network_.answers_ += std::holds_alternative<message::Prices>(addressed.message);
+        network_.answers_ += std::holds_alternative<message::PricingDone>(addressed.message);
         return parcel;
       }
       return std::nullopt;
