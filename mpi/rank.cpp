@@ -110,15 +110,16 @@ void Rank::handle(int from, message::Message&& message) {
 }
 
 // Its tree may not have been heard of yet, or what was given up here has yet to be forgotten.
-bool Rank::is_early(const message::NodeBatch& batch) const {
+bool Rank::must_defer(const message::NodeBatch& batch) const {
   return batch.epoch > epoch_ || std::ranges::any_of(batch.nodes, [&](const NodeRecord& node) {
            return !roots_.contains(node.tree);
          });
 }
 
 void Rank::take_over(int from, message::NodeBatch& batch) {
-  const bool must_wait = std::ranges::any_of(held_, [&](const Held& h) { return h.from == from; });
-  if (must_wait || is_early(batch)) {
+  const bool must_wait =
+      std::ranges::any_of(held_, [&](const DeferredBatch& h) { return h.from == from; });
+  if (must_wait || must_defer(batch)) {
     held_.push_back({from, std::move(batch)});
     return;
   }

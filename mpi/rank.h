@@ -62,14 +62,14 @@ class Rank {
   bool left() const;
 
  private:
-  struct Held {  // that arrived before what it needs
+  struct DeferredBatch {  // that arrived before what it needs
     int from;
     message::NodeBatch batch;
   };
 
   void take_over(int from, message::NodeBatch& batch);
   void take_over_held();
-  bool is_early(const message::NodeBatch& batch) const;
+  bool must_defer(const message::NodeBatch& batch) const;
   void give(const message::SendNodes& order);
   bool keeps_next() const;
   void others_wait();
@@ -107,7 +107,7 @@ class Rank {
   BoundBroadcast knowledge_;
   std::int32_t epoch_ = 0;
   std::int64_t assigned_ = 0;
-  std::vector<Held> held_;
+  std::vector<DeferredBatch> held_;
 
   struct Peer {
     std::int64_t sent = 0;                                 // batches
