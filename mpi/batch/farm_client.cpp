@@ -45,12 +45,12 @@ void FarmClient::lead() {
     Row row = solve(*entry);
     wait_for_members(row);
     if (row.outcome.interrupted()) {
-      tell_master(GaveUp{});
+      tell_master(Aborted{});
     } else {
       tell_master(Report{std::move(row)});
     }
   }
-  tell_members(Dismissal{});
+  tell_members(NoMoreWork{});
   while (master_ != nullptr && !master_->done()) {
     master_->poll();
     options_.idle();
@@ -59,14 +59,14 @@ void FarmClient::lead() {
 
 // None: dismissed.
 std::optional<Entry> FarmClient::next_entry() {
-  tell_master(AskForWork{});
+  tell_master(RequestWork{});
   for (;;) {
     std::optional<FarmMessage> message = receive_from_master();
     if (!message) {
       options_.idle();
     } else if (auto* assignment = std::get_if<Assignment>(&*message)) {
       return std::move(assignment->entry);
-    } else if (std::holds_alternative<Dismissal>(*message)) {
+    } else if (std::holds_alternative<NoMoreWork>(*message)) {
       return std::nullopt;
     } else {
       interrupted_ = true;  // a Stop that came when all was done
@@ -127,7 +127,7 @@ void FarmClient::follow() {
       options_.idle();
       continue;
     }
-    if (std::holds_alternative<Dismissal>(*message)) return;
+    if (std::holds_alternative<NoMoreWork>(*message)) return;
     Ended ended;
     try {
       Row unused;

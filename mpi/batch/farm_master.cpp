@@ -52,7 +52,7 @@ void FarmMaster::poll() {
   if (options_.watch) options_.watch(state());
 }
 
-void FarmMaster::on(int from, AskForWork&) {
+void FarmMaster::on(int from, RequestWork&) {
   asking_.push_back(from);
 }
 
@@ -61,7 +61,7 @@ void FarmMaster::on(int from, Report& report) {
   finished_.push_back(std::move(report.row));
 }
 
-void FarmMaster::on(int from, GaveUp&) {
+void FarmMaster::on(int from, Aborted&) {
   end_assignment(from, nullptr);
   interrupted_ = true;
 }
@@ -113,7 +113,7 @@ void FarmMaster::answer() {
     if (has_work()) {
       assign_next(asking_.front());
     } else {
-      tell(asking_.front(), Dismissal{});
+      tell(asking_.front(), NoMoreWork{});
       ++dismissed_;
     }
   }

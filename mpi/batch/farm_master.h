@@ -62,9 +62,9 @@ class FarmMaster {
     double since;
   };
 
-  void on(int from, AskForWork&);
+  void on(int from, RequestWork&);
   void on(int from, Report& report);
-  void on(int from, GaveUp&);
+  void on(int from, Aborted&);
   template <typename Other>
   void on(int from, Other&);
 

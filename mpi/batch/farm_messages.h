@@ -2,11 +2,11 @@
 // All that the ranks of a batch tell each other about who solves what.
 //
 //     leader of a group        master (rank 0)
-//       AskForWork   ->
+//       RequestWork   ->
 //                    <-   Assignment   or Dismissal, the last word to this leader
 //                    <-   Stop         perhaps, while the leader has an assignment
-//       Report, or GaveUp ->
-//       AskForWork   -> ...
+//       Report, or Aborted ->
+//       RequestWork   -> ...
 //
 //     leader                   each other rank of its group
 //       Assignment   ->        or Dismissal, the last word
@@ -23,8 +23,8 @@
 namespace grove::detail::batch {
 
 // The group has nothing to do.
-struct AskForWork {
-  friend bool operator==(const AskForWork&, const AskForWork&) = default;
+struct RequestWork {
+  friend bool operator==(const RequestWork&, const RequestWork&) = default;
 };
 // The group has solved its assignment, or failed to.
 struct Report {
@@ -32,8 +32,8 @@ struct Report {
   friend bool operator==(const Report&, const Report&) = default;
 };
 // The group was interrupted; its assignment is to be solved another time.
-struct GaveUp {
-  friend bool operator==(const GaveUp&, const GaveUp&) = default;
+struct Aborted {
+  friend bool operator==(const Aborted&, const Aborted&) = default;
 };
 // Solve this.
 struct Assignment {
@@ -45,8 +45,8 @@ struct Stop {
   friend bool operator==(const Stop&, const Stop&) = default;
 };
 // There is nothing more to do.
-struct Dismissal {
-  friend bool operator==(const Dismissal&, const Dismissal&) = default;
+struct NoMoreWork {
+  friend bool operator==(const NoMoreWork&, const NoMoreWork&) = default;
 };
 // The rank has ended its part of the assignment, with an error or without.
 struct Ended {
@@ -54,7 +54,7 @@ struct Ended {
   friend bool operator==(const Ended&, const Ended&) = default;
 };
 
-using FarmMessage = std::variant<AskForWork, Report, GaveUp, Assignment, Stop, Dismissal, Ended>;
+using FarmMessage = std::variant<RequestWork, Report, Aborted, Assignment, Stop, NoMoreWork, Ended>;
 
 std::string encode(const FarmMessage& message);
 // Throws std::invalid_argument when `bytes` are no message.

@@ -11,14 +11,14 @@ namespace grove::detail::batch {
 namespace farm_messages_test {
 
 const std::vector<FarmMessage> kMessages{
-    AskForWork{},
+    RequestWork{},
     Report{grove::detail::testing::solved_row()},
     Report{grove::detail::testing::failed_row()},
-    GaveUp{},
+    Aborted{},
     Assignment{{.id = "a-3", .path = "a.scen", .map = "m.map", .agents = 3, .digest = "01"}},
     Assignment{},
     Stop{},
-    Dismissal{},
+    NoMoreWork{},
     Ended{},
     Ended{std::string("\0\xff\n", 3)}};
 
