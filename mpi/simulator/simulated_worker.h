@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "engine/worker.h"
-#include "mpi/simulator/equal_sets.h"
 #include "mpi/simulator/machine.h"
+#include "mpi/simulator/mdd_interner.h"
 
 namespace grove::detail {
 
@@ -24,7 +24,7 @@ class SimulatedWorker {
   };
 
   // All must outlive this. `sets`: of all workers.
-  SimulatedWorker(Worker& worker, const Machine& machine, EqualSets& sets)
+  SimulatedWorker(Worker& worker, const Machine& machine, MddInterner& sets)
       : worker_(worker), machine_(machine), sets_(sets) {}
 
   // Begins a turn if there is anything to do: it is busy then. The expander is any one of the same
@@ -44,7 +44,7 @@ class SimulatedWorker {
  private:
   Worker& worker_;
   const Machine& machine_;
-  EqualSets& sets_;
+  MddInterner& sets_;
   std::optional<Worker::WorkItem> turn_;  // none: not busy
   Expander::Kept kept_;                   // as an expander of its own would
   double began_ = 0;

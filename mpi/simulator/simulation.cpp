@@ -62,7 +62,7 @@ struct Setting {
   Talk talk;
   SimulatedNetwork network;
   AgentStopsCache stops;
-  EqualSets sets;
+  MddInterner sets;
 };
 
 struct SimulatedRank {

@@ -9,7 +9,7 @@
 
 #include "model/check.h"
 #include "mpi/simulator/busy_profile.h"
-#include "mpi/simulator/equal_sets.h"
+#include "mpi/simulator/mdd_interner.h"
 #include "mpi/simulator/scaling_table.h"
 #include "mpi/simulator/simulation.h"
 #include "mpi/simulator/timed_transport.h"
@@ -220,14 +220,14 @@ TEST(BusyProfile, KeepsTheSumsHoweverLongItGets) {
   EXPECT_NEAR(late[9], 1, 1e-3);
 }
 
-TEST(EqualSets, HoldEachOnceAsLongAsItIsInUse) {
+TEST(MddInterner, HoldEachOnceAsLongAsItIsInUse) {
   const Instance instance = random_crowd({.size = 8, .obstacles = 20, .agents = 2, .tasks = 0}, 1);
   testing::NodeAtHand s(instance);
   const auto made = [&](AgentIndex agent, Time later) {
     return MddCache::make(s.planner, agent, s.view.order(agent), {}, s.view.cost_of(agent) + later,
                           1000, s.limits);
   };
-  EqualSets sets;
+  MddInterner sets;
   const MddCache::Set first = sets.one_of(made(0, 0));
   MddCache::Set longer = sets.one_of(made(0, 1));
   EXPECT_EQ(sets.one_of(made(0, 0)), first);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "mpi/simulator/equal_sets.h"
+#include "mpi/simulator/mdd_interner.h"
 
 namespace grove::detail {
 
-MddCache::Set EqualSets::one_of(const MddCache::Set& set) {
+MddCache::Set MddInterner::one_of(const MddCache::Set& set) {
   const std::uint64_t hash = set->hash();
   const auto [first, end] = sets_.equal_range(hash);
   for (auto at = first; at != end; ++at)
@@ -13,7 +13,7 @@ MddCache::Set EqualSets::one_of(const MddCache::Set& set) {
   return set;
 }
 
-void EqualSets::forget_unused() {
+void MddInterner::forget_unused() {
   std::erase_if(sets_, [](const auto& entry) { return entry.second.expired(); });
   many_ = 2 * sets_.size() + 1000;
 }

@@ -14,7 +14,7 @@ namespace grove::detail {
 // Each rank makes the sets that it needs for itself, and most need the same. What is equal need not
 // be in memory twice: two fifths of what 128 ranks hold otherwise on room-32-32-4 22/40, a quarter
 // of what 1,024 do. Of one thread.
-class EqualSets {
+class MddInterner {
  public:
   // One that is equal, if it is still in use; this one otherwise.
   MddCache::Set one_of(const MddCache::Set& set);
