@@ -38,7 +38,7 @@ std::int64_t least(std::int64_t mine, MPI_Comm communicator) {
 
 // All ranks: what `act` throws on one of them, something is thrown on all.
 template <class Act>
-void together(MPI_Comm communicator, Act&& act) {
+void collective(MPI_Comm communicator, Act&& act) {
   std::exception_ptr failure;
   try {
     act();
@@ -75,7 +75,7 @@ std::optional<Solution> solve(const Instance& instance, const Options& options,
   require_mpi();
   const detail::Instance& inner = Access::instance(instance);
   detail::SolveOptions search;
-  together(communicator, [&] { search = shared_options(inner, options); });
+  collective(communicator, [&] { search = shared_options(inner, options); });
   require_same(inner, communicator);
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);

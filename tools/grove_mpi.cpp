@@ -12,8 +12,8 @@
 #include "tools/common/commands.h"
 #include "tools/common/program.h"
 #include "tools/common/signals.h"
+#include "tools/mpi/collective.h"
 #include "tools/mpi/mpi_commands.h"
-#include "tools/mpi/together.h"
 
 namespace grove::detail {
 namespace {

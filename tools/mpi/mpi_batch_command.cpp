@@ -34,9 +34,9 @@
 #include "tools/common/signals.h"
 #include "tools/common/standard_error.h"
 #include "tools/common/version.h"
+#include "tools/mpi/collective.h"
 #include "tools/mpi/crew.h"
 #include "tools/mpi/mpi_commands.h"
-#include "tools/mpi/together.h"
 #include "tools/solve/solve_arguments.h"
 #include "tools/solve/solve_run.h"
 
@@ -126,7 +126,7 @@ class BatchRun {
     farm_ = session_.connect(group);
     agreement_ = session_.connect(group);
     search_ = session_.connect(group);
-    together(session_, [&] {
+    collective(session_, [&] {
       if (session_.rank() == 0) open(grouping);
     });
     try {

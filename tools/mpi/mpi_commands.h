@@ -6,7 +6,7 @@
 #include <CLI/App.hpp>
 
 #include "mpi/mpi_session.h"
-#include "tools/mpi/together.h"
+#include "tools/mpi/collective.h"
 
 namespace grove::detail {
 

@@ -21,9 +21,9 @@
 #include "tools/common/commands.h"
 #include "tools/common/program.h"
 #include "tools/common/version.h"
+#include "tools/mpi/collective.h"
 #include "tools/mpi/crew.h"
 #include "tools/mpi/mpi_commands.h"
-#include "tools/mpi/together.h"
 #include "tools/solve/incumbent_files.h"
 #include "tools/solve/proof_output.h"
 #include "tools/solve/solve_arguments.h"
@@ -56,17 +56,17 @@ class Run {
     require_same(session_, "version", version_text());
     require_same(session_, "options", options_text(app_));
     if (a_.instance.is_standard_input()) share_standard_input();
-    together(session_, [&] {
+    collective(session_, [&] {
       loaded_.emplace(load(a_, is_first()));
       require_fit(a_, loaded_->instance, options_);
     });
     require_same(session_, "an instance of fingerprint",
                  fmt::format("{:016x}", fingerprint(loaded_->instance)));
     set_limits(limits_, a_, start_);
-    together(session_, [&] {
+    collective(session_, [&] {
       if (is_first()) prepare();
     });
-    together(session_, [&] { proof_.emplace(a_, session_.rank()); });
+    collective(session_, [&] { proof_.emplace(a_, session_.rank()); });
     options_.proof = proof_->log();
     share_memory();
     if (is_first())
@@ -81,7 +81,7 @@ class Run {
   // mpirun passes it to rank 0 alone.
   void share_standard_input() {
     std::string text;
-    together(session_, [&] {
+    collective(session_, [&] {
       if (is_first()) text = read_standard_input();
     });
     a_.instance.set_standard_input(session_.gather(text).front());

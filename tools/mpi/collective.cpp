@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/mpi/together.h"
+#include "tools/mpi/collective.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 namespace grove::detail {
 
-void together(const MpiSession& session, const std::function<void()>& what) {
+void collective(const MpiSession& session, const std::function<void()>& what) {
   std::exception_ptr mine;
   std::string why;
   try {

@@ -15,7 +15,7 @@ namespace grove::detail {
 // All ranks: calls `what`, and throws on all of them if it threw InputError or CLI::ValidationError
 // on any: what all threw if they say the same, else InputError with the text of the first and which
 // rank that is.
-void together(const MpiSession& session, const std::function<void()>& what);
+void collective(const MpiSession& session, const std::function<void()>& what);
 
 // Whether all ranks accept their command lines, which may not be the same, nor the programs that
 // read them. A rank alone would leave the others waiting for it.
