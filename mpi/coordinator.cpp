@@ -196,7 +196,7 @@ void Coordinator::step() {
   if (gathering_) return;
   if (run_.ledger().over()) {
     ending_ = true;
-    children_.broadcast(message::End{});
+    children_.broadcast(message::Terminate{});
   } else if (!nodes_.any()) {
     run_.trees().refill_nodes();  // a tree may bring none: then nobody has anything to say
   } else if (run_.trees().claim_preparation()) {

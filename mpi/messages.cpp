@@ -85,12 +85,12 @@ void serialize(Archive& archive, PricingReply& answer) {
 namespace message {
 
 template <class Archive>
-void serialize(Archive& archive, AskPrices& ask) {
+void serialize(Archive& archive, RequestPricing& ask) {
   archive(ask.share);
 }
 
 template <class Archive>
-void serialize(Archive& archive, Prices& prices) {
+void serialize(Archive& archive, PricingDone& prices) {
   archive(prices.answer);
 }
 
@@ -118,7 +118,7 @@ void serialize(Archive& archive, Status& s) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Found& found) {
+void serialize(Archive& archive, NewPlan& found) {
   archive(found.plan);
   enumerated(archive, found.source, kLastPlanSource);
 }
@@ -134,12 +134,12 @@ void serialize(Archive& archive, RankFinished& send_finished) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Batch& batch) {
+void serialize(Archive& archive, NodeBatch& batch) {
   archive(batch.epoch, batch.nodes, batch.findings);
 }
 
 template <class Archive>
-void serialize(Archive& archive, Facts& facts) {
+void serialize(Archive& archive, LearnedBounds& facts) {
   archive(facts.reach, facts.facts);
 }
 
@@ -159,7 +159,7 @@ void serialize(Archive& archive, SnapshotTaken& gathered) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Part& part) {
+void serialize(Archive& archive, SnapshotPart& part) {
   archive(part.nodes, part.last);
 }
 

@@ -76,17 +76,17 @@ struct Status {
 };
 
 // Rank 0 to a rank that has answered all that it was asked before: find these prices, at once.
-struct AskPrices {
+struct RequestPricing {
   PricingRequest share;
 };
 
 // A rank to rank 0: it has.
-struct Prices {
+struct PricingDone {
   PricingReply answer;
 };
 
 // To the superior: a plan, to be checked.
-struct Found {
+struct NewPlan {
   Plan plan;
   PlanSource source{};
 };
@@ -107,7 +107,7 @@ struct RankFinished {
 void add(const RankFinished& part, RankFinished& sum);
 
 // Rank to rank: nodes and what is known about them. Perhaps none.
-struct Batch {
+struct NodeBatch {
   std::int32_t epoch = 0;
   std::vector<NodeRecord> nodes;
   std::vector<GroupBound> findings;
@@ -115,7 +115,7 @@ struct Batch {
 
 // Rank to rank: what was found out. The receiver tells it to the next `reach` - 1 ranks, in the
 // order of ranks, the first being after the last; see knowledge.h.
-struct Facts {
+struct LearnedBounds {
   std::int32_t reach = 1;
   std::vector<std::string> facts;  // packed, see below: many pass by who only hands them on
 };
@@ -171,7 +171,7 @@ struct SnapshotTaken {
 struct SnapshotNext {};
 
 // A rank to the top: some of it.
-struct Part {
+struct SnapshotPart {
   std::vector<NodeRecord> nodes;
   bool last = false;
 };
@@ -180,7 +180,7 @@ struct Part {
 struct Heartbeat {};
 
 // To all below: it is over; say farewell.
-struct End {};
+struct Terminate {};
 
 // To all below, after their farewells: how many messages were sent to each directly, by rank.
 struct MessageCounts {
@@ -188,10 +188,11 @@ struct MessageCounts {
 };
 
 using Message =
-    std::variant<Status, Found, SnapshotTaken, Part, ProcessStatistics, RankFinished,  // up
-                 Batch, AskPrices, Prices, Facts,  // from rank to rank
+    std::variant<Status, NewPlan, SnapshotTaken, SnapshotPart, ProcessStatistics,
+                 RankFinished,                                           // up
+                 NodeBatch, RequestPricing, PricingDone, LearnedBounds,  // from rank to rank
                  NewTree, AssignNodes, SendNodes, ReleaseCustody, Incumbent, Restart,
-                 SnapshotRequest, SnapshotNext, Heartbeat, End, MessageCounts>;  // down
+                 SnapshotRequest, SnapshotNext, Heartbeat, Terminate, MessageCounts>;  // down
 
 struct Addressed {
   int level = 0;  // whom it is for, on the rank that it has come to; see Post

@@ -99,7 +99,7 @@ void Rank::handle(int from, message::Message&& message) {
           [&](message::Restart& anew) { begin_anew(anew.proven); },
           [&](message::SnapshotRequest&) { gather(); },
           [&](message::SnapshotNext&) { send_part(); }, [](message::Heartbeat&) {},
-          [&](message::End&) {
+          [&](message::Terminate&) {
             ended_ = true;
             parent_.end_reports();
             ledger_.end();

@@ -136,8 +136,8 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
                       "the job ends without an answer",
                       patience));
     const double rested = seconds();
-    const double interval = max_poll_interval(member.rank().ended());
-    if (!heard) sleep(next_poll(heard_at, rested + kLeastNap_s, interval) - rested);
+    const double poll_interval = max_poll_interval(member.rank().ended());
+    if (!heard) sleep(next_poll(heard_at, rested + kLeastNap_s, poll_interval) - rested);
   }
   if (!member.coordinator()) return std::nullopt;
   if (options.proof != nullptr) member.rank().search().lagrangian().log_proof(*options.proof);

@@ -62,7 +62,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
                    children_.broadcast(gather);
                  },
                  [&](message::Heartbeat& alive) { children_.broadcast(alive); },
-                 [&](message::End& end) {
+                 [&](message::Terminate& end) {
                    ending_ = true;
                    parent_.end_reports();
                    children_.broadcast(end);

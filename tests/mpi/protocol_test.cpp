@@ -261,12 +261,12 @@ TEST(CoordinatorAlone, DoesWithoutTheSilentWhenALimitHasStruck) {
   clock.advance(milliseconds(699));
   EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0) << "that is not long";
   coordinator.step();
-  EXPECT_TRUE(transport.sent<message::End>(1).empty());
+  EXPECT_TRUE(transport.sent<message::Terminate>(1).empty());
   clock.advance(milliseconds(1));
   EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0) << "the checkpoint comes first";
   coordinator.handle(2, message::SnapshotTaken{});  // late
   coordinator.step();
-  EXPECT_EQ(transport.sent<message::End>(1).size(), 1);
+  EXPECT_EQ(transport.sent<message::Terminate>(1).size(), 1);
   message::RankFinished send_finished;
   send_finished.survey.ranks[1] = {};
   coordinator.handle(1, std::move(send_finished));
@@ -286,7 +286,7 @@ TEST(CoordinatorAlone, CallsNobodySilentForWhatWasBeforeTheLimit) {
     clock.advance(milliseconds(5000));
     s.limits.stop(StopReason::kTime);
     coordinator.step();
-    EXPECT_EQ(transport.sent<message::End>(0).size(), 1);
+    EXPECT_EQ(transport.sent<message::Terminate>(0).size(), 1);
     EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0);
     clock.advance(milliseconds(1399));
     EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0)
@@ -408,7 +408,7 @@ TEST(SubCoordinatorAlone, DropsPlansNoBetterThanTheIncumbentOnly) {
 
 TEST(SubCoordinatorAlone, SaysFarewellForAllAndThatAlone) {
   SubAlone s;
-  s.sub.handle(0, message::End{});
+  s.sub.handle(0, message::Terminate{});
   s.status_after(4, SubAlone::with(20, 8));
   for (const int rank : {3, 4, 5}) {
     EXPECT_TRUE(s.transport.sent<message::RankFinished>(0).empty());
