@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-// What the tree closes at once needs no other bound, so the tree begins; and a plan comes first.
-// Where there are few agents the tree knows better (see lagrangian_agents), so it is not tried.
-// Where it is, it has its part of the work until it is over: by itself, when it promises less than
-// is proven already, or when nothing is to be gained any more. A worker that has nothing else to do
-// goes on with it in any case.
+// Decides when the Lagrangian bound gets work.
 //
-// Where ranks share the search, it is rank 0's, and others find prices for it: at once, for it
-// cannot go on without. All ranks have about as much other work, so its part is that of all of
-// them; but rank 0 keeps some of its time for its nodes, for the bound waits for them too.
+// The tree begins, because an instance that the tree closes at once needs no other bound. A plan
+// comes next: without an incumbent the bound begins ten times later. With fewer than
+// lagrangian_agents agents the tree gives the better bound, so the Lagrangian bound is not tried.
+// Otherwise it gets its share of the work until it ends: when it promises less than is proven
+// already, or when nothing can be gained any more. A worker that has nothing else to do continues
+// with it in any case.
+//
+// With several ranks, rank 0 owns the bound, and the other ranks price agents for it. They do so
+// before all other work, because the bound cannot continue without the prices. All ranks have about
+// as much other work, so the bound's share is measured against the work of all ranks. But rank 0
+// keeps some of its time for its own nodes, because the lower bound of the run depends on them too.
 #include "engine/lagrangian_scheduler.h"
 
 #include <new>
@@ -17,8 +21,9 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::int64_t kPatienceWithoutPlan = 10;  // times as much work of others
-constexpr double kMostHere = 4;                    // of its own work to other work of rank 0
+constexpr std::int64_t kPatienceWithoutPlan =
+    10;                          // factor on lagrangian_begins_work without a plan
+constexpr double kMostHere = 4;  // Lagrangian work per unit of other work, on rank 0
 
 }  // namespace
 
@@ -49,7 +54,7 @@ std::optional<LagrangianBound::Job> LagrangianScheduler::next() {
   return bound_ ? bound_->next() : std::nullopt;
 }
 
-// Without memory for it there is none.
+// If memory is refused, the run has no Lagrangian bound.
 void LagrangianScheduler::make() {
   try {
     bound_ = LagrangianBound::make(*instance_, *stops_, tuning_);
@@ -61,7 +66,7 @@ void LagrangianScheduler::make() {
   is_over_ = bound_ == nullptr;
 }
 
-// Null before it was made.
+// Returns nullptr until make() has succeeded.
 LagrangianBound* LagrangianScheduler::bound() const {
   const std::lock_guard lock(making_);
   return bound_.get();
@@ -113,8 +118,8 @@ Cost LagrangianScheduler::heard_of_bound() {
   return bound_->lower_bound();
 }
 
-// Rank 0 is no helper. What is asked for counts from now on: while others do it there is time for
-// other work here.
+// Helper h is rank h + 1: rank 0 is no helper. Requested work counts as done from the request on:
+// while other ranks do it, rank 0 has time for other work.
 std::vector<std::pair<int, PricingRequest>> LagrangianScheduler::dispatch_pricing() {
   std::vector<std::pair<int, PricingRequest>> shares;
   LagrangianBound* const bound = is_over_ ? nullptr : this->bound();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The Lagrangian bound, and when it is its turn.
+// Schedules the work of the Lagrangian bound.
 #pragma once
 
 #include <atomic>
@@ -16,50 +16,53 @@
 
 namespace grove::detail {
 
-// The workers of a process find it together, and where ranks share the search, those of others find
-// prices for them. The rule is at the head of the .cpp. Methods may be called from any thread, but
-// those about ranks, which are for the one that speaks, and open().
+// The workers of a process compute the bound together. With several ranks, those of the other ranks
+// price agents for it. The rule is at the head of the .cpp. Thread-safe, except for open() and the
+// methods about ranks. Only the communicating thread calls the latter.
 class LagrangianScheduler {
  public:
-  // `tuning` must outlive this. Until open() it is never due.
+  // `tuning` must outlive this. Before open(), due() returns false unless help() was called.
   explicit LagrangianScheduler(const Tuning& tuning) : tuning_(tuning) {}
 
-  // Before the search. `instance` must outlive this. `keeps_reasons`: for log_proof().
+  // Call before the search. `instance` must outlive this. `keeps_reasons`: keep what log_proof()
+  // needs.
   void open(const Instance& instance, const AgentStopsCache& stops, bool keeps_reasons);
 
-  // So much was done beside it.
+  // Adds `work` units of other work: tree search and primal search.
   void add_other_work(std::int64_t work) { others_ += work; }
-  // Is it its turn?
+  // True if the next work item is the bound's.
   bool due(bool has_plan) const;
-  // What there is to be done for it; none: nothing, or others have all in hand. Whoever takes a job
-  // performs and commits it.
+  // Returns the next job of the bound, or nullopt if there is none or other threads have all of
+  // them in progress. The caller performs and commits the job.
   std::optional<LagrangianBound::Job> next();
   bool has_jobs() const;
   void perform(LagrangianBound::Job& job, Pricer& pricer, Cost cutoff, Cost known,
                const Limits& limits);
-  // Proven by now: no plan costs less.
+  // Returns the proven lower bound: no plan costs less. 0 where another rank owns the bound.
   Cost commit(LagrangianBound::Job job);
 
-  // Of one who has a job.
+  // Call only while the caller has a job.
   Pricer pricer(const AgentStopsCache& stops) const;
   int rounds() const { return rounds_; }
-  // After the search: why the bound holds.
+  // Call after the search. Logs the multipliers that prove the bound.
   void log_proof(ProofLog& proof) const;
-  // For the search for plans; null: none yet, or the bound is another rank's.
+  // Returns the dual solution for the primal search, or nullptr if there is none yet or another
+  // rank owns the bound.
   std::shared_ptr<const DualSolution> price_list() const;
 
-  // On rank 0, before the search: so many ranks share it.
+  // Call on rank 0 before the search: `ranks` ranks share it.
   void set_ranks(int ranks) {
     ranks_ = ranks;
     asked_of_.resize(static_cast<std::size_t>(ranks));
   }
-  // Which ranks to ask for prices now, and for which.
+  // Returns the pricing requests to send now, with their ranks.
   std::vector<std::pair<int, PricingRequest>> dispatch_pricing();
-  // What that rank has found. Proven by now: no plan costs less.
+  // Takes the reply of `rank`. Returns the proven lower bound: no plan costs less. Throws
+  // std::invalid_argument for a rank without a request.
   Cost accept(int rank, PricingReply answer);
   std::int64_t prices_of_ranks() const { return prices_of_ranks_; }
 
-  // On another rank: what it is asked for; all other work can wait. Throws as
+  // Call on a rank other than 0: takes a pricing request, which precedes all other work. Throws as
   // RemotePricing::accept().
   void help(const Instance& instance, PricingRequest share);
   std::optional<PricingReply> take_answer();
@@ -74,17 +77,17 @@ class LagrangianScheduler {
   std::optional<AgentStopsCache> stops_;
   bool keeps_reasons_ = false;
   std::atomic<std::int64_t> others_{0};
-  std::atomic<std::int64_t> own_{0};       // that of other ranks too
-  std::atomic<std::int64_t> own_here_{0};  // without it
+  std::atomic<std::int64_t> own_{0};       // includes work of other ranks
+  std::atomic<std::int64_t> own_here_{0};  // on this process
   std::atomic<int> rounds_{0};
   std::atomic<std::int64_t> prices_of_ranks_{0};
   std::atomic<bool> is_over_{true};
   std::atomic<bool> helps_{false};
   int ranks_ = 1;
-  std::vector<std::int64_t> asked_of_;      // by rank: the work that its answer should take
-  mutable std::mutex making_;               // guards the making of what follows:
-  std::unique_ptr<LagrangianBound> bound_;  // when it is first due
-  std::unique_ptr<RemotePricing> help_;     // when help is first asked for; then there is no bound_
+  std::vector<std::int64_t> asked_of_;      // by rank: expected work of its request
+  mutable std::mutex making_;               // guards the creation of the next two:
+  std::unique_ptr<LagrangianBound> bound_;  // made when first due
+  std::unique_ptr<RemotePricing> help_;     // made at the first request; then bound_ stays null
 };
 
 }  // namespace grove::detail

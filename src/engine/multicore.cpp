@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-// A worker has a thread and takes turns until there is nothing to do. Then it parks, and a worker
-// that brings work back wakes it.
+// Each worker has a thread and performs work items until there is none. Then it parks. A worker
+// that returns work wakes it.
 //
-// No work is overlooked: a worker parks under the lock under which it saw that no node was open,
-// and a node is pushed before that lock is taken to look for parked workers. So either the parking
-// worker sees the node or the pushing one sees the worker. No worker parks while no node is live:
-// then the next tree is due, or the run is over, and a worker must find out. Nor does the last one
-// that is awake: where ranks share a search, nodes come from elsewhere, and no thread that pushes
-// them wakes a worker; and a live node may be in no worker's hands here, because it is in custody.
+// Claim: no work is overlooked. Proof: a worker parks under the lock under which it saw that no
+// node was open. A node is pushed before the pushing worker takes this lock to look for parked
+// workers. So either the parking worker sees the node or the pushing worker sees the parked one.
+//
+// Two cases in which a worker does not park:
+// - No node is live. Then the next tree is due or the run is over, and a worker must find out
+//   which.
+// - It is the last one awake. With several ranks, nodes arrive from other ranks, and the thread
+//   that pushes them wakes no worker. Also, a live node may be with no worker here, because it is
+//   in custody.
 #include "engine/multicore.h"
 
 #include <algorithm>
@@ -25,7 +29,7 @@ namespace grove::detail {
 namespace {
 
 constexpr int kMostTurnsInARound = 4;
-constexpr auto kPause = std::chrono::microseconds(100);  // of one who may not park
+constexpr auto kPause = std::chrono::microseconds(100);  // of a worker that must not park
 
 class WorkerPool {
  public:
@@ -65,7 +69,8 @@ class WorkerPool {
     called_.notify_all();
   }
 
-  // Waits until another worker calls, or the run has ended. False: this one must not wait.
+  // Waits until another worker wakes this one or the run has ended. Returns false if this worker
+  // must not wait.
   bool park() {
     std::unique_lock lock(mutex_);
     if (awake_ == 1 || ended_ || shared_.over() || shared_.may_take()) return false;
@@ -97,12 +102,12 @@ class WorkerPool {
   std::mutex mutex_;  // guards all below
   std::condition_variable called_;
   int awake_ = 0;
-  int parked_ = 0;  // and not called
-  int calls_ = 0;   // of workers that have not woken yet
+  int parked_ = 0;  // not yet called
+  int calls_ = 0;   // called workers that have not woken yet
   bool ended_ = false;
 };
 
-// Of a deterministic run: what a worker does in a round.
+// One work item of a round of a deterministic run.
 struct Unit {
   Worker* worker;
   Worker::WorkItem turn;
@@ -110,8 +115,9 @@ struct Unit {
   bool is_primal() const { return turn.job == Worker::WorkItem::Job::kPrimal; }
 };
 
-// Some nodes for each worker, or one step of its primal search. More nodes would be a poorer
-// choice, fewer would leave threads waiting for each other.
+// Chooses a round: up to kMostTurnsInARound nodes for each worker, or one item of another kind.
+// More nodes per round would be a poorer choice of nodes. With fewer, threads would wait for each
+// other.
 std::vector<Unit> choose_round(std::span<const std::unique_ptr<Worker>> workers) {
   std::vector<Unit> units;
   std::vector<bool> goes_on(workers.size(), true);
@@ -122,14 +128,14 @@ std::vector<Unit> choose_round(std::span<const std::unique_ptr<Worker>> workers)
       goes_on[w] = turn && turn->job == Worker::WorkItem::Job::kExpand;
       if (turn) units.push_back({workers[w].get(), std::move(*turn)});
     }
-  // They take longest.
+  // Primal items take longest.
   std::stable_partition(units.begin(), units.end(), [](const Unit& u) { return u.is_primal(); });
   return units;
 }
 
-// Calls `what` with each unit, and waits for all. A worker's units are done in order, by one
-// thread: what its expander has cached, and so the number of labels that it expands, must not
-// depend on the threads.
+// Calls `what` with each unit and waits for all. One thread does all units of a worker, in order:
+// the content of the expander's cache, and so the number of labels that it expands, must not depend
+// on the number of threads.
 template <class What>
 void for_each_unit(std::vector<Unit>& units, ThreadTeam& team, const What& what) {
   std::vector<Worker*> workers;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Several threads on one search.
+// Runs the workers of a process on one or several threads.
 #pragma once
 
 #include <functional>
@@ -10,23 +10,23 @@
 
 namespace grove::detail {
 
-// What any thread does between turns: other things than searching, if they are due.
+// Called by any worker thread between two work items, for instance to write a checkpoint.
 using BetweenItems = std::function<void()>;
 
-// Lets the worker run until the search is over.
+// Runs the worker until the search is over.
 void run_single_threaded(Worker& worker, const SharedSearch& shared,
                          const BetweenItems& between_turns);
 
-// Lets every worker run on a thread of its own until the search is over; then ends what is still
-// under way. Throws what a worker throws, after all have stopped.
+// Runs every worker on a thread of its own until the search is over, and then cancels the work in
+// progress. Rethrows an exception of a worker after all threads have stopped.
 void run_parallel(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
                   const Limits& limits, const BetweenItems& between_turns);
 
-// The workers of a deterministic run, whatever the number of threads.
+// Number of workers of a deterministic run, for any number of threads.
 inline constexpr int kDeterministicWorkers = 4;
 
-// In rounds: the workers choose one after the other, perform side by side on so many threads, and
-// commit one after the other. So what happens does not depend on how many threads there are.
+// Runs in rounds: the workers choose one after the other, perform concurrently on up to `threads`
+// threads, and commit one after the other. So the result does not depend on `threads`.
 void run_deterministic(std::span<const std::unique_ptr<Worker>> workers, SharedSearch& shared,
                        int threads, const BetweenItems& between_turns);
 

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Many small instances are closed by the first nodes of the tree, so the tree begins; of a large
-// one it makes the root and no more. Then a plan is wanted first of all: without one nothing is
-// pruned, and a run that ends has nothing to show; the primal search gets all work while it expects
-// one soon, since to expand the root of a large instance can take seconds; then most, until it has
-// failed so often that the instance may have no plan at all. With a plan, its share follows its
-// success: let x be the part of its work that was done when it last improved the plan. x = 1 just
-// then, 1/2 when it has worked as much again for nothing, and so on. For each unit of the tree's
-// work it may do 8 x^3: much more than the tree while it improves, as much at x = 1/2, an eighth at
-// 1/4; and never less than 1/32. But the tree closes most small instances within its first tenths
-// of a second, whatever plan there is, so it grows into that freedom: it may not have more than 1/4
-// until the tree has done a thirty-second of tree_is_long_work, and 8 when it has done all. While
-// more is proven beside the tree than by it, what it does raises no bound; while the plan costs
-// much more than what is proven (far_plan), no tree closes the gap soon. Then the primal search has
-// as much as it at least, for neighbourhoods may be in vain a hundred times before the first of
-// many gains; and while the plan is that far, 8 at most from the beginning. None of this knows how
-// large the instance is or how fast the machine.
+// Divides the effort of a worker between tree search and primal search. For each unit of tree work
+// the primal search may do r units, 1/32 <= r <= 8, from when the tree has done tree_begins_work:
+// - With a plan, r = 8 x^3, where x = (primal work at its last improvement) / (primal work so far):
+//   x = 1 right after an improvement, 1/2 when as much work again brought none. So r = 8, 1, 1/8 at
+//   x = 1, 1/2, 1/4.
+// - Without a plan, r = 8: without an incumbent nothing is pruned, and a run that ends has nothing
+//   to show. After two failed attempts per agent r = 1: the instance may have no plan. While the
+//   primal search expects a plan soon it gets all work, not counted here, because expanding the
+//   root of a large instance can take seconds.
+// - Floor, below the cap: r >= 1 while more is proven outside the tree search than by it (then tree
+//   work raises no bound) or the gap exceeds far_plan (no tree closes it soon): neighbourhoods may
+//   fail a hundred times before the first of many gains.
+// - Cap: r <= clamp(8 t, 1/4, 8), t = (tree work) / tree_is_long_work, because the tree closes most
+//   small instances within tenths of a second, whatever plan there is. While the gap exceeds
+//   far_plan the cap is 8 at once.
+// r depends neither on the size of the instance nor on the speed of the machine. The numbers are
+// the defaults of tunables.def.
 #include "engine/primal_scheduler.h"
 
 #include <algorithm>

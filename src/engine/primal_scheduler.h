@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How one thread divides its work between the tree and the primal search.
+// Divides the work of one worker between the tree search and the primal search.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,21 @@
 namespace grove::detail {
 
 struct TreeOutlook {
-  bool is_behind = false;     // more is proven beside the tree than by it
-  bool gap_is_large = false;  // the best plan costs much more than what is proven
+  bool is_behind = false;     // more is proven outside the tree search than by it
+  bool gap_is_large = false;  // the gap exceeds far_plan
 };
 
-// Counts work, not seconds, so that a run can be repeated. The rule is at the head of the .cpp.
+// Counts work, not seconds, so that a run is repeatable. The rule is at the head of the .cpp. One
+// thread at a time.
 class PrimalScheduler {
  public:
   PrimalScheduler(int agents, const Tuning& tuning);
 
-  // The tree has done so much more work, in the units of PrimalSearch::work().
+  // Adds `work` units of tree work, in the units of PrimalSearch::work().
   void add_tree_work(std::int64_t work, TreeOutlook outlook = {});
-  // Has the tree done enough for the primal search to begin?
+  // True once the tree has done tree_begins_work.
   bool may_begin() const;
-  // Is it the turn of the primal search?
+  // True if the next work item is the primal search's.
   bool due(const PrimalSearch& primal) const;
   void add_primal_work(const PrimalSearch& primal, std::int64_t work);
 
@@ -33,8 +34,8 @@ class PrimalScheduler {
   const std::int64_t agents_;
   const Tuning tuning_;
   std::int64_t tree_ = 0;
-  double credit_ = 0;  // work that the primal search may do at once
-  double ratio_;       // and for each unit that the tree does
+  double credit_ = 0;  // work that the primal search may do now
+  double ratio_;       // primal work per unit of tree work, before floor and cap
 };
 
 }  // namespace grove::detail

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Why a plan with committed steps is safe however late the robots are. What is committed is a
-// beginning of the old plan: by its passing order, a set of actions that wait for nothing outside
-// of it, for what an action waits for begins no later in the plan. The new plan begins with the
-// same steps; so on these actions its passing order is the same. Robots that carry out some of them
-// while the new plan is being found, in whatever order of time the old one allows, have done what
-// the new one allows, too.
+// Problem: robots may be late while a plan with committed steps is computed. The new plan must be
+// safe for any delays.
+// Claim: every state that robots reach under the old plan within the committed steps is also
+// allowed by the new plan.
+// Proof: the committed steps are a prefix of the old plan. An action waits only for actions that
+// begin no later in the plan, so the actions of the prefix are closed under the dependencies of the
+// passing order. The new plan begins with the same steps, so its passing order agrees with the old
+// one on these actions. Hence robots that carry out some of them while the new plan is computed, in
+// any order of time that the old passing order allows, do what the new one allows.
 #include "engine/session.h"
 
 #include <fmt/format.h>
@@ -27,7 +30,7 @@
 namespace grove::detail {
 namespace {
 
-// Throws InvalidPlan.
+// Throws InvalidPlan if the checker refuses `plan`.
 void require_valid_plan_of(const Instance& instance, const Plan& plan) {
   Solution solution;
   solution.plan = plan;
@@ -35,7 +38,8 @@ void require_valid_plan_of(const Instance& instance, const Plan& plan) {
   require_valid_plan(instance, solution);
 }
 
-// Shows the plans of what comes after the committed steps as whole ones.
+// Converts plans and solutions of the part after the committed steps into those of the whole
+// instance.
 class WholePlans : public ForwardingObserver {
  public:
   WholePlans(RunObserver& next, const Instance& instance, const Plan& plan, Time commit,
@@ -55,7 +59,7 @@ class WholePlans : public ForwardingObserver {
     if (solution.plan) {
       solution.plan = whole(*solution.plan);
       solution.status = status_of(solution.plan->cost, lower_bound_, solution.omega);
-    } else if (is_stuck) {  // other plans may begin otherwise
+    } else if (is_stuck) {  // plans with another beginning may exist
       solution.status = Status::kUnknown;
       solution.stats.texts["reason"] =
           "the committed steps leave no plan where agents without a destination end as in the old "
@@ -86,7 +90,7 @@ class WholePlans : public ForwardingObserver {
     return progress;
   }
 
-  // May all come to rest then wherever they may by the instance before?
+  // True if each agent may rest wherever it may in the original instance.
   bool ends_are_free() const {
     for (AgentIndex agent = 0; agent < later_.agent_count(); ++agent)
       if (!instance_.agent(agent).goal &&
@@ -95,9 +99,9 @@ class WholePlans : public ForwardingObserver {
     return true;
   }
 
-  // What the committed steps cost whatever comes after: of who has nothing to do then, until it
-  // came to rest. (If it moves all the same it costs more than its later moves, counted from
-  // there.)
+  // Cost of the committed steps for any continuation. For an agent that has nothing left to do,
+  // counts the steps until it came to rest. (If it moves again, it costs more than its later moves
+  // alone.)
   Cost cost_before() const {
     Cost cost = 0;
     for (AgentIndex agent = 0; agent < later_.agent_count(); ++agent) {
@@ -116,7 +120,7 @@ class WholePlans : public ForwardingObserver {
   std::optional<Cost> cost_;
 };
 
-// What outlives a solve: its distances serve the next one.
+// State kept between solves: the next solve reuses the distances.
 struct Kept {
   Kept(Instance the_instance, const Limits& limits, int threads, const Kept* before)
       : instance(std::move(the_instance)),
@@ -126,7 +130,7 @@ struct Kept {
   const Problem problem;
 };
 
-// Is there an answer to be searched for?
+// True if presolve leaves the answer to a search.
 bool is_searched(const Problem& problem) {
   return problem.distances.complete() && !presolve_infeasibility(problem);
 }
@@ -138,7 +142,8 @@ Solution unknown(const SolveOptions& options, const std::string& reason) {
   return solution;
 }
 
-// The paths of a plan, none of those that have to be planned anew; then a plan, if they can be.
+// Keeps the paths of the unaffected agents and re-plans the others. Returns nullopt if there is no
+// repaired plan.
 std::optional<Plan> start_from(const Plan& plan, const std::vector<bool>& affected,
                                const Problem& problem, const SolveOptions& options,
                                const Limits& limits) {
@@ -151,7 +156,7 @@ std::optional<Plan> start_from(const Plan& plan, const std::vector<bool>& affect
   return repaired(problem, stops, paths, options.seed, limits);
 }
 
-// The first of perhaps two searches: its end is the end of the run only if end() says so.
+// Observer of the first of possibly two searches. Forwards its end only when end() is called.
 class FirstSearch : public ForwardingObserver {
  public:
   using ForwardingObserver::ForwardingObserver;
@@ -242,8 +247,8 @@ class Session::Impl {
   }
 
  private:
-  // First without the destinations that agents have only for the sake of the old plan. They get
-  // them again if that finds no plan, or a costlier one.
+  // Solves first without the destinations that agents have only because of the old plan. Restores
+  // them if this finds no plan or one of higher cost.
   Solution solve_with_ends_of_plan(const SolveOptions& options, const Limits& limits,
                                    RunObserver& observer, Time commit) {
     const Instance free = without_ends_of_plan(instance_, ends_with_plan_);
@@ -322,9 +327,9 @@ class Session::Impl {
 
   Instance instance_;
   std::optional<Plan> plan_;    // valid
-  std::optional<Plan> old_;     // valid but for who is affected
+  std::optional<Plan> old_;     // valid except for affected agents
   std::vector<bool> affected_;  // by agent
-  std::vector<bool> cut_;       // by agent: its path comes to what is closed; empty: no agent's
+  std::vector<bool> cut_;       // by agent: its path reaches a closed place; empty: no agent's
   std::vector<bool> ends_with_plan_;  // by agent (execution/advance.h)
   std::unique_ptr<Kept> kept_;
 };

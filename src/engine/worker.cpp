@@ -16,14 +16,14 @@ namespace {
 
 constexpr double kGoldenRatio = 0.6180339887;  // its multiples spread evenly over [0, 1)
 
-// What the answer's statistics call the splits of this kind.
+// Name of the statistics counter for splits of this kind.
 std::string count_of_splits(ConstraintKind kind) {
   std::string name = "splits_" + std::string(name_of(kind));
   std::ranges::replace(name, '-', '_');
   return name;
 }
 
-// Lets an expander do its part of a turn, and writes down what that was.
+// Runs `what` on an expander and records its work, counts and new cache entries in the item.
 template <class What>
 void weigh(Worker::WorkItem& turn, Expander& by, const What& what) {
   by.turn_to(turn.memory);
@@ -51,7 +51,7 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
       joint_(std::make_unique<JointScheduler>(
           problem.instance, options.tuning,
           number == 0 && techniques_of(options).has(Technique::kJointSearch))) {
-  // To expand the root can take long where there are many pairs of agents.
+  // Expanding the root takes long if there are many pairs of agents.
   const std::int64_t agents = problem.instance.agent_count();
   share_->add_tree_work(options.tuning.root_work_per_pair * agents * agents);
   if (number == 0 && techniques_of(options).has(Technique::kLagrangian))
@@ -94,7 +94,7 @@ std::optional<Worker::WorkItem> Worker::choose() {
   return lagrangian();
 }
 
-// The primal search, which knows the incumbent and the prices.
+// Returns the primal search after giving it the incumbent and the latest dual solution.
 PrimalSearch& Worker::primal() {
   if (!primal_)
     primal_ = std::make_unique<PrimalSearch>(problem_, primal_stops_,
@@ -192,7 +192,7 @@ void Worker::commit(WorkItem& turn) {
   shared_.observer().worked();
 }
 
-// Beside what shares the work with them.
+// Reports work to the schedulers of joint search and Lagrangian bound.
 void Worker::add_other_work(std::int64_t work) {
   joint_->add_other_work(work);
   shared_.lagrangian().add_other_work(work);

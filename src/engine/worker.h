@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One worker of a run.
+// Worker of a run: performs one work item after the other.
 #pragma once
 
 #include <memory>
@@ -17,40 +17,38 @@ namespace grove::detail {
 class JointScheduler;
 class PrimalScheduler;
 
-// An expander and a primal search, which take turns; and on the first worker of a run a search over
-// joint states, where there are few. For one thread at a time, but for what says
-// otherwise.
+// Has an expander and a primal search. Worker 0 also has the search over joint states, for
+// instances with few of them. One thread at a time, except where a method says otherwise.
 class Worker {
  public:
-  // All must outlive this, but for `stops`, of which it makes a copy. `number` from 0; each number
-  // looks for plans from another seed.
+  // All must outlive this, except `stops`, which is copied. `number` counts from 0; it also selects
+  // the seed of the primal search.
   Worker(const Problem& problem, const SolveOptions& options, const Limits& limits,
          SharedSearch& shared, const AgentStopsCache& stops, int number);
   ~Worker();
 
-  // What is done at one go, and what became of it.
+  // One unit of scheduling, and its result.
   struct WorkItem {
     enum class Job : std::uint8_t { kExpand, kHelp, kPrimal, kPrepare, kJoint, kLagrangian };
     explicit WorkItem(Job the_job, NodePtr the_node = nullptr)
         : job(the_job), node(std::move(the_node)) {}
 
     Job job;
-    NodePtr node;                                            // to expand or to help with
-    BoundingEffort bounding_effort = BoundingEffort::kFull;  // with which to expand it
-    std::shared_ptr<SharedCache> memory;                     // to do so with
+    NodePtr node;                                            // to expand or to assist with
+    BoundingEffort bounding_effort = BoundingEffort::kFull;  // used for expanding it
+    std::shared_ptr<SharedCache> memory;                     // cache to use
     CacheDelta found;
     Expansion expansion;
     std::optional<Plan> plan;
-    Cost proven = 0;  // by the search over joint states; see Ledger::prove
+    Cost proven = 0;  // by the joint search; see SharedBounds::prove()
     LagrangianBound::Job lagrangian;
     std::int64_t work = 0;   // see search/work.h
-    ExpansionCounts counts;  // what this turn added
+    ExpansionCounts counts;  // added by this item
   };
 
-  // Does the best there is to do: expands a node, helps another worker with one, goes on with the
-  // primal search or that over joint states for about a millisecond, finds some prices for the
-  // Lagrangian bound, or prepares the next tree.
-  // False: nothing can be done just now.
+  // Chooses and completes one work item: expands a node, assists another worker with one, runs the
+  // primal or the joint search for about a millisecond, prices some agents for the Lagrangian
+  // bound, or prepares the next tree. Returns false if there is nothing to do now.
   bool turn() {
     std::optional<WorkItem> turn = choose();
     if (!turn) return false;
@@ -60,18 +58,19 @@ class Worker {
     return true;
   }
 
-  // A turn in four parts: settles what to do (none: there is nothing), does it, makes common what
-  // was found out, and tells. perform() only reads what is shared; several turns that expand nodes
-  // may be performed at the same time, each by another expander. Turns may be published at the
-  // same time.
+  // turn() in four parts. choose() selects the item and returns nullopt if there is none. perform()
+  // does it and only reads shared data. publish() merges the cache entries that it found into the
+  // shared cache. commit() posts its results. Several items that expand nodes may be performed
+  // concurrently, each by another expander. publish() is thread-safe.
   std::optional<WorkItem> choose();
   void perform(WorkItem& turn, Expander& by);
   static void publish(WorkItem& turn);
   void commit(WorkItem& turn);
-  // Its own expander, made when first asked for. Of one thread; not necessarily the worker's.
+  // The worker's own expander, made on first use. One thread at a time; not necessarily the
+  // worker's.
   Expander& expander();
 
-  // Adds what the turns of this worker that were committed have counted. From any thread.
+  // Adds the counts of all committed items. Thread-safe.
   void add_counts(Stats& stats) const;
 
  private:
@@ -89,18 +88,18 @@ class Worker {
   const Limits& limits_;
   SharedSearch& shared_;
   const int number_;
-  // Each with what it knows of the agents, for they may be in the hands of different threads. Made
-  // when they are first due.
+  // The expander and the primal search have a cache each, because different threads may use them.
+  // Both are made when first due.
   AgentStopsCache expander_stops_;
   std::unique_ptr<Expander> expander_;
   AgentStopsCache primal_stops_;
   std::unique_ptr<PrimalSearch> primal_;
   const std::unique_ptr<PrimalScheduler> share_;
   const std::unique_ptr<JointScheduler> joint_;
-  std::optional<Pricer> pricer_;  // made when it is first due
-  NodePtr helped_;                // the last node that there was nothing left to help with
+  std::optional<Pricer> pricer_;  // made when first due
+  NodePtr helped_;                // the last node found with nothing left to assist with
 
-  mutable std::mutex counting_;  // guards what was counted:
+  mutable std::mutex counting_;  // guards the counts below:
   ExpansionCounts of_tree_;
   PrimalSearch::Counts of_primal_;
   std::int64_t helps_ = 0;
