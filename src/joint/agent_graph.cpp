@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Touching counts: whoever is on a stop with work done, or that takes no time, has it behind
-// itself, for with less left to do an agent can do all that it could with more. An agent without a
-// destination rests on one of its own places with nothing left, whatever it visited last: moved to
-// the end of the order, that place is visited once more. Begun work that serves none of the stops
-// left is a wait, and that there is already.
+// Builds AgentGraph: a breadth-first search forward over the reachable nodes, then one backward for
+// the costs to go.
+//
+// Touching counts: an agent on a stop with its task executed, or with a task that takes no time,
+// has visited the stop. This loses nothing, because with fewer stops left an agent can do all that
+// it could with more. An agent without a destination rests on one of its own places with no stop
+// left, whatever it visited last: if that place is moved to the end of the sequence, it is visited
+// once more. Starting a task that serves none of the stops left is the same as a wait, which is a
+// move already.
 #include "joint/agent_graph.h"
 
 #include <algorithm>
@@ -60,7 +64,7 @@ class AgentGraphMaker {
     return left;
   }
 
-  // At work it is on a stop that is left, or has just done it.
+  // True unless the agent executes a task whose stop is not left.
   bool serves(State state, Visited left) const {
     if (!world_.is_working(state)) return true;
     const std::vector<TaskIndex>& stops = instance_.agent(agent_).stops;
@@ -86,7 +90,8 @@ class AgentGraphMaker {
     return node.rests || (node.left == 0 && instance_.may_rest(agent_, node.state));
   }
 
-  // Backwards from where it may rest, breadth first: all moves but those within rest cost 1.
+  // Breadth-first search backward from the nodes where the agent may rest: all moves except those
+  // within rest cost 1.
   void settle_costs() {
     std::vector<std::vector<std::uint32_t>> back(nodes_.size());
     for (std::uint32_t node = 0; node < nodes_.size(); ++node)
@@ -107,7 +112,7 @@ class AgentGraphMaker {
         }
   }
 
-  // Without the nodes that lead nowhere. The start, if it stays, stays 0.
+  // Removes the nodes from which the agent cannot come to rest. The start, if kept, keeps number 0.
   AgentGraph compact() const {
     AgentGraph graph;
     graph.agent_ = agent_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One agent alone: all that it can come to, numbered, and what it costs from there.
+// State graph of one agent: its reachable states, numbered, with costs to go.
 #pragma once
 
 #include <cstddef>
@@ -12,36 +12,37 @@
 
 namespace grove::detail {
 
-// Nodes are what an agent can be in: a state of its motion, the stops that are left, and whether it
-// has come to rest for ever. Where it may rest with nothing left, one of its moves is to do so: it
-// stays, and no longer costs anything; all other moves, waits included, cost 1. Nodes from which it
-// cannot come to rest are left out, and so are works that serve nothing. (Under demands that depend
-// on time a node has its time, too: timed_graphs.h.) Immutable.
+// A node is a motion state, the stops that are left, and whether the agent has come to rest for
+// ever. Where the agent may rest with no stop left, one move is to rest: the agent stays and costs
+// nothing from then on. All other moves, waits included, cost 1. Nodes from which the agent cannot
+// come to rest are omitted, and so is task execution that serves no stop. (Under constraints that
+// depend on time, a node has a time as well: time_expanded_graphs.h.) Immutable: any thread may
+// read it.
 class AgentGraph {
  public:
   using Node = std::uint16_t;
-  static constexpr std::size_t kMostNodes = 1 << 12;  // a larger world is no small one
+  static constexpr std::size_t kMostNodes = 1 << 12;  // more nodes: the instance is not small
 
   struct Move {
     Node to;
-    Time delta_f;  // what it costs more than the best way from here, alone
+    Time delta_f;  // increase over the least individual cost from here
   };
 
-  // None: it can come to more than `most_nodes` nodes.
+  // Returns nullopt if more than `most_nodes` nodes are reachable.
   static std::optional<AgentGraph> make(const Instance& instance, AgentIndex agent,
                                         std::size_t most_nodes = kMostNodes);
 
   AgentIndex agent() const { return agent_; }
-  // 0: it cannot do what it has to, even alone.
+  // 0 if the agent cannot complete its stops even without other agents.
   std::size_t count() const { return to_go_.size(); }
   static constexpr Node start() { return 0; }
   Place place(Node node) const { return places_[node]; }
   State state(Node node) const { return states_[node]; }
   bool rests(Node node) const { return rests_[node] != 0; }
-  // Least cost until it can rest, alone; 0 exactly where it rests or may.
+  // Least individual cost until it may rest; 0 exactly where it rests or may rest.
   Time to_go(Node node) const { return to_go_[node]; }
   std::size_t move_count() const { return moves_.size(); }
-  // By detour, the least first: 0, always.
+  // Sorted by delta_f, ascending; the first is always 0.
   std::span<const Move> moves(Node node) const {
     return {moves_.data() + first_move_[node], moves_.data() + first_move_[node + 1]};
   }

@@ -1,27 +1,33 @@
 // SPDX-License-Identifier: MIT
-// A joint state says of every agent what it is in (agent_graph.h); a step moves all at once and
-// costs as many as are not at rest. So a way costs the sum of the finish times. To rest for ever is
-// a decision: who could may as well go on, and pays for it.
+// Optimal paths for a few agents by A* over joint states.
 //
-// The estimate is the sum of what the agents cost alone, and of what groups of two or three cost
-// more together (group_table.h), groups that share no agent: of all ways to group agents the best.
-// In any plan each group pays at least that, so none is cheaper. States stand in the queue by cost
-// and estimate, their *layer*; the layers are emptied from the least on. On the way to any plan
-// there is always a state in the queue whose layer is no more than the plan's cost; so the layer
-// that is being emptied bounds all plans, and the first state taken with nothing left to pay for
-// ends an optimal one. (A state that is reached at less cost goes into the queue again, whatever
-// became of it before.) Larger tables are made when the search has taken as much work as they do: a
-// state that is taken from the queue with an estimate of before gets a new one. States whose layer
-// reaches the cutoff are dropped, for plans through them cost as much; an empty queue proves that
-// no plan costs less than the cutoff - without one, none.
+// States. A joint state holds a node of agent_graph.h for each agent. A step moves all agents at
+// once and costs 1 for each agent that is not at rest. So a path costs the sum of the finish times.
+// To rest for ever is a decision: an agent that could rest may continue instead, and pays for it.
 //
-// Enhanced partial expansion (Goldenberg et al., JAIR 2014). A move's detour is what it adds to
-// what its agent costs alone, never less than 0. A state brings forth those next ones whose detours
-// are within the budget that its layer leaves, and goes back into the queue with the next budget
-// that there is: what costs more than the optimum even by the sum over agents is never made.
-// Choosing moves agent by agent, the next budget is the least sum above the budget of a beginning
-// without collisions: each can be gone on with without a detour, or else collides and comes again,
-// for nothing, with a greater one.
+// Estimate. It is the sum of the agents' individual costs to go, plus what groups of two or three
+// agents cost more together (pattern_database.h). The groups share no agent; the best grouping
+// counts. In any plan each group costs at least that, so the estimate is admissible.
+//
+// Layers. The queue is ordered by cost + estimate, the layer of a state. Layers are emptied in
+// rising order. Claim: the current layer is a lower bound on all plans, and the first state taken
+// with nothing left to pay ends an optimal plan. Proof: for each plan there is always a state on
+// its way in the queue whose layer is at most the plan's cost. (A state that is reached at less
+// cost enters the queue again, whatever became of it before.) States whose layer reaches the cutoff
+// are dropped, because plans through them cost at least the cutoff. So an empty queue proves that
+// no plan costs less than the cutoff, or that there is none if there is no cutoff.
+//
+// Late databases. Larger pattern databases are made when the search has taken as much work as they
+// do. A state that is taken from the queue with an estimate from before gets a new one.
+//
+// Enhanced partial expansion (Goldenberg et al., JAIR 2014). The delta_f of a move is what it adds
+// to its agent's individual cost, never less than 0. An expansion generates the successors whose
+// summed delta_f is within the budget that the state's layer leaves. The state then re-enters the
+// queue with the next budget that occurs. So no successor is generated that costs more than the
+// optimum even by the sum of individual costs. Moves are chosen agent by agent. The next budget is
+// the least sum above the budget of a collision-free prefix. Each such prefix can be continued with
+// delta_f 0, or else it collides and the state comes again, without successors, with a greater
+// budget.
 #include "joint/epea_star.h"
 
 #include <algorithm>
@@ -41,9 +47,11 @@ namespace {
 using Node = AgentGraph::Node;
 using Index = std::uint32_t;
 constexpr Index kNone = std::numeric_limits<Index>::max();
-constexpr std::size_t kMostGrouped = 8;  // beyond, the best grouping takes too long to find
-constexpr std::size_t kMostEntries = std::size_t{1} << 18;  // of a table made at first
-constexpr std::int64_t kMostTableWork = 4'000'000;          // of all those; see search/work.h
+constexpr std::size_t kMostGrouped =
+    8;  // agents; with more, finding the best grouping takes too long
+constexpr std::size_t kMostEntries = std::size_t{1}
+                                     << 18;         // entries of a table made before the search
+constexpr std::int64_t kMostTableWork = 4'000'000;  // of these tables together; see search/work.h
 constexpr std::size_t kMostLateEntries = std::size_t{1} << 21;
 constexpr std::size_t kMostGroupedLate = 6;
 constexpr std::int64_t kStatesPerPoll = 256;
@@ -53,7 +61,7 @@ constexpr std::int64_t kMadePerWork = 2;  // joint states; see search/work.h
 
 class EpeaStar::Search {
  public:
-  // `tables`: some guide it. No plan costs less than `least`.
+  // `tables`: use pattern databases. `least`: known lower bound on all plans.
   Search(const Instance& instance, std::vector<AgentGraph> agents, std::size_t most_bytes,
          bool tables, Cost least)
       : instance_(instance),
@@ -110,16 +118,17 @@ class EpeaStar::Search {
   struct Record {
     Index parent = kNone;
     std::int32_t cost = 0;        // from the start
-    std::int32_t layer = 0;       // no plan by a way not yet looked at costs less
-    std::int32_t alone = 0;       // the sum of what its agents cost alone from there
-    std::int32_t looked_at = -1;  // detours up to this; -1: none
-    std::uint32_t tables = 0;     // that its layer knows of
+    std::int32_t layer = 0;       // no plan through a successor not yet generated costs less
+    std::int32_t alone = 0;       // sum of individual costs to go
+    std::int32_t looked_at = -1;  // expanded for delta_f up to this; -1: not yet
+    std::uint32_t tables = 0;     // number of tables that its layer includes
   };
 
-  // Groups that share no agent, by number; the rest is none.
+  // Tables of disjoint groups, by number; unused entries hold tables_.size().
   using Grouping = std::array<std::uint8_t, kMostGrouped / 2>;
 
-  // All pairs, then threes, those that are small enough. (Of two agents the search is the table.)
+  // Plans tables for all pairs, then for all triples, if they are small enough. There is no table
+  // of all agents: the search itself is that table.
   void plan_tables() {
     if (size() < 3 || size() > kMostGrouped) return;
     for (std::size_t a = 0; a < size(); ++a)
@@ -142,7 +151,7 @@ class EpeaStar::Search {
   std::int64_t work_of(const std::vector<std::size_t>& members) const {
     return PatternDatabase::work(agents_, members);
   }
-  // False: stopped.
+  // Returns false if a limit was reached.
   bool add_table(std::deque<std::vector<std::size_t>>& from, const Limits& limits) {
     auto table = PatternDatabase::make(instance_, agents_, from.front(), limits);
     if (!table) return false;
@@ -157,7 +166,7 @@ class EpeaStar::Search {
     if (tables_to_come_.empty()) begin();
     return true;
   }
-  // Tables take no more than half of the work.
+  // Tables take at most half of the work.
   bool late_table_is_due() const {
     return !late_tables_.empty() &&
            table_work_ + work_of(late_tables_.front()) <= made_ / kMadePerWork;
@@ -179,7 +188,7 @@ class EpeaStar::Search {
     none.fill(static_cast<std::uint8_t>(tables_.size()));
     add_groupings(0, 0, none, 0);
   }
-  // All ways to go on with groups from `first` on, of agents that are free, until there is none.
+  // Adds all maximal groupings that extend `so_far` by tables from `first` on with free agents.
   void add_groupings(std::size_t first, unsigned taken, Grouping so_far, std::size_t count) {
     bool ends = true;
     for (std::size_t i = 0; i < tables_.size() && count < so_far.size(); ++i) {
@@ -242,7 +251,8 @@ class EpeaStar::Search {
     for (Index state = 0; state < records_.size(); ++state)
       slots_[slot_of(nodes_of(state))] = state;
   }
-  // Is it of use to reach a state at this cost? What is known already needs no estimate.
+  // Records that a state is reached at this cost, if that is less than before and its layer is
+  // below the cutoff. A state known at this cost needs no new estimate.
   void reach(const Node* nodes, std::uint64_t hash, Index parent, std::int32_t cost,
              std::int32_t alone) {
     ++made_;
@@ -260,7 +270,8 @@ class EpeaStar::Search {
                       alone,  -1,   static_cast<std::uint32_t>(tables_.size())};
     push(slot);
   }
-  // Does a table made since put a state into a later layer? It is queued there then.
+  // If a table made since then raises the layer of the state, queues it in the new layer and
+  // returns true.
   bool rises(Index state, Cost cutoff) {
     Record& record = records_[state];
     if (record.tables == tables_.size()) return false;
@@ -274,7 +285,8 @@ class EpeaStar::Search {
   }
   bool is_final(Index state) const { return records_[state].alone == 0; }
 
-  // What groups cost more together, at least: over all agents, the best way to group them.
+  // Lower bound on the excess of the joint cost over the sum of individual costs: that of the best
+  // grouping.
   Cost excess_of(const Node* nodes) {
     for (std::size_t i = 0; i < tables_.size(); ++i) {
       const std::uint8_t excess = tables_[i].excess(nodes);
@@ -290,7 +302,7 @@ class EpeaStar::Search {
     return best;
   }
 
-  // --- one step of all ---
+  // --- expansion ---
 
   void expand(Index state, Cost cutoff) {
     parent_ = state;
@@ -318,7 +330,7 @@ class EpeaStar::Search {
     push(state);
   }
 
-  // What has been chosen. Where they may be known is looked up in memory for all at once.
+  // Generates the chosen successors. Prefetches the hash slots and records of all of them first.
   void reach_next() {
     for (const Next& next : next_) __builtin_prefetch(&slots_[next.hash & (slots_.size() - 1)]);
     for (const Next& next : next_) {
@@ -327,7 +339,7 @@ class EpeaStar::Search {
       __builtin_prefetch(&records_[there]);
       __builtin_prefetch(nodes_of(there));
     }
-    // Those with the least detours come last, to be taken first where a layer has room for more.
+    // States with the least delta_f are pushed last, so that a layer returns them first.
     for (std::size_t i = next_.size(); i-- > 0;)
       reach(next_nodes_.data() + i * size(), next_[i].hash, parent_, next_[i].cost, next_[i].alone);
     next_.clear();
@@ -338,7 +350,7 @@ class EpeaStar::Search {
     return static_cast<std::size_t>(agents_[agent].place(nodes[agent]));
   }
 
-  // The moves of `agent` and all after it; those before have chosen and pay `cost`.
+  // Chooses moves for `agent` and all later agents. The earlier ones have chosen and pay `cost`.
   void choose(std::size_t agent, Time delta_f, std::int32_t cost, std::int32_t alone) {
     if (agent == size()) {
       next_nodes_.insert(next_nodes_.end(), to_.begin(), to_.end());
@@ -354,7 +366,7 @@ class EpeaStar::Search {
       if (collides(agent, here, there)) continue;
       if (sum > budget_) {
         next_budget_ = std::min(next_budget_, sum);
-        return;  // the others are no less
+        return;  // moves are sorted by delta_f
       }
       to_[agent] = move.to;
       to_on_[there] = static_cast<std::int8_t>(agent);
@@ -363,7 +375,8 @@ class EpeaStar::Search {
     }
   }
 
-  // With those who have chosen; without following with all.
+  // True if the move collides with that of an earlier agent or, where following is forbidden, with
+  // the present place of any agent.
   bool collides(std::size_t agent, std::size_t here, std::size_t there) const {
     if (to_on_[there] != kNobody) return true;
     if (here == there) return false;
@@ -391,13 +404,14 @@ class EpeaStar::Search {
   const Instance& instance_;
   const std::vector<AgentGraph> agents_;
   const std::size_t most_bytes_;
-  std::deque<std::vector<std::size_t>> tables_to_come_;  // their members
-  std::deque<std::vector<std::size_t>> late_tables_;     // the same of larger ones
+  std::deque<std::vector<std::size_t>>
+      tables_to_come_;                                // members of tables to make before the search
+  std::deque<std::vector<std::size_t>> late_tables_;  // the same for larger tables
   std::int64_t planned_work_ = 0;
-  std::int32_t alone_ = 0;  // the sum of what the agents cost alone
+  std::int32_t alone_ = 0;  // sum of individual costs at the start
   std::vector<PatternDatabase> tables_;
-  std::vector<Grouping> groupings_;  // all that no group could be added to
-  std::vector<int> excess_;          // of the state being made, by table; one more, of none: 0
+  std::vector<Grouping> groupings_;  // all maximal groupings
+  std::vector<int> excess_;          // by table, of the state being generated; one more entry: 0
   std::vector<Node> nodes_;          // by state, then agent
   std::vector<Record> records_;
   std::vector<Index> slots_;  // a power of two
@@ -405,13 +419,13 @@ class EpeaStar::Search {
   std::size_t at_ = 0;  // in layers_
   std::size_t queued_ = 0;
   Cost first_layer_ = 0;
-  Cost lower_bound_ = 0;  // of the layer at_
+  Cost lower_bound_ = 0;  // layer of at_
   std::int64_t states_ = 0;
-  std::int64_t made_ = 0;  // joint states, again and again
+  std::int64_t made_ = 0;  // joint states generated, repetitions included
   std::int64_t table_work_ = 0;
   std::size_t table_bytes_ = 0;
   std::optional<std::vector<Path>> paths_;
-  // The expansion under way.
+  // The current expansion.
   struct Next {
     std::uint64_t hash;
     std::int32_t cost;  // from the start
@@ -426,9 +440,9 @@ class EpeaStar::Search {
   Time next_budget_ = kNever;
   std::vector<Node> from_;
   std::vector<Node> to_;
-  std::vector<Time> most_;            // detours of an agent and all after it
-  std::vector<std::int8_t> from_on_;  // by place: the agent that is there
-  std::vector<std::int8_t> to_on_;    // and that has chosen to be
+  std::vector<Time> most_;            // largest delta_f of an agent and all later ones, summed
+  std::vector<std::int8_t> from_on_;  // by place: the agent there now
+  std::vector<std::int8_t> to_on_;    // by place: the agent that has chosen to move there
 };
 
 namespace {
@@ -465,7 +479,7 @@ std::unique_ptr<EpeaStar> EpeaStar::make(const Instance& instance, double most_b
 
 EpeaStar::Outcome EpeaStar::run(std::int64_t states, Cost cutoff, const Limits& limits) try {
   return search_->run(states, cutoff, limits);
-} catch (const std::bad_alloc&) {  // its bound is that of the layer being emptied
+} catch (const std::bad_alloc&) {  // lower_bound() stays that of the current layer
   return Outcome::kTooLarge;
 }
 Cost EpeaStar::lower_bound() const {

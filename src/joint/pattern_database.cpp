@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Backwards from all states in which everybody is at rest or may be, by Dijkstra's algorithm: a
-// step costs as many as are not at rest. What these agents cost at least is what any plan of more
-// agents pays for them.
+// Dijkstra's algorithm backward from all joint nodes in which every member is at rest or may rest.
+// A step costs 1 for each member that is not at rest. Any plan of more agents pays at least the
+// least cost of these members for them.
 #include "joint/pattern_database.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using Node = AgentGraph::Node;
 constexpr std::int64_t kMovesPerWork = 20;  // see search/work.h
 constexpr std::int64_t kSettledPerPoll = 1024;
 
-// The moves of an agent backwards.
+// Reversed moves of an agent.
 class Backwards {
  public:
   explicit Backwards(const AgentGraph& graph) : first_(graph.count() + 1, 0) {
@@ -40,7 +40,7 @@ class Backwards {
   std::vector<Node> from_;
 };
 
-// What the members cost together, by entry.
+// Least joint cost of the members, by entry.
 class Costs {
  public:
   Costs(const Instance& instance, std::vector<const AgentGraph*> members,
@@ -54,7 +54,7 @@ class Costs {
     for (const AgentGraph* member : members_) backwards_.emplace_back(*member);
   }
 
-  // False: stopped.
+  // Returns false if a limit was reached.
   bool find(const Limits& limits) {
     begin(0, 0);
     std::int64_t settled = 0;
@@ -69,7 +69,7 @@ class Costs {
   Time operator[](std::size_t entry) const { return costs_[entry]; }
 
  private:
-  // Everybody where it may rest, on places of their own.
+  // Starts from all nodes where each member may rest, on distinct places.
   void begin(std::size_t member, std::size_t entry) {
     if (member == members_.size()) return reach(entry, 0);
     const AgentGraph& graph = *members_[member];
@@ -105,7 +105,7 @@ class Costs {
       if (!collides(member)) step_back(member + 1, entry + from * strides_[member], cost);
     }
   }
-  // With one of those before.
+  // True if the move of `member` collides with that of an earlier member.
   bool collides(std::size_t member) const {
     const Place from = members_[member]->place(from_[member]);
     const Place to = members_[member]->place(to_[member]);
@@ -121,7 +121,7 @@ class Costs {
 
   const bool may_follow_;
   const std::vector<const AgentGraph*> members_;
-  const std::vector<std::size_t> strides_;  // falling
+  const std::vector<std::size_t> strides_;  // descending
   std::vector<Backwards> backwards_;
   std::vector<Time> costs_;
   std::vector<std::vector<std::uint32_t>> layers_;  // entries by cost

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a few agents cost more together than alone, from wherever they are.
+// Pattern database: excess of the joint cost of a few agents over their individual costs, for all
+// joint nodes.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +15,15 @@
 
 namespace grove::detail {
 
-// A pattern database (Culberson and Schaeffer 1998) over two or three agents. Immutable.
+// Pattern database (Culberson and Schaeffer 1998) over two or three agents. Immutable: any thread
+// may read it.
 class PatternDatabase {
  public:
   using Node = AgentGraph::Node;
   static constexpr std::uint8_t kUnreachable = 255;
 
-  // `members`, rising, of `agents`. entries() is what it will hold, in bytes; making it takes
-  // work(). None: stopped.
+  // `members`: positions in `agents`, ascending. entries() is its size in bytes; making it takes
+  // work(), in the unit of search/work.h. Returns nullopt if a limit was reached.
   static std::optional<PatternDatabase> make(const Instance& instance,
                                              std::span<const AgentGraph> agents,
                                              std::vector<std::size_t> members,
@@ -32,8 +34,8 @@ class PatternDatabase {
                            std::span<const std::size_t> members);
 
   const std::vector<std::size_t>& members() const { return members_; }
-  // By the nodes of all agents: at least so much more, 254 at most; kUnreachable: from there they
-  // do not all come to rest.
+  // Lower bound on the excess at `nodes` (one per agent), at most 254. kUnreachable: from there the
+  // members cannot all come to rest.
   std::uint8_t excess(const Node* nodes) const {
     std::size_t entry = 0;
     for (std::size_t i = 0; i < members_.size(); ++i) entry += nodes[members_[i]] * strides_[i];

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Layer by layer, forward: a slot of safe_intervals.h, which says the state and all that
-// constraints ask of the past, with a stage of free_goals.h and a time. Who is there may wait while
-// the slot lasts, or move where a move arrives one step later. *Claim: the ways to rest are exactly
-// the paths that cost `most_cost` or less.* What is dropped has a distance to the end that leads
-// beyond; the completions are widened until they know all sequences within the cost, so no stage of
-// such a path is unknown; and whoever counts a stop as early as may be passes all stages that
-// matter (optimal_paths.cpp). To rest is a decision, open wherever a slot permits to rest for ever
-// with nothing left to do; who could and waits pays for it, as in any agent graph. By when it must
-// have come to rest (kRestBy) limits the cost where states are places, and elsewhere is a matter of
-// slots.
+// Forward pass, time by time. A node is a slot of safe_intervals.h (the state and all that
+// constraints require of the past), a stage of sequence_stages.h, and a time. From a node the agent
+// may wait while the slot lasts, or move where a move arrives one step later. To rest is a
+// decision, possible wherever a slot permits resting for ever with no stop left. An agent that
+// could rest and waits pays for it, as in any agent graph. A deadline for coming to rest (kRestBy)
+// limits the cost where states are places; elsewhere the slots express it.
 //
-// Backward: the earliest finish from each node, in the order of falling times, since no move leads
-// into its own layer. So what an agent costs alone from a node is exact under its demands.
+// Claim: the paths of the graph to rest are exactly the paths that cost `most_cost` or less.
+// Proof: a node is dropped only if its distance to the end leads beyond `most_cost`. The cost-to-go
+// table is extended until it covers all sequences within the cost, so no stage of such a path is
+// unknown. A path that counts each stop as early as possible passes all stages that matter
+// (mdd.cpp).
+//
+// Backward pass: the earliest finish from each node, by falling time, because no move stays within
+// its own time. So the individual cost to go from a node is exact under the constraints.
 #include "joint/time_expanded_graphs.h"
 
 #include <algorithm>
@@ -42,7 +44,7 @@ TimeExpandedGraphs::Outcome TimeExpandedGraphs::make(SequenceStages& goals,
     return Outcome::kStopped;
   goals_ = &goals;
   most_cost_ = most_cost;
-  // One number for every node, and for every state to rest in, which are no more.
+  // One number for each node and each state to rest in; there are at most as many of the latter.
   most_nodes = std::min(most_nodes, kMostNumbers / 2);
   start();
   for (Index node = 0; node < std::ssize(nodes_); ++node, ++looked_at_) {
@@ -55,7 +57,7 @@ TimeExpandedGraphs::Outcome TimeExpandedGraphs::make(SequenceStages& goals,
   return Outcome::kMade;
 }
 
-// Where the start may count for a stop or not, it is of two stages; it is one node nevertheless.
+// If the start may or may not count for a stop, it has two stages, but it is one node.
 void TimeExpandedGraphs::start() {
   nodes_.clear();
   moves_.clear();
@@ -118,7 +120,8 @@ void TimeExpandedGraphs::find_finishes() {
   }
 }
 
-// Without the nodes that lead nowhere. The start, if it stays, stays 0. Those at rest come last.
+// Omits the nodes from which the agent cannot come to rest. The start, if kept, keeps number 0.
+// Nodes at rest come last.
 void TimeExpandedGraphs::write(AgentGraph& graph) const {
   using NodeId = AgentGraph::Node;
   if (nodes_.empty() || nodes_.front().finish == kNever) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One agent under demands that depend on time: all that it can come to, and when.
+// Time-expanded graph of one agent under constraints.
 #pragma once
 
 #include <cstddef>
@@ -15,25 +15,25 @@
 
 namespace grove::detail {
 
-// Makes agent graphs whose nodes have their times, but for those at rest. The essay is at the head
-// of timed_graphs.cpp. Holds the workspace of one thread: reuse it, do not share it.
+// Makes agent graphs whose nodes have a time, except those at rest. The proof is at the head of
+// time_expanded_graphs.cpp. Reuses its workspace between calls. One thread at a time.
 class TimeExpandedGraphs {
  public:
   enum class Outcome : std::uint8_t {
     kMade,
-    kTooLarge,  // more than `most_nodes` nodes looked at, or than can be numbered (32,767)
-    kStopped,   // a limit struck
+    kTooLarge,  // more than `most_nodes` nodes, or more than can be numbered (32,767)
+    kStopped,   // a limit was reached
   };
 
   // `world` must outlive this.
   explicit TimeExpandedGraphs(const World& world);
 
-  // The ways that realize a sequence of the class of `goals`, obey `constraints`, none of them
-  // about the sequence, and cost `most_cost` at most; without a node if there are none. Widens the
-  // completions of `goals` as needed.
+  // Makes the graph of the paths that realize a sequence of the class of `goals`, satisfy
+  // `constraints` (none of them about the sequence), and cost at most `most_cost`. The graph has no
+  // node if there is no such path. Extends the cost-to-go table of `goals` as needed.
   Outcome make(SequenceStages& goals, std::span<const Constraint> constraints, Time most_cost,
                std::size_t most_nodes, const Limits& limits, AgentGraph& graph);
-  // Nodes looked at so far.
+  // Nodes expanded so far, over all calls.
   std::int64_t nodes() const { return looked_at_; }
 
  private:
@@ -44,8 +44,8 @@ class TimeExpandedGraphs {
     std::int32_t slot;
     StageId stage;
     Time time;
-    std::int32_t end_move = 0;  // in moves_; they begin where those of the node before end
-    Time finish = kNever;       // the earliest from here
+    std::int32_t end_move = 0;  // in moves_; its moves begin at end_move of the previous node
+    Time finish = kNever;       // earliest finish from here
   };
 
   void start();
@@ -60,11 +60,11 @@ class TimeExpandedGraphs {
   const World& world_;
   SafeIntervals intervals_;
   std::vector<Timed> nodes_;  // by time
-  std::vector<Index> moves_;  // to these nodes
+  std::vector<Index> moves_;  // target nodes
   std::vector<StageId> first_stages_;
-  std::unordered_map<std::uint64_t, Index> next_;  // the layer being made, by slot and stage
+  std::unordered_map<std::uint64_t, Index> next_;  // nodes of the next time, by slot and stage
   std::int64_t looked_at_ = 0;
-  // Of the call under way.
+  // Of the current call.
   SequenceStages* goals_ = nullptr;
   Time most_cost_ = 0;
 };
