@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
-// CTS-CBS (paper, Algorithms 1 and 4) among workers; the proof that it may stop is at the head of
-// search/global_bounds.cpp and holds for any order of expansion. What it asks of those who share a
-// search:
+// Global bounds of CTS-CBS (paper, Algorithms 1 and 4) with concurrent workers. The proof that the
+// search may stop is at the head of search/global_bounds.cpp and holds for any order of expansion.
+// It requires three things of the workers:
 //
-// *The ledger's two numbers*, the least bound of the live nodes and the bound of the trees not yet
-// instantiated, are read while others work. A tree's root is pushed first and the bound of the
-// trees after it published then; and the trees' bound is read before the nodes'. So a plan in a
-// tree that was not yet instantiated when the nodes' bound was read was not either when the trees'
-// was read, and any other plan is in a live node, or was pruned: the minimum of the two bounds it.
-// A node is live until all that it led to has been pushed.
+// (a) Lower bound. The bound is the minimum of two numbers that are read while others work: the
+//   least bound of the live nodes, and the bound of the trees not yet instantiated. A tree's root
+//   is pushed first; the bound of the later trees is published after that. The trees' bound is read
+//   before the nodes' bound. Claim: the minimum is a lower bound on every plan that was not pruned.
+//   Proof: if a plan's tree was not instantiated when the nodes' bound was read, it was not when
+//   the trees' bound was read, which covers it. Otherwise the plan is in a live node or was pruned.
+//   A node is live until all its children have been pushed.
 //
-// *Nothing left* is said only when no node is live and no tree is due, while nobody else may
-// instantiate one: nodes come from live nodes and from new trees alone (central_trees.cpp).
+// (b) End. "Nothing left" is reported only when no node is live and no tree is due, while no other
+//   thread may instantiate one: nodes come only from live nodes and from new trees
+//   (central_trees.cpp).
 //
-// *Pruning.* An incumbent is in the gate, checked, before anybody prunes by it.
+// (c) Pruning. No thread prunes by an incumbent before GlobalBounds has checked it.
 #include "engine/central_bounds.h"
 
 #include <fmt/format.h>
@@ -46,7 +48,7 @@ void CentralBounds::count(PlanSource source, Cost gain) {
 }
 
 void CentralBounds::nodes_changed() {
-  const Cost trees = trees_from_;  // before the nodes': see above
+  const Cost trees = trees_from_;  // before the nodes' bound: see (a)
   gate_.update(nodes_.bound(), trees);
   announcements_.bound(gate_.lower_bound());
 }

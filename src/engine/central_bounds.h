@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one ledger of a run: what is proven and what is found.
+// Global bounds of a run: incumbent and proven lower bound. One object per run.
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@
 
 namespace grove::detail {
 
-// The gate, with the numbers that it decides by kept up to date. The argument is at the head of the
-// .cpp.
+// Keeps GlobalBounds up to date with the live nodes and the trees. The proof is at the head of the
+// .cpp. Thread-safe, except for resume_at(): call it before the search.
 class CentralBounds : public SharedBounds {
  public:
-  // All must outlive this. `trees_from`: no tree of the run costs less.
+  // All must outlive this. `trees_from`: lower bound on all trees of the run.
   CentralBounds(const Instance& instance, Omega omega, const Limits& limits, LiveNodes& nodes,
                 RunEvents& announcements, Cost trees_from)
       : limits_(limits),
@@ -38,22 +38,22 @@ class CentralBounds : public SharedBounds {
   void post(Plan plan, PlanSource source) override;
   void prove(Cost bound, BoundSource by) override;
   void nodes_changed() override;
-  // Where better plans came from, and what each source took off the cost. From any thread.
+  // Adds the number of better plans by source, and the cost that each source saved. Thread-safe.
   void add_counts(Stats& stats) const;
 
-  // For decisions that are the gate's.
+  // For decisions that GlobalBounds makes.
   const GlobalBounds& gate() const { return gate_; }
-  // Was it proven beside the trees that there is no plan? And why there is none, then.
+  // True if infeasibility was proven outside the tree search, for the reason kNoJointPlan.
   bool has_no_joint_plan() const { return ended_beside_; }
   static constexpr std::string_view kNoJointPlan =
       "everything was searched that the agents can come to together";
-  // What an earlier run proved.
+  // Takes over the lower bound of an earlier run.
   void resume_at(Cost lower_bound);
-  // No tree that is still to come costs less; kInfiniteCost: none is to come. To be said after the
-  // roots of the others were pushed.
+  // Sets the lower bound on all trees not yet instantiated; kInfiniteCost: there is none. Call
+  // after the roots of the other trees were pushed.
   void expect_trees_from(Cost bound) { trees_from_ = bound; }
   Cost trees_from() const { return trees_from_; }
-  // No node is left and none will come, though the gate does not call the run finished.
+  // Ends the run although finished() is false: no node is left and none will come.
   void end() { out_of_nodes_ = true; }
 
  private:
@@ -71,7 +71,7 @@ class CentralBounds : public SharedBounds {
     std::int64_t plans = 0;
     Cost gain = 0;
   };
-  std::mutex posting_;  // orders what is announced of plans
+  std::mutex posting_;  // orders the events about plans
   mutable std::mutex counting_;
   std::array<Found, kPlanSources.size()> found_;  // under counting_
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the bound asks of the order in which things are done here is at the head of
-// central_ledger.cpp.
+// Instantiates trees. The order of the steps here matters for the lower bound: see the head of
+// central_bounds.cpp.
 #include "engine/central_trees.h"
 
 #include <algorithm>
@@ -67,7 +67,7 @@ void CentralTrees::refill_nodes() {
     ledger_.end();
 }
 
-// Algorithm 4, where there is a tree left.
+// True if a tree is left and Algorithm 4 requires it now.
 bool CentralTrees::is_due() const {
   const Cost last = last_cost_;
   return ledger_.trees_from() < kInfiniteCost &&
@@ -88,7 +88,7 @@ void CentralTrees::log_proof(const Node& root) const {
   options_.proof->tree(tree);
 }
 
-// Instantiates the next tree. Under growing_. If anything throws, the root stays prepared.
+// Instantiates the next tree. Requires growing_. If anything throws, the root stays prepared.
 void CentralTrees::grow() {
   if (!prepared_) prepared_ = forest_.next_root();
   const bool has_root = prepared_ != nullptr;
@@ -104,14 +104,15 @@ void CentralTrees::grow() {
   if (has_root) announcements_.event(RunEvent::kTree);
 }
 
-// The paper's trees take time to make: sequencing problems, and a path for each agent.
+// Only the trees of policy kFixed are prepared: making one solves sequencing problems and plans a
+// path for each agent.
 bool CentralTrees::claim_preparation() {
   const bool wanted = options_.policy == Policy::kFixed && !options_.omega.is_infinite() &&
                       ledger_.trees_from() < kInfiniteCost && !ledger_.over();
   return wanted && !preparing_.exchange(true);
 }
 
-// A tree that is prepared is not instantiated: its root is not live, and bounds the trees to come.
+// A prepared tree is not instantiated: its root is not live, but it bounds the trees to come.
 void CentralTrees::prepare_tree() {
   const std::unique_lock lock(growing_, std::try_to_lock);
   if (lock && (prepared_ || (prepared_ = forest_.next_root()))) {
@@ -122,9 +123,9 @@ void CentralTrees::prepare_tree() {
   }
 }
 
-// When no node is left but some were given up: starts again from all roots, or first adds a tree
-// that is due by then. False if that would lead nowhere: the last run was no better. Under
-// growing_.
+// Call when no node is live. If nodes were evicted, restarts from all roots, or first adds a tree
+// that is due by then. Returns false if no node was evicted, if w = inf, or if the last run did not
+// raise evicted_bound(). Requires growing_.
 bool CentralTrees::begin_anew() {
   const Cost proven = nodes_.evicted_bound();
   if (proven == kInfiniteCost || options_.omega.is_infinite()) return false;

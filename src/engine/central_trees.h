@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The trees of a run, as Algorithm 4 of the paper brings them.
+// Instantiates the trees of a run by Algorithm 4 of the paper.
 #pragma once
 
 #include <atomic>
@@ -17,25 +17,25 @@
 
 namespace grove::detail {
 
-// Instantiates trees of a forest when the ledger's gate finds that necessary, and pushes their
-// roots; once more when no node is left but some were given up.
+// Instantiates the next tree of a forest when GlobalBounds requires it, and pushes its root. Pushes
+// all roots again when no node is left but some were evicted.
 class CentralTrees : public TreeSource {
  public:
   // All must outlive this.
   CentralTrees(const SolveOptions& options, Forest& forest, LiveNodes& nodes, CentralBounds& ledger,
                RunEvents& announcements);
 
-  // Before all else, from one thread: trees that an earlier run instantiated, one by one, each
-  // after the forest has made the same and before its nodes are pushed; then the first tree, if
-  // there are none.
+  // Call first, on one thread. resume_with(): adds one tree of an earlier run, after the forest has
+  // made the same tree and before its nodes are pushed. begin(): then instantiates the first tree
+  // if there is none.
   void resume_with(const NodePtr& root);
   void begin();
 
-  // How many are instantiated, and their roots pushed.
+  // Number of trees that are instantiated and whose roots are pushed.
   std::int64_t count() const { return count_; }
-  // The first so many.
+  // Records of the first `count` trees.
   std::vector<TreeRecord> records(std::int64_t count) const;
-  // Adds what was counted here to the answer's statistics.
+  // Adds the counts of this object to the statistics of the solution.
   void add_counts(Stats& stats) const;
 
   void instantiate_due_tree() override;
@@ -58,8 +58,8 @@ class CentralTrees : public TreeSource {
 
   mutable std::mutex growing_;  // guards the forest and what follows
   std::vector<NodePtr> roots_;  // by the number of the tree
-  NodePtr prepared_;            // of the next tree, if it has been prepared
-  Cost begun_anew_at_ = -1;     // the bound that the last run through the trees proved
+  NodePtr prepared_;            // root of the next tree if prepared, else null
+  Cost begun_anew_at_ = -1;     // evicted_bound() at the last restart; -1: none
   std::int64_t restarts_ = 0;
 
   std::atomic<Cost> last_cost_;  // of the tree instantiated last

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The file: 8 bytes of magic and a version of 4, then blocks. A block is its kind (4 bytes), the
-// length of its content (8), the content (see serialise.h) and a CRC-32 (4); numbers come low bytes
-// first. The checksum is that of the whole file up to there, so that blocks can neither be changed
-// nor lost, doubled or reordered; but for the checksums before it, since what is followed by its
-// own CRC has the same one, whatever it was. One head, then blocks of trees, then blocks of nodes,
-// then the end with their number, and nothing behind it: a file cut short anywhere has no end.
+// Layout of a checkpoint file; numbers are little-endian:
+// - magic (8 bytes), version (4 bytes), then blocks.
+// - Block: kind (4 bytes), length of the content (8 bytes), content (see serialize.h), CRC-32 (4
+//   bytes).
+// - Blocks in order: one HEAD, then TREE, then NODE, then one ENDS with the number of nodes.
+//   Nothing follows it, so a file that was cut short anywhere has no ENDS.
+//
+// The CRC of a block covers the whole file up to there except the earlier CRCs. So blocks cannot be
+// changed, lost, duplicated or reordered undetected. The earlier CRCs are excluded because data
+// that is followed by its own CRC always has the same CRC.
 #include "engine/checkpoint.h"
 
 #include <fmt/format.h>
@@ -28,7 +32,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic = "GROVE-CP";
 constexpr std::uint32_t kVersion = 3;
-constexpr std::size_t kBlockBytes = std::size_t{1} << 18;  // about so many to a block
+constexpr std::size_t kBlockBytes = std::size_t{1} << 18;  // approximate content of a block
 constexpr std::size_t kBlockHeadBytes = 12;
 constexpr std::size_t kChecksumBytes = 4;
 
@@ -61,7 +65,7 @@ void serialize(Archive& archive, Head& head) {
           head.trees_instantiated, head.trees, head.counters, head.seconds);
 }
 
-// Stored as such: the numbers of an enumeration may change.
+// Values in the file; those of the enumeration may change.
 constexpr std::uint8_t kFixed = 1;
 constexpr std::uint8_t kFree = 2;
 
@@ -174,7 +178,7 @@ void CheckpointWriter::write(std::uint32_t kind, std::string_view content) {
   file_.write(tail);
 }
 
-// The blocks of a file, one after the other.
+// Reads the blocks of a file in order.
 class CheckpointReader::Blocks {
  public:
   explicit Blocks(fs::path path) : path_(std::move(path)), file_(nullptr, &std::fclose) {
@@ -196,7 +200,7 @@ class CheckpointReader::Blocks {
     const std::string head = read(kBlockHeadBytes);
     Block block{static_cast<std::uint32_t>(number_in(std::string_view(head).substr(0, 4))), {}};
     const std::uint64_t length = number_in(std::string_view(head).substr(4));
-    // First of all: nobody vouches for the length yet.
+    // Check the length first: no checksum covers it yet.
     if (length > left() || left() - length < kChecksumBytes)
       refuse(fmt::format("announces {} bytes more; expected at most the {} left", length, left()));
     block.content = read(length);
@@ -206,7 +210,7 @@ class CheckpointReader::Blocks {
     return block;
   }
 
-  // The value that is all of a block's content.
+  // Decodes the whole content of a block as one value.
   template <class T>
   T value(std::string_view content) const try {
     return from_bytes<T>(content);
@@ -216,12 +220,12 @@ class CheckpointReader::Blocks {
 
   std::uint64_t left() const { return size_ - offset_; }
 
-  // Something is wrong with the block read last.
+  // Throws InputError: the block read last is damaged.
   [[noreturn]] void refuse(std::string_view what) const {
     throw InputError(path_.string(), fmt::format("byte {}", block_begin_),
                      fmt::format("is damaged: {}", what));
   }
-  // It is whole, and not what was asked for.
+  // Throws InputError: the file is intact, but not the expected one.
   [[noreturn]] void refuse_file(std::string_view what) const {
     throw InputError(path_.string(), "", what);
   }
@@ -253,7 +257,7 @@ class CheckpointReader::Blocks {
   std::uint64_t size_ = 0;
   std::uint64_t offset_ = 0;
   std::uint64_t block_begin_ = 0;
-  std::uint32_t checksum_ = checksum(0, opening());  // as far as read
+  std::uint32_t checksum_ = checksum(0, opening());  // of all blocks read so far
 };
 
 CheckpointReader::CheckpointReader(const fs::path& directory, std::uint64_t fingerprint,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The state of a search in a file, to go on from later: DIR/checkpoint.grove, whole or not at all.
+// Checkpoint file of a search, to resume from: DIR/checkpoint.grove. It is written atomically.
 #pragma once
 
 #include <cstddef>
@@ -20,30 +20,30 @@
 
 namespace grove::detail {
 
-// What is known beside the nodes. A value.
+// Everything in a checkpoint except the nodes. A value.
 //
-// Who goes on from here under kFixed must see to it that the forest has the same trees first, not
-// only as many: the back ends of sequencing break ties each in its own way, so that skipping a
-// number of trees may skip others than those instantiated, and with them a bound.
+// To resume under kFixed, the caller must check that the forest first makes the same trees, not
+// only as many. The sequencing back ends break ties differently, so skipping a number of trees may
+// skip other trees than those instantiated, and then the lower bound would be wrong.
 struct CheckpointHeader {
   std::uint64_t fingerprint = 0;        // of the instance; see model/fingerprint.h
   Policy policy = Policy::kFree;        // not kAuto
-  std::optional<Plan> incumbent;        // by AgentIndex and TaskIndex, of that instance
+  std::optional<Plan> incumbent;        // by AgentIndex and TaskIndex of that instance
   Cost lower_bound = 0;                 // proven: no plan costs less
-  Cost evicted_bound = kInfiniteCost;   // the least bound of nodes given up; none was if infinite
-  std::int64_t trees_instantiated = 0;  // by the forest so far; at least as many as trees.size()
-  std::vector<TreeRecord> trees;        // by number; those that nodes belong to are among them
+  Cost evicted_bound = kInfiniteCost;   // least bound of evicted nodes; kInfiniteCost: none
+  std::int64_t trees_instantiated = 0;  // by the forest so far; >= trees.size()
+  std::vector<TreeRecord> trees;        // by number; includes the tree of each node
   std::map<std::string, std::int64_t> counters;  // of the run so far, by name: nodes_expanded, ...
-  double seconds = 0;                            // spent so far
+  double seconds = 0;                            // of the run so far
 };
 
 // DIR/checkpoint.grove.
 std::filesystem::path checkpoint_file(const std::filesystem::path& directory);
 
-// Writes a checkpoint, node by node; memory for some hundred nodes. The one before it stands until
-// finish() has succeeded, and for good if this is destroyed before. For one thread. Throws
-// InputError, with the file and the reason, when it cannot be written (no such folder, no
-// permission, a full disk); see grove/io/atomic_file.h on SIGXFSZ.
+// Writes a checkpoint node by node; buffers some hundred nodes. The previous checkpoint remains
+// until finish() has succeeded, and for good if this is destroyed before. One thread at a time.
+// Throws InputError with file and reason if the file cannot be written (no such directory, no
+// permission, full disk). For SIGXFSZ see io/atomic_file.h.
 class CheckpointWriter {
  public:
   // `directory` must exist. Throws std::invalid_argument for the policy kAuto.
@@ -51,7 +51,7 @@ class CheckpointWriter {
 
   // Throws std::invalid_argument for a node of a tree that is not in the header.
   void add(NodeRecord node);
-  // To be called once, last.
+  // Call once, last.
   void finish();
 
  private:
@@ -60,18 +60,18 @@ class CheckpointWriter {
   void write(std::uint32_t kind, std::string_view content);
 
   AtomicFile file_;
-  std::uint32_t checksum_;  // of all so far
+  std::uint32_t checksum_;  // CRC of all heads and contents so far
   std::size_t trees_;
   std::uint64_t nodes_ = 0;
-  std::vector<NodeRecord> waiting_;  // to be written as one block
+  std::vector<NodeRecord> waiting_;  // nodes of the next block
   std::size_t waiting_bytes_ = 0;
 };
 
-// Reads a checkpoint, node by node. For one thread. Throws InputError, with the file, what was
-// found and what was expected, for a file that cannot be read, is damaged, or is of another format
-// version, instance or policy. Damage further on shows when it is come upon: what was read is good
-// only once next() has returned none. That paths and cells are of the instance is for Trees::add()
-// and node_of() to check.
+// Reads a checkpoint node by node. One thread at a time. Throws InputError with the file, what was
+// found and what was expected, if the file cannot be read, is damaged, or is of another format
+// version, instance or policy. Damage is detected only when it is reached: the data read are valid
+// only once next() has returned nullopt. Trees::add() and node_of() check that paths and cells are
+// of the instance.
 class CheckpointReader {
  public:
   // `fingerprint` and `policy`: the expected ones.
@@ -80,7 +80,7 @@ class CheckpointReader {
   ~CheckpointReader();
 
   const CheckpointHeader& header() const { return header_; }
-  // The next node; none after the last.
+  // Returns the next node, or nullopt after the last.
   std::optional<NodeRecord> next();
 
  private:
@@ -92,8 +92,8 @@ class CheckpointReader {
 
   std::unique_ptr<Blocks> blocks_;
   CheckpointHeader header_;
-  std::vector<NodeRecord> nodes_;  // of the block read last
-  std::size_t next_ = 0;           // of them
+  std::vector<NodeRecord> nodes_;  // nodes of the block read last
+  std::size_t next_ = 0;           // position in nodes_
   std::uint64_t nodes_read_ = 0;   // from all blocks
   bool ended_ = false;
 };

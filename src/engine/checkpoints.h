@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// When a run writes checkpoints, and where.
+// Checkpoint options of a run, and the timer.
 #pragma once
 
 #include <atomic>
@@ -11,32 +11,33 @@
 
 namespace grove::detail {
 
-// Every so often, when asked, and when the run ends, however it does. A value.
+// Checkpoints are written every `interval_s` seconds, on request, and at the end of the run,
+// whatever ended it. A value.
 struct Checkpoints {
   std::filesystem::path directory;  // must exist; empty: no checkpoints
   double interval_s = 600;
-  std::atomic<bool>* asked = nullptr;  // a signal handler sets it, the run resets it; may be null
+  std::atomic<bool>* asked = nullptr;  // set by a signal handler, reset by the run; may be null
 };
 
-// What became of one.
+// Outcome of writing a checkpoint.
 struct CheckpointReport {
   std::int64_t nodes = 0;
-  double seconds = 0;   // it took
-  std::string failure;  // why it could not be written; empty: it was
+  double seconds = 0;   // duration of the write
+  std::string failure;  // error message; empty: success
 };
 
-// Tells when one is due. Of one thread, or under a lock.
+// Decides when a checkpoint is due. One thread at a time.
 class CheckpointTimer {
  public:
-  // By the clock of `limits`.
+  // Uses the clock of `limits`.
   CheckpointTimer(const Checkpoints& checkpoints, const Limits& limits)
       : checkpoints_(checkpoints), limits_(limits), last_(limits.now()) {}
 
-  // Is one due? If so the time to the next begins.
+  // Returns true if a checkpoint is due, and then restarts the interval.
   bool due();
 
  private:
-  const Checkpoints& checkpoints_;  // owned by the caller, as the limits
+  const Checkpoints& checkpoints_;  // both owned by the caller
   const Limits& limits_;
   Limits::Clock::time_point last_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The live nodes of a run, as the ledger sees them.
+// Interface to the live nodes of a run, for CentralBounds and CentralTrees.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace grove::detail {
 
-// Where they are: in one frontier, or with many ranks.
+// The nodes are in one frontier, or distributed over ranks.
 class LiveNodes {
  public:
   struct Counts {
@@ -22,16 +22,16 @@ class LiveNodes {
   LiveNodes& operator=(const LiveNodes&) = delete;
   virtual ~LiveNodes() = default;
 
-  // No plan in a live node, or in one that was given up, costs less.
+  // Lower bound on all plans in live and in evicted nodes.
   virtual Cost bound() const = 0;
-  // The least bound of those given up.
+  // Least bound of an evicted node; kInfiniteCost: none.
   virtual Cost evicted_bound() const = 0;
   // False only if no node is live.
   virtual bool any() const = 0;
   virtual Counts counts() const = 0;
 
   virtual void push(const NodePtr& root) = 0;
-  // Drops nodes whose bound is at least `cost`, which a checked plan costs.
+  // Drops nodes whose bound is at least `cost`, the cost of a checked plan.
   virtual void prune(Cost cost) = 0;
   // See Frontier::restart().
   virtual void restart(std::span<const NodePtr> roots, Cost proven) = 0;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Others work on meanwhile. The trees are counted first, then the nodes are looked at, all at one
-// moment, then the incumbent. So every plan is in a node that is written, or costs at least the
-// bound of what was given up, or is in a tree not counted, or costs at least what the incumbent
-// does, for that was posted before the node that led to it, or was pruned by it, was gone. Nodes of
-// trees that came in between are left out: these trees will come again.
+// Checkpoints are written while other threads work. Order: count the trees, then take a snapshot of
+// all nodes at one moment, then read the incumbent.
+//
+// Claim: every plan is in a written node, or costs at least the bound of an evicted node, or is in
+// a tree not counted, or costs at least as much as the incumbent. Proof: a node disappears only
+// after the plan that it led to was posted, or because the incumbent pruned it; so the incumbent is
+// read last. Nodes of trees that came in between are omitted: these trees will be instantiated
+// again.
 #include "engine/local_checkpoints.h"
 
 #include <chrono>
@@ -36,7 +39,7 @@ void LocalCheckpoints::write() {
       ++report.nodes;
     }
     writer.finish();
-  } catch (const InputError& error) {  // the one before it stands; the run goes on
+  } catch (const InputError& error) {  // the previous one remains; the run continues
     report.failure = error.what();
   } catch (const std::bad_alloc&) {
     report.failure = "there is no memory left to write it";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The checkpoints of a run in one process.
+// Checkpoints of a run in one process.
 #pragma once
 
 #include <mutex>
@@ -11,7 +11,7 @@
 
 namespace grove::detail {
 
-// Writes them. May be used from any thread.
+// Writes checkpoints. write_if_due() is thread-safe.
 class LocalCheckpoints {
  public:
   // All must outlive this.
@@ -23,9 +23,9 @@ class LocalCheckpoints {
         nodes_(nodes),
         timer_(options.checkpoints, limits) {}
 
-  // Writes one if it is due and nobody else is at it. To be called between turns.
+  // Writes a checkpoint if one is due and no other thread is writing. Call between work items.
   void write_if_due();
-  // At the end of the run.
+  // Call at the end of the run.
   void write_last();
 
  private:
@@ -39,7 +39,7 @@ class LocalCheckpoints {
   CheckpointTimer timer_;
 };
 
-// Makes the run and its nodes what they were. False if a limit struck: then there is nothing to
+// Restores the run and its nodes. Returns false if a limit was reached; then there is nothing to
 // search.
 bool restore(CheckpointReader& checkpoint, const Instance& instance, RunState& run,
              LocalNodes& nodes);

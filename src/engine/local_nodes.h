@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The nodes that a process holds.
+// Nodes of one process.
 #pragma once
 
 #include <atomic>
@@ -11,8 +11,8 @@
 
 namespace grove::detail {
 
-// The live nodes of one frontier, where they are made, and how many have been expanded. The methods
-// and all members may be used from any thread.
+// A frontier, the pool in which its nodes are made, and the number of nodes expanded. All members
+// are thread-safe.
 struct LocalNodes : LiveNodes {
   LocalNodes() = default;
   ~LocalNodes() override { frontier.abandon(); }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The limit is on the resident set, but that is no gauge to steer by: memory that nodes gave back
-// serves the next nodes and never returns to the system, so a search that evicted until the
-// resident set fell would evict everything. What is measured is two things. The resident set tells
-// *when* memory is short: when 7/8 of the room at the start are used. What the search can give up,
-// by its own account, is then as much as fits; from then on nodes may hold half of it and the
-// expanders' memory three eighths, whose lists double as they grow. The resident set should now
-// stay where it is. Should it rise all the same - other parts grow, small blocks are scattered -
-// the next alarm is half way to the limit, and the budgets are cut again. Each cut takes an eighth
-// and halves the room, so there are few; a run that cannot be helped this way is stopped by the
-// limit.
+// Problem: the memory limit is on the resident set, but the resident set is no usable control
+// variable. Memory that evicted nodes free is used for the next nodes and never returns to the
+// system, so a search that evicted until the resident set fell would evict everything.
+//
+// Solution: measure two things. The resident set decides when memory is short: when 7/8 of the room
+// at the start are used. The memory that the search can evict, by its own account, is then taken as
+// the amount that fits. From then on nodes may hold half of it and the expanders' caches three
+// eighths, because their arrays double as they grow. The resident set should now stay where it is.
+// If it still rises, because other parts grow or small blocks are fragmented, the next alarm is
+// half way to the limit, and the budgets are cut again. Each cut takes an eighth and halves the
+// room, so there are few cuts. If this does not suffice, the limit stops the run.
 #include "engine/memory_budgets.h"
 
 #include <algorithm>
@@ -18,9 +19,9 @@ namespace grove::detail {
 namespace {
 
 constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
-constexpr std::size_t kLeast = 64 << 10;  // nothing is won by less
+constexpr std::size_t kLeast = 64 << 10;  // bytes; smaller budgets gain nothing
 
-// What is left below `limit`.
+// Bytes left below `limit`.
 std::size_t room(std::size_t limit) {
   return limit - std::min(limit, resident_bytes());
 }
