@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What B proves. A plan of the instance with destinations is one of the instance without: its
-// agents rest on tasks of their own. But not the other way round, so what B's search proves, its
-// lower bound or that there is no plan, holds for those destinations only. All that B says of the
-// instance is the bound that came with the choice (destinations.h): so much the agents' best
-// sequences cost wherever they end. B is done when its own search is, within w of its own bound;
-// the status compares with the bound that is proven, and may well be `feasible`.
+// CTS-CBS-B and CTS-CBS-C, and what they prove.
 //
-// C is two searches of one instance: the better plan and the greater bound stand.
+// B. A plan of the instance with destinations is a plan of the instance without: its agents rest on
+// tasks of their own. The converse is false. So the lower bound of B's search, or its proof of
+// infeasibility, holds only for these destinations. The only bound that B reports for the instance
+// is the bound that came with the choice (destinations.h): the sum of the agents' best sequence
+// costs, wherever they end. B ends when its own search is within w of its own bound. The status
+// compares with the reported bound, so it may be `feasible`.
+//
+// C runs two searches of one instance. The better plan and the greater bound are reported.
 #include "engine/adaptations.h"
 
 #include <fmt/format.h>
@@ -27,9 +29,9 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kShareOfFirst = 2.0 / 3;  // of the time, paper, section V-B
+constexpr double kShareOfFirst = 2.0 / 3;  // of the time; paper, section V-B
 
-// Tells an observer of several searches, one after the other, as if they were one.
+// Forwards the events of several consecutive searches to one observer, as if they were one search.
 class Told {
  public:
   explicit Told(RunObserver& next) : next_(next) {}
@@ -51,7 +53,8 @@ class Told {
     ends_ = event == RunEvent::kEnd;
     if (!ends_) next_.on_event(is_news ? event : RunEvent::kProgress, last_);
   }
-  // The last survey of each search is made: it counts for those to come.
+  // Always request the statistics at the end of a search: they are added to those of later
+  // searches.
   bool wants_statistics() { return ends_ || next_.wants_statistics(); }
   void survey(RunStatistics survey) {
     for (const auto& [name, count] : done_) survey.whole.counts[name] += count;
@@ -79,15 +82,15 @@ class Told {
   }
 
   RunObserver& next_;
-  Progress before_;  // when the search began
+  Progress before_;  // at the beginning of the current search
   Progress last_;
-  std::map<std::string, std::int64_t> done_;  // counts of the searches before
+  std::map<std::string, std::int64_t> done_;  // counts of the earlier searches
   bool is_better_ = false;
   bool searched_ = false;
-  bool ends_ = false;  // a search does
+  bool ends_ = false;  // a search is ending
 };
 
-// A search of the instance itself.
+// Observer of a search of the instance itself.
 class Stage : public RunObserver {
  public:
   explicit Stage(Told& told) : told_(told) { told.begin_search(); }
@@ -109,7 +112,7 @@ class Stage : public RunObserver {
 
  private:
   virtual Plan of_whole(const Plan& plan) const { return plan; }
-  // What a bound of this search proves of the instance.
+  // Bound that a bound of this search proves for the instance.
   virtual Cost proven_by(Cost bound) const { return bound; }
 
   Progress of_whole(Progress progress) const {
@@ -120,14 +123,14 @@ class Stage : public RunObserver {
   Told& told_;
 };
 
-// A search of the instance with destinations.
+// Observer of a search of the instance with destinations.
 class StageOfB : public Stage {
  public:
   StageOfB(Told& told, const Instance& instance, const Destinations& destinations)
       : Stage(told), instance_(instance), destinations_(destinations) {}
 
-  void on_infeasible(std::string_view) override {}  // with these destinations
-  void on_bound_beside(BoundSource) override {}     // likewise
+  void on_infeasible(std::string_view) override {}  // holds only for these destinations
+  void on_bound_beside(BoundSource) override {}     // the same
 
  private:
   Plan of_whole(const Plan& plan) const override {
@@ -187,7 +190,7 @@ Solution solve_b(const Instance& instance, const SolveOptions& options, const Li
                  RunObserver& observer, Told& told) {
   try {
     return choose_and_solve(instance, options, limits, observer, told);
-  } catch (const std::bad_alloc&) {  // before the search, which minds its own
+  } catch (const std::bad_alloc&) {  // before the search; the search handles its own
     limits.memory_exhausted();
     return stopped(options, limits);
   }
@@ -204,8 +207,9 @@ bool is_within_omega(const Solution& solution) {
   return solution.status == Status::kOptimal || solution.status == Status::kBounded;
 }
 
-// How the run ended is how the second search did. But one that ended because its destinations allow
-// no plan settles nothing: what stopped the first is why no more is known.
+// Merges two searches; the run ended as the second did. Exception: if the second found that its
+// destinations allow no plan, this says nothing about the instance, and the limit that stopped the
+// first search is reported.
 Solution both(const Solution& first, Solution second) {
   if (second.status == Status::kInfeasible) return second;
   auto& texts = second.stats.texts;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who proves a bound beside the tree.
+// Sources of lower bounds outside the tree search.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 
 namespace grove::detail {
 
-// The numbers are those of messages.
+// The values are used in messages.
 enum class BoundSource : std::uint8_t {
   kJointSearch,  // A* over joint states
-  kLagrangian,   // prices and multipliers
+  kLagrangian,   // Lagrangian relaxation
 };
 inline constexpr BoundSource kLastProvenBy = BoundSource::kLagrangian;
 
-// As logs have it.
+// Name in logs.
 constexpr std::string_view name_of(BoundSource by) {
   return by == BoundSource::kJointSearch ? "joint" : "lagrangian";
 }

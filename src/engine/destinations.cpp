@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Which task should an agent end on? The cheapest choice of all agents together: an assignment of
-// agents to tasks, where agent and task cost what the agent's best sequence that ends on the task
-// costs, and more if others must visit it.
+// Problem: on which task should each agent end? The choice is a least-cost assignment of agents to
+// tasks. The cost of (agent, task) is the cost of the agent's best sequence that ends on the task,
+// plus a charge for the other agents that must visit the task.
 //
-// *Visitors.* Once an agent rests, nobody visits its cell any more. If others must, each of them
-// has to come before, which under fixed sequences often cannot be had at any bearable price.
-// Without a charge for that the choice costs hardly more than the instance without destinations,
-// and is hardly easier to solve: of 36 instances (the paper's three maps, N = 5 and 10, M = 10 to
-// 30; policy fixed, 4 s) CTS-CBS-A solves 17 or 18, B without a charge 23, with one of 12 steps a
-// visitor 32 (visitor_steps in model/tunables.def). (To charge for destinations in corridors too
-// solved no more.)
+// Visitors. Once an agent rests, no other agent can visit its place. So all other agents that must
+// visit it have to come before, which under fixed sequences is often possible only at a very high
+// cost. Without a charge for visitors, the choice costs hardly more than the instance without
+// destinations and is hardly easier to solve. Measured on 36 instances (the paper's three maps, N =
+// 5 and 10, M = 10 to 30; policy fixed, 4 s): CTS-CBS-A solves 17 or 18, B without a charge 23, B
+// with 12 steps per visitor 32 (visitor_steps in model/tunables.def). (An additional charge for
+// destinations in corridors solved no more.)
 //
-// *All ends at once.* A sequence from the start that ends on e, read backwards, begins on e and
-// ends at the start; distances are symmetric. So the completions of a matrix whose destination is
-// the start tell for every stop e what the rest, through all other stops, takes. They are exact for
-// the ends that are within reach of the best one, which are widened until no other end can matter:
-// an end outside costs beyond() or more, and an assignment that uses it that and the best of all
-// others.
+// All ends in one table. Distances are symmetric. So a sequence from the start that ends on e, read
+// backwards, begins on e and ends at the start. Hence the cost-to-go table of a matrix whose
+// destination is the start gives, for every stop e, the cost through all other stops. It is exact
+// for ends up to a cost limit above the best end. The limit is raised until no other end can
+// matter: an end outside costs at least beyond(), and an assignment that uses it costs at least
+// that plus the best ends of all other agents.
 #include "engine/destinations.h"
 
 #include <algorithm>
@@ -30,9 +30,9 @@
 namespace grove::detail {
 namespace {
 
-constexpr Time kFirstReach = 8;  // beyond the best end, in steps
+constexpr Time kFirstReach = 8;  // above the best end, in steps
 
-// One agent without a destination and the costs of its ends.
+// Costs of all ends of one agent without a destination.
 class Ends {
  public:
   Ends(const Problem& problem, AgentIndex agent)
@@ -41,13 +41,14 @@ class Ends {
   AgentIndex agent() const { return agent_; }
   const std::vector<TaskIndex>& tasks() const { return tasks_; }
 
-  // Learns all ends that cost at most `reach` more than the best. False: a limit struck.
+  // Computes all ends that cost at most `reach` more than the best one. Returns false if a limit
+  // was reached.
   bool widen(Time reach, const Limits& limits) {
     if (best_ == kNever && !find_best(limits)) return false;
     return all_known() || ends_.widen(std::min(best_ + reach, kNever - 1), limits);
   }
   Time best() const { return best_; }
-  // Of the sequences that end on a task; kNever: beyond().
+  // Least cost of a sequence that ends on the task; kNever: at least beyond().
   Time cost(int stop) const {
     return ends_.cost_to_go(ends_.matrix().all() & ~(StopSet{1} << stop), stop);
   }
@@ -68,7 +69,7 @@ class Ends {
       reach = std::max(reach, std::min(ends_.beyond(), kNever - 1));
       if (!ends_.widen(reach, limits)) return false;
       for (int stop = 0; stop < ends_.matrix().stops(); ++stop) best_ = std::min(best_, cost(stop));
-      if (best_ > ends_.beyond()) best_ = kNever;  // one that is not known may be better
+      if (best_ > ends_.beyond()) best_ = kNever;  // an unknown end may be better
       if (best_ == kNever && all_known()) return false;
     }
     return true;
@@ -101,7 +102,7 @@ class Chooser {
   }
 
  private:
-  // The sequences of those who have a destination.
+  // Adds the best sequence costs of the agents that have a destination.
   bool add_bound_of_others(Cost& bound) const {
     const Instance& instance = problem_.instance;
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
@@ -113,7 +114,7 @@ class Chooser {
     return true;
   }
 
-  // By position in ends_, then task.
+  // Cost matrix, by position in ends_, then task.
   std::vector<std::vector<std::int64_t>> costs() const {
     const auto tasks = static_cast<std::size_t>(problem_.instance.task_count());
     std::vector<std::vector<std::int64_t>> costs(ends_.size(),
@@ -124,7 +125,7 @@ class Chooser {
           costs[i][task] = cost;
     return costs;
   }
-  // kNever or more: not known.
+  // Cost of an end with its visitors; kNever or more: not known.
   Cost cost_of(const Ends& ends, TaskIndex task) const {
     const auto stop = std::ranges::find(ends.tasks(), task) - ends.tasks().begin();
     const auto visitors = std::ssize(problem_.instance.task(task).agents) - 1;
@@ -136,7 +137,7 @@ class Chooser {
     });
   }
 
-  // No assignment that uses an end that is not known is better.
+  // True if no assignment with an unknown end can be better.
   bool is_best(const std::optional<std::vector<int>>& assignment) const {
     if (std::ranges::all_of(ends_, &Ends::all_known)) return true;
     if (!assignment) return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where agents without a destination might end: one of each one's tasks made its destination turns
-// an MG-MAPF instance into a CTS-MAPF one (CTS-CBS-B; paper, section V-B).
+// Choice of destinations for agents without one. Making one task of each such agent its destination
+// turns an MG-MAPF instance into a CTS-MAPF instance (CTS-CBS-B; paper, section V-B).
 #pragma once
 
 #include <optional>
@@ -16,23 +16,24 @@ inline constexpr TaskIndex kNoTask = -1;
 
 struct Destinations {
   std::vector<TaskIndex> tasks;  // by AgentIndex; kNoTask: the agent has a destination of its own
-  // Proven: no plan of the instance costs less, wherever the agents end: the sum of their best
-  // sequences' costs.
+  // Proven: no plan of the instance costs less, wherever the agents end. It is the sum of the
+  // agents' best sequence costs.
   Cost bound = 0;
 };
 
-// Distinct ones, each among its agent's tasks and no other's destination, such that the agents'
-// best sequences that end there, and `visitor_steps` for every other agent that must visit one, are
-// least in sum; how that is found is at the head of destinations.cpp. None if a limit struck or
-// there is no such choice.
+// Chooses distinct destinations: each is a task of its agent and no other agent's destination. The
+// choice minimises the sum of the agents' best sequence costs with these ends, plus `visitor_steps`
+// for each other agent that must visit such a task. The method is at the head of destinations.cpp.
+// Returns nullopt if a limit was reached or if there is no such choice.
 std::optional<Destinations> choose_destinations(const Problem& problem, Cost visitor_steps,
                                                 const Limits& limits);
 
-// The instance in which they are destinations, and no longer tasks of these agents.
+// Returns the instance in which the chosen tasks are destinations, and no longer tasks of their
+// agents.
 Instance with_destinations(const Instance& instance, const Destinations& destinations);
 
-// What a plan of with_destinations(instance, destinations) is for `instance`: the same paths, with
-// the last task visited at the end.
+// Converts a plan of with_destinations(instance, destinations) to a plan of `instance`: the same
+// paths, with the destination appended to the sequence as the last task.
 Plan without_destinations(const Instance& instance, const Destinations& destinations, Plan plan);
 
 }  // namespace grove::detail

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Most small instances are closed by the first nodes of the tree, so the tree begins. What is still
-// open then and has few joint states is often one where everybody is in everybody's way: there the
-// search over joint states ends soon, and the tree perhaps never. Which of the two nobody knows, so
-// they share the work, of which joint search has the most; when one of them holds more memory than
-// it may, or has ended, the other has it all.
+// Divides the work between tree search and joint search. The tree begins, because its first nodes
+// close most small instances. An instance that is still open then and has few joint states is often
+// one where all agents are in each other's way. There the joint search ends soon, and the tree
+// search perhaps never. It is not known in advance which of the two ends first, so they share the
+// work; joint search may do most_joint units per unit of other work. When it exceeds its memory or
+// has ended, the tree gets all work.
 #include "engine/joint_scheduler.h"
 
 #include <algorithm>

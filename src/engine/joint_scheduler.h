@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The search over joint states, and when it is its turn.
+// Schedules the search over joint states.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 
 namespace grove::detail {
 
-// The rule is at the head of the .cpp. For one thread at a time.
+// The rule is at the head of the .cpp. One thread at a time.
 class JointScheduler {
  public:
-  // `instance` must outlive this. `wanted`: else it is never due.
+  // `instance` must outlive this. Unless `wanted`, it is never due.
   JointScheduler(const Instance& instance, const Tuning& tuning, bool wanted);
 
-  // So much was done beside it.
+  // Adds `work` units of other work.
   void add_other_work(std::int64_t work) { others_ += work; }
   bool due() const;
-  // About a millisecond of it. Proven, as Ledger::prove has it.
+  // Runs the search for about a millisecond. Returns its lower bound, as for SharedBounds::prove().
   Cost step(Cost cutoff, const Limits& limits);
-  // An optimal plan, as soon as there is one.
+  // Returns an optimal plan once it is found, else nullopt.
   std::optional<Plan> plan() const;
   std::int64_t states() const { return states_; }
 
@@ -32,7 +32,7 @@ class JointScheduler {
   bool over_;
   std::int64_t others_ = 0;
   std::int64_t states_ = 0;
-  std::unique_ptr<EpeaStar> search_;  // made when it is first due
+  std::unique_ptr<EpeaStar> search_;  // made when first due
 };
 
 }  // namespace grove::detail

@@ -81,7 +81,8 @@ SolveOptions options_of(Method method, SolveOptions options) {
   return options;
 }
 
-// What the papers' methods were made for.
+// Throws std::invalid_argument if the instance has features that the published methods do not
+// support.
 void require_published_problem(Method method, const Instance& instance) {
   const auto& agents = instance.agents();
   if (instance.motion_world())

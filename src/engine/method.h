@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Published methods under their names: Grove's search with what defines each, to compare with.
+// Published methods by name, for comparison: Grove's search with the parts that define each method.
 #pragma once
 
 #include <cstdint>
@@ -13,37 +13,37 @@
 namespace grove::detail {
 
 enum class Method : std::uint8_t {
-  kAuto,  // Grove's search, as the options say
-  // MG-MAPF by CTS-CBS (paper, section V-B), under either policy: adaptations.cpp.
-  kCtsCbsA,  // the agents end on any of their tasks
-  kCtsCbsB,  // one task of each is made its destination: destinations.h
+  kAuto,  // Grove's search with the given options
+  // MG-MAPF by CTS-CBS (paper, section V-B), under either policy; see adaptations.cpp.
+  kCtsCbsA,  // agents may end on any of their tasks
+  kCtsCbsB,  // one task of each agent becomes its destination; see destinations.h
   kCtsCbsC,  // A, then B
-  // CBS, plain, with another low level: grove/baselines/low_level.h.
+  // Plain CBS with another low level; see baselines/low_level.h.
   kOptimalCbs,
   kHcbs,
   kMgcbs,
-  kSCbs,  // CTS-CBS in the tree of the best joint sequence alone (w = inf; paper, section IV)
+  kSCbs,  // CTS-CBS, only in the tree of the best joint sequence (w = inf; paper, section IV)
 };
 
 std::vector<Method> all_methods();
-// As on the command line: "cts-cbs-a".
+// Name on the command line: "cts-cbs-a".
 std::string_view name_of(Method method);
 std::optional<Method> parse_method(std::string_view name);
 
-// Is it for agents without a destination only, and more than solve() with other options? (A is not
-// more: it is what solve() does with such agents.)
+// True if the method is only for agents without a destination. (kCtsCbsA is what solve() does with
+// such agents; kCtsCbsB and kCtsCbsC are more.)
 bool is_adaptation(Method method);
 
-// Turns `options` into those of the method's searches. Throws std::invalid_argument, saying what
-// was expected, where they do not go together.
+// Returns `options` adapted to the method's searches. Throws std::invalid_argument with what was
+// expected if the options do not suit the method.
 SolveOptions options_of(Method method, SolveOptions options);
 
-// Throws std::invalid_argument, saying why, if the method is not for this instance, or does not
-// begin with a plan and is given one.
+// Throws std::invalid_argument with the reason if the method does not suit the instance, or if a
+// start plan is given to a method that accepts none.
 void require_fit(Method method, const Instance& instance, const SolveOptions& options);
 
-// Solves `instance` by the method, which must fit, as solve() does. `options` are those of
-// options_of(). `anytime`, of kCtsCbsC: first B, then A from the plan found.
+// Solves `instance` by the method, which must suit it, with the contract of solve(). `options`:
+// result of options_of(). `anytime`, for kCtsCbsC: first B, then A from B's plan.
 Solution solve_by(Method method, bool anytime, const Instance& instance,
                   const SolveOptions& options, const Limits& limits,
                   RunObserver* observer = nullptr);

@@ -40,7 +40,7 @@ void RunEvents::infeasible(std::string_view reason) {
   observer_.on_infeasible(reason);
 }
 
-// That there is no plan at all is told at the end.
+// An infinite bound (no plan exists) is reported at the end.
 void RunEvents::bound_locked(Cost lower_bound) {
   if (lower_bound <= announced_bound_ || lower_bound >= kInfiniteCost) return;
   const Progress progress = progress_();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run tells its observer.
+// Serialises the events of a run for its observer.
 #pragma once
 
 #include <functional>
@@ -12,14 +12,15 @@
 
 namespace grove::detail {
 
-// Tells one thing at a time, with where the run stands at that moment. Methods may be called from
-// any thread.
+// Passes one event at a time to the observer, with the progress at that moment. Thread-safe, except
+// for survey_by() and bound_is_known().
 class RunEvents : public WorkObserver {
  public:
-  // `observer`, and what `progress` looks at, must outlive this.
+  // `observer` and everything that `progress` reads must outlive this.
   RunEvents(RunObserver& observer, std::function<Progress()> progress)
       : observer_(observer), progress_(std::move(progress)) {}
-  // How to make a survey, from any thread, for an observer that wants one. Before the search.
+  // Sets the function that makes the statistics, for an observer that requests them. It is called
+  // from any thread. Call before the search.
   void survey_by(std::function<RunStatistics()> survey) { survey_ = std::move(survey); }
 
   void expanded(const NodePtr& node, const Expansion& expansion, int worker) override;
@@ -27,15 +28,15 @@ class RunEvents : public WorkObserver {
   void worked() override { event(RunEvent::kProgress); }
 
   void event(RunEvent event);
-  // The lower bound is so high now; perhaps it was before, too.
+  // Reports the lower bound. Does nothing if the observer has it already.
   void bound(Cost lower_bound);
-  // What `prove` does makes it as high as it returns, beside the tree. Nothing else is told in
-  // between.
+  // Calls `prove`, which raises the lower bound outside the tree search and returns it. No other
+  // event is reported in between.
   void bound_beside(BoundSource by, const std::function<Cost()>& prove);
   void infeasible(std::string_view reason);
-  // The observer knows that it is so high.
+  // The observer already has this lower bound. Call before the search.
   void bound_is_known(Cost lower_bound) { announced_bound_ = lower_bound; }
-  // Dearer nodes are about to be dropped.
+  // Reports a new incumbent. Call before the nodes of higher cost are dropped.
   void incumbent(const Plan& plan, PlanSource source);
   void root(const NodePtr& root);
   void checkpoint(const CheckpointReport& report);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who watches a run: the log, the progress line, tests.
+// Interface to observe a run: for the log, the progress line and tests.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace grove::detail {
 
-// Where a run stands.
+// Progress of a run.
 struct Progress {
   std::int64_t nodes_expanded = 0;
   std::int64_t nodes_open = 0;
@@ -26,56 +26,56 @@ struct Progress {
 };
 
 enum class RunEvent : std::uint8_t {
-  kProgress,   // after every expansion: throttle it
+  kProgress,   // after every work item: throttle it
   kBound,      // the lower bound rose
   kTree,       // a new tree was instantiated
   kIncumbent,  // a better plan was found
   kEnd,        // the search is over; comes once, last
 };
 
-// Does nothing; override what is of interest. Called from the threads that run the search, one
-// at a time: return quickly. References are valid during the call;
-// the nodes die with the run: keep none.
+// Base class that does nothing; override what is needed. Called from the threads that run the
+// search, one at a time: return quickly. References are valid during the call. The nodes end with
+// the run: do not keep any.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
 
-  // A better plan was found; comes right before its kIncumbent. Save it, if at all, before it
-  // returns: what is announced ought to be safe.
+  // A better plan was found; comes right before its kIncumbent. To save the plan, do so before
+  // returning: an announced plan should be safe.
   virtual void on_incumbent(const Plan& /*plan*/, PlanSource /*source*/,
                             const Progress& /*progress*/) {}
   virtual void on_event(RunEvent /*event*/, const Progress& /*progress*/) {}
-  // The instance was seen to have no plan, before any search or beside the trees; `reason` is a
+  // The instance was proven infeasible, before any search or outside the trees. `reason` is a
   // sentence.
   virtual void on_infeasible(std::string_view /*reason*/) {}
 
-  // What the run goes on with now, a sentence: of methods that search more than once.
+  // For methods that search more than once: a sentence that describes the next search.
   virtual void on_note(std::string_view /*note*/) {}
 
-  // The bound, if it rises now, does so beside the tree.
+  // A rise of the bound is about to be reported that was proven outside the tree search.
   virtual void on_bound_beside(BoundSource /*by*/) {}
 
-  // A checkpoint was written, or could not be.
+  // A checkpoint was written, or writing it failed.
   virtual void on_checkpoint(const CheckpointReport& /*report*/) {}
 
-  // Asked after each event: true to be given a survey now, of the run up to here.
+  // Called after each event. If it returns true, on_statistics() is called with the statistics of
+  // the run so far.
   virtual bool wants_statistics() { return false; }
   virtual void on_statistics(const RunStatistics& /*survey*/) {}
 
-  // For who looks at the trees themselves, or tests the search's reasoning (planted optimum): every
-  // root, every expansion with what it led to and the number of the worker, from 0, that did it;
-  // and the bound from which on open nodes were dropped. Where ranks share a search only the roots
-  // are told.
+  // For observers of the trees, and for tests of the search (planted optimum): every root; every
+  // expansion with its result and the number of the worker, from 0; and the bound from which on
+  // open nodes were dropped. If ranks share a search, only the roots are reported.
   virtual void on_root(const NodePtr& /*root*/) {}
   virtual void on_expanded(const NodePtr& /*node*/, const Expansion& /*expansion*/,
                            int /*worker*/) {}
   virtual void on_pruned(Cost /*bound*/) {}
-  // An open node was given up for want of memory; the ledger keeps its bound until the search, out
-  // of nodes, begins anew (each root then comes again).
+  // An open node was evicted because memory is short. Its bound is kept until the search has no
+  // nodes left and restarts. Then each root is reported again.
   virtual void on_evicted(const NodePtr& /*node*/) {}
 };
 
-// Passes everything on to another; override what is to be more.
+// Forwards everything to another observer; override what is to be added.
 class ForwardingObserver : public RunObserver {
  public:
   // `next` must outlive this.

@@ -49,7 +49,8 @@ void RunState::begin() {
   trees_.begin();
 }
 
-// Nothing is said of the nodes before they have been pushed: no bound is taken from their absence.
+// nodes_changed() is not called before the nodes have been pushed, so no bound is derived from
+// their absence.
 std::optional<std::vector<NodePtr>> RunState::restore(const CheckpointHeader& header) {
   resumed_ = true;
   before_.counters = header.counters;
@@ -120,7 +121,7 @@ Solution RunState::conclude() const {
     solution.stats.counts["nodes_expanded_before"] = nodes_before();
     solution.stats.measures["seconds_before"] = before_.seconds;
   }
-  // A limit that struck after the search had ended changed nothing.
+  // A limit reached after the search had ended changed nothing.
   if (!gate.finished()) {
     const std::string stop = stop_text(limits_.reason());
     const bool evicted = nodes_.evicted_bound() < kInfiniteCost;

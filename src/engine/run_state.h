@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All that a run knows beside its nodes, where that is.
+// State of a run except its nodes, wherever the nodes are.
 #pragma once
 
 #include <chrono>
@@ -20,36 +20,36 @@
 
 namespace grove::detail {
 
-// The ledger, the trees and the observer of a run, from its beginning, or a checkpoint, to the
-// answer. For one thread, but for what says otherwise.
+// Bounds, trees and observer of a run, from its beginning or a checkpoint to the solution. One
+// thread at a time, except where a method says otherwise.
 class RunState {
  public:
-  // All must outlive this. The nodes of trees are made in `pool`.
+  // All must outlive this. The nodes of the trees are made in `pool`.
   RunState(const Problem& problem, const SolveOptions& options, const Limits& limits,
            RunObserver& observer, NodePool& pool, LiveNodes& nodes);
 
-  // Those who expand nodes turn to these, from any thread.
+  // For the threads that expand nodes. Thread-safe.
   CentralBounds& ledger() { return ledger_; }
   const CentralBounds& ledger() const { return ledger_; }
   CentralTrees& trees() { return trees_; }
   RunEvents& announcements() { return announcements_; }
-  // What the first tree found out about the agents' stops, for workers to begin with.
+  // The agents' stops as cached while the first tree was made; initial cache of the workers.
   const AgentStopsCache& stops() const { return stops_; }
 
-  // Before all else: the plan to start from, and the first tree.
+  // Call first: posts the start plan and instantiates the first tree.
   void begin();
-  // In place of begin(): takes over what a checkpoint knows, and makes its trees again; the roots
-  // by their number. Then push the nodes, and what was given up, and call restored(). None if a
-  // limit struck: the plan and the bound are known, but there is nothing to search. Throws
-  // InputError if the trees that come first here are others.
+  // Call instead of begin(): restores the data of a checkpoint and makes its trees again. Returns
+  // their roots by number. Then push the nodes, record the evicted bound, and call restored().
+  // Returns nullopt if a limit was reached: plan and bound are restored, but there is nothing to
+  // search. Throws InputError if the forest makes other trees first.
   std::optional<std::vector<NodePtr>> restore(const CheckpointHeader& header);
   void restored();
 
-  // For a checkpoint, in which so many trees, the first ones, count as instantiated. From any
-  // thread.
+  // Returns the header of a checkpoint in which the first `trees` trees count as instantiated.
+  // Thread-safe.
   CheckpointHeader checkpoint_header(std::int64_t trees, Cost evicted_bound);
-  // When no worker is at work any more: tells the observer that this is the end; the answer, with
-  // the counts of trees.
+  // Call after all workers have stopped. end() reports the end to the observer. conclude() returns
+  // the solution with the counts of the trees.
   void end() { announcements_.event(RunEvent::kEnd); }
   Solution conclude() const;
 
@@ -61,7 +61,7 @@ class RunState {
   const SolveOptions& options_;
   const Limits& limits_;
   LiveNodes& nodes_;
-  AgentStopsCache stops_;  // the forest's
+  AgentStopsCache stops_;  // used by the forest
   const std::unique_ptr<Forest> forest_;
   Trees restored_trees_;
   RunEvents announcements_;
@@ -70,7 +70,7 @@ class RunState {
 
   const Limits::Clock::time_point started_ = limits_.now();
   bool resumed_ = false;
-  CheckpointHeader before_;  // what earlier runs did: the counters and the time
+  CheckpointHeader before_;  // counters and time of earlier runs
 };
 
 }  // namespace grove::detail
