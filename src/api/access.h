@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Behind the door: what the values of users stand for, and what is thrown to them.
+// Conversions between the public API and grove::detail, and translation of exceptions.
 #pragma once
 
 #include <exception>
@@ -39,15 +39,15 @@ struct Access {
   static const detail::Instance& instance(const Instance& instance) {
     return instance.data_->instance;
   }
-  // Told as a user would have made it.
+  // Returns the public instance that a user would have made.
   static Instance told(detail::Instance instance);
 };
 
-// --- places; `field` says where, for InvalidArgument ---
+// --- places; `field`: JSON Pointer for InvalidArgument ---
 
 detail::Place place_of(const detail::Map& map, const Place& place, const std::string& field);
 Place told_place(const detail::Map& map, detail::Place place);
-// Of an agent with this motion.
+// For an agent with this motion.
 detail::Pose pose_of(const detail::Map& map, detail::Motion motion, const Pose& pose,
                      const std::string& field);
 Pose told_pose(const detail::Map& map, detail::Motion motion, const detail::Pose& pose);
@@ -55,17 +55,17 @@ Pose told_pose(const detail::Map& map, detail::Motion motion, const detail::Pose
 // --- plans ---
 
 detail::Plan plan_of(const detail::Instance& instance, const Plan& plan);
-// Throws InvalidArgument, `field` and what is wrong, if it is none.
+// Throws InvalidArgument with `field` and the reason if the plan is invalid.
 detail::Plan valid_plan_of(const detail::Instance& instance, const Plan& plan,
                            const std::string& field);
 Plan told_plan(const detail::Instance& instance, const detail::Plan& plan);
 detail::Solution solution_of(const detail::Instance& instance, const Solution& solution);
 Solution told_solution(const detail::Instance& instance, const detail::Solution& solution);
 
-// As Options::omega is meant. Throws InvalidArgument.
+// Converts Options::omega. Throws InvalidArgument.
 detail::Omega omega_of(double omega);
 
-// What `act` returns; what it throws as users are to see it.
+// Returns what `act` returns. Rethrows what it throws as an exception of the public API.
 template <class Act>
 auto translated(Act&& act) {
   try {

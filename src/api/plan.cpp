@@ -186,7 +186,7 @@ Solution parse_plan(std::string_view text, const Instance& instance) {
 
 namespace {
 
-// As translated(); a plan that the checker refuses is the user's.
+// As translated(), but if the checker refuses a plan, the error is the user's.
 template <class Act>
 auto refusing_invalid_plans(Act&& act) {
   return translated([&] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A solve with a user's options: limits, and who is told.
+// Runs a solve with the options of a user: sets the limits and calls the user's functions.
 #pragma once
 
 #include <atomic>
@@ -22,7 +22,7 @@ class Run {
   // `options` must outlive this.
   Run(const detail::Instance& instance, const Options& options);
 
-  // search(limits, observer) solves; what it, or a function of the user, throws comes out.
+  // Calls search(limits, observer). Rethrows what the search or a function of the user throws.
   template <class Search>
   detail::Solution operator()(Search&& search) {
     detail::Solution solution = search(limits_, observer_);
@@ -43,7 +43,7 @@ class Run {
                       const detail::Progress& progress) override;
     void on_event(detail::RunEvent event, const detail::Progress& progress) override;
 
-    std::exception_ptr failure;  // of a function of the user
+    std::exception_ptr failure;  // thrown by a function of the user
 
    private:
     Progress told(const detail::Progress& progress) const;
@@ -54,7 +54,7 @@ class Run {
     const Options& options_;
     std::atomic<bool>& stop_;
     const Clock::time_point begin_;
-    Clock::time_point next_{};  // when progress is told again
+    Clock::time_point next_{};  // earliest time of the next progress call
   };
 
   void add_facts(detail::Solution& solution) const;

@@ -40,7 +40,7 @@ int vertex_of(const detail::Roadmap& roadmap, const std::string& id, const std::
   return *vertex;
 }
 
-// Which of the roads that join its ends a place is on.
+// Index of the road between its two ends that a place is on.
 int road_of(const detail::Roadmap& roadmap, const OnRoad& place, const std::string& field) {
   const auto roads = roadmap.roads_between(vertex_of(roadmap, place.from, field),
                                            vertex_of(roadmap, place.to, field));

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Values as bytes, for files and for other processes: cereal walks the values, the archives here
-// write and read them, the same on every machine. Whole numbers take a byte for seven of their bits
-// (LEB128), low ones first, those with a sign folded over zero: the constraints of a node, small
-// numbers nearly all, take a third of what they would by their width, and a checkpoint of
-// millions of nodes is written in half the time. Fractions, and arrays of numbers, which packed
-// paths are, have their width, low bytes first.
+// Serialization of values to bytes, for files and messages, with cereal. The encoding is the same
+// on every machine:
+// - Integers: LEB128, 7 bits per byte, low bits first; signed ones are zigzag-encoded. The
+//   constraints of a node are mostly small numbers: they take a third of their fixed-width size,
+//   and a checkpoint of millions of nodes is written in half the time.
+// - Floating-point numbers, and arrays of numbers (packed paths): fixed width, little-endian.
 //
-// A type takes part by a function serialize(Archive&, T&) in its namespace, like those below, made
-// of numbers, strings, vectors, maps and optionals. What bytes may hold beyond its shape - cells on
-// the world, paths that are walks - is for the receiver to check.
+// A type takes part by a function serialize(Archive&, T&) in its namespace, like those below. It
+// may consist of numbers, strings, vectors, maps and optionals. The receiver must check what the
+// type does not express, for instance that cells are on the map and that paths are walks.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@
 
 namespace grove::detail {
 
-// Appends to a string.
+// Output archive that appends to a string.
 class BytesOutput : public cereal::OutputArchive<BytesOutput, cereal::AllowEmptyClassElision> {
  public:
   // `bytes` must outlive this.
@@ -44,7 +44,7 @@ class BytesOutput : public cereal::OutputArchive<BytesOutput, cereal::AllowEmpty
     for (; number >= 0x80; number >>= 7) put(static_cast<std::uint8_t>(number | 0x80));
     put(static_cast<std::uint8_t>(number));
   }
-  // `count` items of the width of T.
+  // Writes `count` items of fixed width.
   template <class T>
   void put_array(const T* items, std::size_t count) {
     const std::size_t begin = bytes_.size();
@@ -52,7 +52,7 @@ class BytesOutput : public cereal::OutputArchive<BytesOutput, cereal::AllowEmpty
     low_bytes_first<T>(bytes_.data() + begin, count);
   }
 
-  // To and from the order of this machine.
+  // Converts between the byte order of this machine and little-endian.
   template <class T>
   static void low_bytes_first(char* bytes, std::size_t count) {
     if constexpr (std::endian::native != std::endian::little && sizeof(T) > 1)
@@ -64,13 +64,13 @@ class BytesOutput : public cereal::OutputArchive<BytesOutput, cereal::AllowEmpty
   std::string& bytes_;
 };
 
-// For bytes that nobody vouches for. An element of a container takes at least a byte, so a count
-// beyond the bytes left is refused before memory is asked for: what is read takes at most some 40
-// times the memory of its bytes. A number that is written longer than need be is refused, so that
-// only one row of bytes stands for a value. Throws cereal::Exception.
+// Input archive for untrusted bytes. An element of a container takes at least one byte, so a count
+// that exceeds the remaining bytes is refused before memory is allocated. A decoded value takes at
+// most about 40 times the memory of its bytes. A number with a longer encoding than necessary is
+// refused, so that each value has exactly one encoding. Throws cereal::Exception.
 class GuardedInput : public cereal::InputArchive<GuardedInput, cereal::AllowEmptyClassElision> {
  public:
-  // A view of `bytes`.
+  // Keeps a view of `bytes`.
   explicit GuardedInput(std::string_view bytes) : InputArchive(this), rest_(bytes) {}
 
   std::size_t left() const { return rest_.size(); }
@@ -81,7 +81,7 @@ class GuardedInput : public cereal::InputArchive<GuardedInput, cereal::AllowEmpt
     return byte;
   }
   std::uint64_t get_number() {
-    constexpr int kLastShift = 63;  // where only one more bit has room
+    constexpr int kLastShift = 63;  // only one more bit fits there
     std::uint64_t number = 0;
     for (int shift = 0;; shift += 7) {
       const std::uint8_t byte = get();
@@ -108,7 +108,7 @@ class GuardedInput : public cereal::InputArchive<GuardedInput, cereal::AllowEmpt
   std::string_view rest_;
 };
 
-// A number of one byte, or a fraction, stands as it is.
+// True for numbers of one byte and floating-point numbers: written at fixed width.
 template <class T>
 inline constexpr bool kAsItIs = std::is_floating_point_v<T> || sizeof(T) == 1;
 
@@ -166,7 +166,7 @@ void CEREAL_LOAD_FUNCTION_NAME(GuardedInput& in, cereal::SizeTag<T>& tag) {
   in.require(tag.size <= in.left(), "more items are announced than there are bytes left");
 }
 
-// cereal's `size` is that of all items in bytes.
+// `size` is the size of all items in bytes.
 template <class T>
 void CEREAL_SAVE_FUNCTION_NAME(BytesOutput& out, const cereal::BinaryData<T>& data) {
   using Item = std::remove_pointer_t<T>;
@@ -234,7 +234,7 @@ void serialize(Archive& archive, Plan& plan) {
   archive(plan.cost, plan.agents);
 }
 
-// The bytes of `value`.
+// Returns the bytes of `value`.
 template <class T>
 std::string to_bytes(const T& value) {
   std::string bytes;
@@ -243,8 +243,8 @@ std::string to_bytes(const T& value) {
   return bytes;
 }
 
-// The value whose bytes these are, all of them. Throws std::invalid_argument for bytes that are no
-// T's: cut short, too long, or otherwise damaged in a way that shows.
+// Decodes a value from all of `bytes`. Throws std::invalid_argument if they do not encode a T: too
+// short, too long, or otherwise detectably damaged.
 template <std::default_initializable T>
 T from_bytes(std::string_view bytes) try {
   GuardedInput in(bytes);

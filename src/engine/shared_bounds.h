@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bound ledger, as those see it who expand nodes.
+// Interface to the global bounds, for the threads that expand nodes.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,9 @@
 
 namespace grove::detail {
 
-// What a run has proven and found, as far as this process knows. The ledger itself is a
-// CentralBounds; where it is in another process, what was last heard of it. Methods may be called
-// from any thread and do not wait.
+// Incumbent and lower bound of a run, as far as this process has them. CentralBounds implements it
+// where the bounds are kept; in other processes an implementation stores what was last received.
+// Thread-safe; no method blocks for long.
 class SharedBounds {
  public:
   SharedBounds() = default;
@@ -20,21 +20,22 @@ class SharedBounds {
   SharedBounds& operator=(const SharedBounds&) = delete;
   virtual ~SharedBounds() = default;
 
-  // Is there nothing left to do, or no time to do it?
+  // True if there is nothing left to do or a limit was reached.
   virtual bool over() const = 0;
-  // Nodes that cost so much or more are of no use, for a plan that was checked costs that.
+  // Cost of the incumbent, which was checked: nodes of this bound or more need not be expanded.
+  // kInfiniteCost: no incumbent.
   virtual Cost cutoff() const = 0;
-  // That plan if it is cheaper than `cost`.
+  // Returns the incumbent if it costs less than `cost`, else nullopt.
   virtual std::optional<Plan> plan_below(Cost cost) const = 0;
-  // No plan costs less.
+  // Proven lower bound: no plan costs less.
   virtual Cost lower_bound() const = 0;
 
-  // A plan was found.
+  // Offers a plan.
   virtual void post(Plan plan, PlanSource source) = 0;
-  // Proven beside the tree: no plan costs less, but those that cost cutoff() or more, whatever that
-  // was. kInfiniteCost: there is no other.
+  // Reports a bound proven outside the tree search: no plan costs less, except plans that cost at
+  // least cutoff() at the time of the proof. kInfiniteCost: there is no other plan.
   virtual void prove(Cost bound, BoundSource by) = 0;
-  // Nodes were replaced by what they led to.
+  // Call after nodes were replaced by their children.
   virtual void nodes_changed() = 0;
 };
 

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Which node. With w = 0 always the best. With w > 0 a plan may be found that no proof has to wait
-// for, in nodes whose bound is within w of the lower bound; among these the best is the worst
-// place to look, for it has been kept from becoming dearer, not from having conflicts. So, as in
-// explicit estimation search (Li, Ruml and Koenig, AAAI 2021), every other node is chosen by what a
-// plan below it can be expected to cost, and the nodes between, best first, let the bound rise.
-// Once there is an incumbent C only the bound is of use: every node below C / (1 + w) must be
-// expanded in whatever order, and what the tree finds no sooner than neighbourhood search does is
-// not worth a node above. Then it is best first as with w = 0.
+// Node selection. With w = 0 the best node is always taken.
 //
-// A node is live, and counts in the ledger, until all that it led to has been pushed.
+// With w > 0, a plan may be found that no proof has to wait for: in a node whose bound is within w
+// of the lower bound. Among these nodes the best one is the worst place to look: its cost is low,
+// but it may have many conflicts. So, as in explicit estimation search (Li, Ruml and Koenig, AAAI
+// 2021), every other node is chosen by the expected cost of a plan below it. The nodes in between
+// are taken best first and raise the bound.
+//
+// With an incumbent of cost C, only the bound matters. Every node below C / (1 + w) must be
+// expanded, in any order. Plans that the tree search finds no sooner than neighbourhood search are
+// not worth expanding a node above. So selection is best first, as with w = 0.
+//
+// A node is live, and counts in the lower bound, until all its children have been pushed.
 #include "engine/shared_search.h"
 
 #include <malloc.h>
@@ -22,7 +25,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kMostKnown = std::size_t{1} << 29;  // bytes of what was found out
+constexpr std::size_t kMostKnown = std::size_t{1} << 29;  // bytes of cached results
 
 }  // namespace
 
@@ -66,7 +69,7 @@ bool SharedSearch::gap_is_large() const {
          static_cast<double>(ledger_.lower_bound());
 }
 
-// Is it the turn of a node that may lead to a plan soon?
+// True if the next node is selected by its expected plan cost.
 bool SharedSearch::plan_is_wanted() {
   if (omega_ == Omega() || ledger_.cutoff() < kInfiniteCost || !uses_estimates_) return false;
   return ++estimates_turn_ % 2 != 0;
@@ -100,8 +103,9 @@ void SharedSearch::finish(const NodePtr& node, Expansion expansion, int worker) 
   ledger_.nodes_changed();
 }
 
-// Nodes that need not be expanded any more, for the incumbent is within w of their bound, are the
-// first to go: they are the worst. What was found out goes when its last user has turned away.
+// Evicts the worst nodes. These include the nodes that need not be expanded any more because the
+// incumbent is within w of their bound. A replaced cache is freed when its last user has released
+// it.
 void SharedSearch::keep_within_memory() {
   const std::unique_lock lock(keeping_, std::try_to_lock);
   if (!lock) return;
@@ -126,12 +130,13 @@ std::shared_ptr<SharedCache> SharedSearch::memory() const {
   return known_;
 }
 
-// Half of it is for what is found out here: what is full is all forgotten.
+// Remote results may fill half of the cache; the other half is for local ones. A full cache is
+// replaced by an empty one.
 bool SharedSearch::has_room_for_facts() const {
   return memory()->bytes() < most_known_ / 2;
 }
 
-// The best open node stays. Evicting a leaf frees those ancestors that no other node shares.
+// The best open node stays. Evicting a leaf frees the ancestors that no other node shares.
 void SharedSearch::evict_to(std::size_t bytes) {
   while (pool_.bytes() > bytes && frontier_.open() > 1) {
     const auto evicted = frontier_.evict(frontier_.open() / 16 + 1, 1);

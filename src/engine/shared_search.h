@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the workers of a process have in common.
+// State shared by the workers of a process.
 #pragma once
 
 #include <atomic>
@@ -22,9 +22,9 @@ namespace grove::detail {
 
 class MemoryBudgets;
 
-// The nodes that this process holds. CTS-CBS (paper, Algorithms 1 and 4) is what happens when
-// workers take nodes here and bring back what they led to. All methods may be called from any
-// thread; none waits longer than it takes another to do the like.
+// Nodes and cached results of this process. Workers take nodes here and return the expansions: this
+// is CTS-CBS (paper, Algorithms 1 and 4). Thread-safe; no method waits longer than another thread
+// needs for a similar call.
 class SharedSearch {
  public:
   // All must outlive this.
@@ -38,36 +38,38 @@ class SharedSearch {
   LagrangianScheduler& lagrangian() { return lagrangian_; }
   bool over() const { return ledger_.over(); }
 
-  // A node to expand; null if there is none just now. Whoever takes it brings it back by finish().
+  // Takes a node to expand, or returns nullptr if there is none now. The caller must return the
+  // node by finish().
   NodePtr take();
-  // What became of a node taken, in the hands of the worker of this number.
+  // Returns a taken node with its expansion. `worker` is the number of the worker that expanded it.
   void finish(const NodePtr& node, Expansion expansion, int worker);
-  // A node, perhaps in other hands, that came back unfinished last; null if it has been finished.
+  // The node that last came back unfinished, possibly taken by another worker since; nullptr if it
+  // has been finished.
   NodePtr unfinished() const;
-  // Do others wait for nodes to expand, so that nodes are to be expanded in haste? Others say so.
+  // Effort to spend on bounding nodes. A rank reduces it while other ranks wait for nodes.
   BoundingEffort bounding_effort() const { return bounding_effort_; }
   void set_bounding_effort(BoundingEffort bounding_effort) { bounding_effort_ = bounding_effort; }
-  // Is there something for an idle worker to take, or to find out?
+  // True if an idle worker may find work.
   bool may_take() const {
     return frontier_.open() > 0 || frontier_.live() == 0 || lagrangian_.has_jobs();
   }
 
-  // Is more proven beside the tree than by its nodes?
+  // True if more is proven outside the tree search than by its nodes.
   bool tree_bound_is_dominated() const { return frontier_.bound() < ledger_.lower_bound(); }
 
-  // Does the best plan cost much more than what is proven?
+  // True if the gap exceeds far_plan.
   bool gap_is_large() const;
 
-  // Gives up nodes, and what was found out, as memory demands.
+  // Evicts nodes and cached results if memory is short.
   void keep_within_memory();
-  // What was found out, for expanders to go on with.
+  // Cached results, for the expanders.
   std::shared_ptr<SharedCache> memory() const;
-  // Is there room there for what others found out?
+  // True if the cache has room for results of other ranks.
   bool has_room_for_facts() const;
 
-  // Adds what was counted here to the answer's statistics.
+  // Adds the counts of this object to the statistics of the solution.
   void add_counts(Stats& stats) const;
-  // What this process holds now.
+  // Memory that this process holds now.
   MemoryUse memory_use() const;
 
  private:
@@ -92,12 +94,13 @@ class SharedSearch {
   std::atomic<std::uint32_t> estimates_turn_{0};
   std::atomic<BoundingEffort> bounding_effort_{BoundingEffort::kFull};
 
-  std::mutex keeping_;  // guards the shares
+  std::mutex keeping_;  // guards the budgets
   const std::unique_ptr<MemoryBudgets> shares_;
 
-  std::atomic<std::size_t> most_known_;  // bytes of what was found out
+  std::atomic<std::size_t> most_known_;  // max. bytes of cached results
   mutable std::mutex knowing_;
-  std::shared_ptr<SharedCache> known_;  // under knowing_: GCC 11 has no std::atomic of these
+  std::shared_ptr<SharedCache>
+      known_;  // under knowing_: GCC 11 has no std::atomic<std::shared_ptr>
 
   mutable std::mutex helping_;
   NodePtr unfinished_;  // under helping_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From an instance to an answer: what is evident is said without a search; else workers share one.
+// Solves an instance: by presolve if that suffices, else by workers that share one search.
 #include "engine/solve.h"
 
 #include <new>
@@ -21,14 +21,15 @@
 namespace grove::detail {
 namespace {
 
-// The first tree, or all that a checkpoint knows. False: there is nothing to search.
+// Instantiates the first tree or restores the checkpoint. Returns false if there is nothing to
+// search.
 bool begin(const Problem& problem, const SolveOptions& options, RunState& run, LocalNodes& nodes) {
   if (options.resume) return restore(*options.resume, problem.instance, run, nodes);
   run.begin();
   return true;
 }
 
-// The workers of a run, whose turns are what happens in it.
+// The workers of a run.
 class Workers {
  public:
   Workers(const Problem& problem, const SolveOptions& options, const Limits& limits,
@@ -48,7 +49,7 @@ class Workers {
       run_single_threaded(*workers_.front(), shared_, between_turns);
   }
 
-  // From any thread.
+  // Thread-safe.
   void add_counts(Stats& stats) const {
     for (const auto& worker : workers_) worker->add_counts(stats);
   }
@@ -66,7 +67,7 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
   RunState run(problem, options, limits, observer, nodes.pool, nodes);
   SharedSearch shared(options, limits, nodes, run.ledger(), run.trees(), run.announcements());
   LocalCheckpoints checkpoints(options, limits, run, nodes);
-  Stats stats;  // of workers that are gone
+  Stats stats;  // of destroyed workers
   std::optional<Workers> workers;
   run.announcements().survey_by([&] {
     Stats so_far = stats;
@@ -86,7 +87,7 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
     limits.memory_exhausted();
   }
   if (workers) workers->add_counts(stats);
-  workers.reset();  // their memory may be needed for the answer
+  workers.reset();  // their memory may be needed for the solution
   if (options.proof != nullptr) shared.lagrangian().log_proof(*options.proof);
   if (begun) checkpoints.write_last();
   run.end();
@@ -106,8 +107,8 @@ Solution without_search(const SolveOptions& options, Status status, const std::s
   return solution;
 }
 
-// A limit struck before the search: all there may be is the plan that was given, and what an
-// earlier run proved and found.
+// Solution when a limit was reached before the search: the start plan, and the bound and plan of an
+// earlier run, if any.
 Solution stopped_before_search(const Instance& instance, const SolveOptions& options,
                                const Limits& limits, RunObserver& observer) {
   Solution solution =
@@ -147,7 +148,7 @@ Solution solve(const Problem& problem, const SolveOptions& options, const Limits
   try {
     if (auto answer = presolve(problem, options, limits, watcher)) return std::move(*answer);
     return search(problem, options, limits, watcher);
-  } catch (const std::bad_alloc&) {  // before the search: nothing is known yet
+  } catch (const std::bad_alloc&) {  // before the search
     limits.memory_exhausted();
     return stopped_before_search(problem.instance, options, limits, watcher);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The engine: runs the search on an instance until it is done or told to stop.
+// The engine: searches an instance until it is solved or a limit is reached.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +16,11 @@
 
 namespace grove::detail {
 
-class CheckpointReader;  // grove/engine/checkpoint.h
-class RunObserver;       // grove/engine/run_observer.h
-struct Problem;          // grove/search/problem.h
+class CheckpointReader;  // engine/checkpoint.h
+class RunObserver;       // engine/run_observer.h
+struct Problem;          // search/problem.h
 
-// What a tree of the forest fixes about the agents' orders of visits.
+// What a tree of the forest fixes about the sequences of the agents.
 enum class Policy : std::uint8_t {
   kAuto,   // the engine's choice: kFree
   kFixed,  // one complete joint task sequence per tree: the paper's CTS-CBS
@@ -32,26 +32,26 @@ struct SolveOptions {
 
   Omega omega;
   Policy policy = Policy::kAuto;
-  RtspBackend rtsp = RtspBackend::kAuto;  // of kFixed
-  // Not with kFixed. With another one than Grove's own no technique is used: plain CBS.
+  RtspBackend rtsp = RtspBackend::kAuto;  // for kFixed
+  // Only kOwn with kFixed. With a low level other than kOwn no technique is used: plain CBS.
   LowLevel low_level = LowLevel::kOwn;
   int threads = 1;  // at least 1
-  // What happens depends on the work done alone, not on the threads or the clock: the same plan and
-  // the same events for any number of threads, limits aside.
+  // The run depends only on the work done, not on threads or clock: the same plan and the same
+  // events for any number of threads, unless a limit is reached.
   bool deterministic = false;
-  // Breaks ties among conflicts of equal time and guides the primal search; the same seed makes the
-  // same run, limits aside.
+  // Breaks ties among conflicts of equal time and seeds the primal search. The same seed gives the
+  // same run (one thread, or deterministic), unless a limit is reached.
   std::uint64_t seed = 0;
   // Technique::kPrimal is not used with kFixed.
   Techniques techniques = Techniques::defaults();
   Tuning tuning = {};
   std::optional<Plan> start = std::nullopt;  // the first incumbent, a valid plan
   Checkpoints checkpoints = {};
-  // Where an earlier run, of the same instance and policy, is to go on from; null: nowhere. Read by
-  // solve(); owned by the caller.
+  // Checkpoint of an earlier run of the same instance and policy, to resume from; nullptr: none.
+  // Read by solve(); owned by the caller.
   CheckpointReader* resume = nullptr;
-  // The most that open nodes and their ancestors may hold, in bytes; beyond, the worst are given
-  // up. Without a word from here the memory limit of the run decides.
+  // Max. bytes of open nodes and their ancestors; beyond, the worst nodes are evicted. kUnlimited:
+  // the memory limit of the run decides.
   std::size_t node_memory = kUnlimited;
   // See SearchOptions::audit.
   bool audit = false;
@@ -59,20 +59,20 @@ struct SolveOptions {
   ProofLog* proof = nullptr;
 };
 
-// Solves `instance` to `options.omega`, or until `limits` strike; always returns a proven lower
-// bound. `observer` (may be null) is told what happens, from any of the threads, one at a time.
-// Throws what the observer throws, what reading the checkpoint throws (InputError), and
-// std::logic_error or std::runtime_error when a part of the search turns out to be broken (a plan
-// that the checker refuses, `options.start` included; CBC failing).
+// Solves `instance` to `options.omega`, or until a limit is reached. Always returns a proven lower
+// bound. `observer` (may be null) is called from any thread, one at a time. Throws what the
+// observer throws, what reading the checkpoint throws (InputError), and std::logic_error or
+// std::runtime_error if a part of the search fails: the checker refuses a plan, `options.start`
+// included, or CBC fails.
 Solution solve(const Instance& instance, const SolveOptions& options, const Limits& limits,
                RunObserver* observer = nullptr);
 
-// The same of a problem that somebody keeps.
+// The same for a problem that the caller keeps.
 Solution solve(const Problem& problem, const SolveOptions& options, const Limits& limits,
                RunObserver* observer = nullptr);
 
-// The answer where there is no search to be made: the instance is seen to have no plan, or limits
-// struck before `problem` was complete. None: search. For engines.
+// Returns the solution if no search is needed: the instance is seen to be infeasible, or a limit
+// was reached before `problem` was complete. Returns nullopt if a search is needed. For engines.
 std::optional<Solution> presolve(const Problem& problem, const SolveOptions& options,
                                  const Limits& limits, RunObserver& observer);
 

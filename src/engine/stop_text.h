@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What plan files say of the limit that struck.
+// Text of the limit that was reached, for plan files.
 #pragma once
 
 #include <string>

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// How a run searches its constraint trees.
+// Search options that follow from the options of a run.
 #pragma once
 
 #include "engine/solve.h"
 
 namespace grove::detail {
 
-// The paper's policy is the cross-check, and what others published is for comparison: plain CBS.
+// The paper's policy kFixed is for cross-checks, and the published low levels are for comparison:
+// both use plain CBS.
 inline Techniques techniques_of(const SolveOptions& options) {
   const bool plain = options.policy == Policy::kFixed || options.low_level != LowLevel::kOwn;
   return plain ? Techniques() : options.techniques;

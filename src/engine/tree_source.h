@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Where those who expand nodes get trees from.
+// Interface through which workers request trees.
 #pragma once
 
 namespace grove::detail {
 
-// Brings trees when they are due. This one never does, for trees are not this process's business;
-// the one that does is CentralTrees. Methods may be called from any thread and do not wait.
+// Supplies trees when they are due. This base class never does, for processes that do not own the
+// trees; CentralTrees does. Thread-safe; no method waits.
 class TreeSource {
  public:
   TreeSource() = default;
@@ -13,12 +13,12 @@ class TreeSource {
   TreeSource& operator=(const TreeSource&) = delete;
   virtual ~TreeSource() = default;
 
-  // Before a node is taken: brings the next tree where Algorithm 4 finds that necessary.
+  // Call before taking a node: instantiates the next tree if Algorithm 4 requires it.
   virtual void instantiate_due_tree() {}
-  // No node is live here: brings nodes or finds that there are none.
+  // Call if no node is live here: supplies nodes or finds that there are none.
   virtual void refill_nodes() {}
-  // May the caller prepare the next tree before Algorithm 4 asks for it? Whoever is told so must do
-  // it. One at a time.
+  // Returns true if the caller may prepare the next tree before Algorithm 4 requires it. The caller
+  // must then call prepare_tree(). One caller at a time gets true.
   virtual bool claim_preparation() { return false; }
   virtual void prepare_tree() {}
 };

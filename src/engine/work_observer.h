@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What those who expand nodes tell of it.
+// Interface for events of node expansion.
 #pragma once
 
 #include <span>
@@ -9,8 +9,7 @@
 
 namespace grove::detail {
 
-// Hears of it and does nothing; those who want to know override. Methods may be called from any
-// thread.
+// Base class that does nothing. Thread-safe.
 class WorkObserver {
  public:
   WorkObserver() = default;
@@ -18,11 +17,11 @@ class WorkObserver {
   WorkObserver& operator=(const WorkObserver&) = delete;
   virtual ~WorkObserver() = default;
 
-  // A node led to this, in the hands of the worker of this number.
+  // `worker` expanded a node, with this result.
   virtual void expanded(const NodePtr& /*node*/, const Expansion& /*expansion*/, int /*worker*/) {}
-  // These were given up.
+  // These nodes were evicted.
   virtual void evicted(std::span<const NodePtr> /*nodes*/) {}
-  // Some work was done.
+  // A work item was completed.
   virtual void worked() {}
 };
 
