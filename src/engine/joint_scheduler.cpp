@@ -44,7 +44,7 @@ Cost JointScheduler::step(Cost cutoff, const Limits& limits) {
   over_ = outcome != EpeaStar::Outcome::kWorking;
   states_ = search_->states();
   const Cost proven = search_->lower_bound();
-  if (outcome == EpeaStar::Outcome::kTooLarge) search_.reset();  // others need its memory
+  if (outcome == EpeaStar::Outcome::kTooLarge) search_.reset();  // free its memory for the tree
   return proven;
 }
 

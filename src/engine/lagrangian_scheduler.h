@@ -58,7 +58,7 @@ class LagrangianScheduler {
   // Returns the pricing requests to send now, with their ranks.
   std::vector<std::pair<int, PricingRequest>> dispatch_pricing();
   // Takes the reply of `rank`. Returns the proven lower bound: no plan costs less. Throws
-  // std::invalid_argument for a rank without a request.
+  // std::invalid_argument if `rank` cannot have a request.
   Cost accept(int rank, PricingReply answer);
   std::int64_t prices_of_ranks() const { return prices_of_ranks_; }
 

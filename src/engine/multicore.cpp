@@ -115,9 +115,9 @@ struct Unit {
   bool is_primal() const { return turn.job == Worker::WorkItem::Job::kPrimal; }
 };
 
-// Chooses a round: up to kMostTurnsInARound nodes for each worker, or one item of another kind.
-// More nodes per round would be a poorer choice of nodes. With fewer, threads would wait for each
-// other.
+// Chooses a round: up to kMostTurnsInARound items per worker. A worker gets no further item after
+// one that does not expand a node. More nodes per round would be a poorer choice of nodes. With
+// fewer, threads would wait for each other.
 std::vector<Unit> choose_round(std::span<const std::unique_ptr<Worker>> workers) {
   std::vector<Unit> units;
   std::vector<bool> goes_on(workers.size(), true);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Serialization of values to bytes, for files and messages, with cereal. The encoding is the same
+// Serialisation of values to bytes, for files and messages, with cereal. The encoding is the same
 // on every machine:
 // - Integers: LEB128, 7 bits per byte, low bits first; signed ones are zigzag-encoded. The
 //   constraints of a node are mostly small numbers: they take a third of their fixed-width size,

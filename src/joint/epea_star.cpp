@@ -414,7 +414,7 @@ class EpeaStar::Search {
   std::vector<int> excess_;          // by table, of the state being generated; one more entry: 0
   std::vector<Node> nodes_;          // by state, then agent
   std::vector<Record> records_;
-  std::vector<Index> slots_;  // a power of two
+  std::vector<Index> slots_;  // hash table; size: a power of two
   std::vector<std::vector<Index>> layers_;
   std::size_t at_ = 0;  // in layers_
   std::size_t queued_ = 0;
@@ -432,7 +432,7 @@ class EpeaStar::Search {
     std::int32_t alone;
   };
   std::vector<Next> next_;
-  std::vector<Node> next_nodes_;  // of each, by agent
+  std::vector<Node> next_nodes_;  // nodes of each, by agent
   Index parent_ = kNone;
   Cost cutoff_ = kInfiniteCost;
   Time looked_at_ = -1;
