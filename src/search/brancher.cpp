@@ -169,7 +169,7 @@ Branching Brancher::earliest(const NodeView& view) {
 }
 
 // Replans the agents of one branch of the split, with few conflicts with the other agents' paths.
-// Returns false if a limit was reached; so do the two functions below.
+// This and the next two functions return false if a limit was reached.
 bool Brancher::evaluate_branch(const Task& task, const AgentConstraint& demand, Branch& side) {
   side.open = true;
   side.increase = 0;

@@ -58,8 +58,8 @@ NodePtr Frontier::take() {
   return open_.empty() ? nullptr : take_locked(open_.begin());
 }
 
-// Within a bound the node of fewest conflicts is first, so only the first node of each bound is
-// compared.
+// Compares only the first node of each rank: except at rank proven_ (newest first), it has the
+// fewest conflicts of its rank.
 NodePtr Frontier::take_by_estimate(Omega omega, Cost lower_bound, double per_conflict) {
   const std::lock_guard lock(mutex_);
   const auto expected = [&](const auto& rank) {
@@ -85,7 +85,8 @@ NodePtr Frontier::take_locked(std::map<Cost, std::vector<Open>>::iterator best) 
   return node;
 }
 
-// Takes from the end of each heap: its last half does not contain the best nodes.
+// Takes from the last half of each heap, which holds its leaves: each is worse than all its
+// ancestors, so this approximates the worse half.
 std::vector<NodePtr> Frontier::take_for_transfer(std::size_t count, bool keeps_next) {
   const std::lock_guard lock(mutex_);
   std::vector<NodePtr> spare;

@@ -34,9 +34,9 @@ class Frontier {
   // Returns nullptr if there is none. O(distinct bounds within omega).
   NodePtr take_by_estimate(Omega omega, Cost lower_bound, double per_conflict);
   // Takes up to `count` open nodes for transfer to another frontier. For each bound, best first, it
-  // takes the worse half of the open nodes; with `keeps_next` it leaves the node that take() would
-  // return. The caller must settle() each node once the other frontier counts it; until then the
-  // node stays taken and counts in bound().
+  // takes about the worse half of the open nodes; with `keeps_next` it leaves the node that take()
+  // would return. The caller must settle() each node once the other frontier counts it; until then
+  // the node stays taken and counts in bound().
   std::vector<NodePtr> take_for_transfer(std::size_t count, bool keeps_next);
   // Completes a taken node: it was pruned, or replaced by its children (push those first).
   void settle(const NodePtr& node);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Incumbent and global lower bound, with the tests to prune and to stop (docs/design.md, section
-// 2).
+// Incumbent and global lower bound; tests to prune and to stop (docs/design.md, section 2).
 #pragma once
 
 #include <mutex>
