@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Is what a search believes of its nodes and tables true? Slow: for tests and fuzzing
-// (SearchOptions::audit). All throw AssertionFailed, and say what is wrong, where it is not.
+// Consistency checks of nodes and conflict tables. Slow: for tests and fuzzing
+// (SearchOptions::audit). All throw AssertionFailed with a description of the first violation.
 #pragma once
 
 #include <span>
@@ -10,13 +10,14 @@
 
 namespace grove::detail {
 
-// The node's cost is the sum of its paths' lengths; each path is a walk from the agent's start that
-// visits its tasks and ends where the agent may, and in scope it obeys all that the node demands of
-// the agent; the bound is at least the cost and at least the parent's bound.
+// Checks a node. Its cost must be the sum of its paths' lengths. Each path must be a walk from the
+// agent's start that visits its tasks and ends where the agent may rest. The paths of the agents in
+// `scope` must satisfy the node's constraints. The bound must be at least the cost and at least the
+// parent's bound.
 void audit(const Problem& problem, const Node& node, std::span<const AgentIndex> scope);
 
-// The table counts the conflicts of each of `paths` (by AgentIndex; empty: not in it) as a table
-// made of them anew would.
+// Checks that `table` counts as many conflicts of each path as a new table made of `paths` (by
+// AgentIndex; empty: not in the table).
 void audit(const Problem& problem, const ConflictAvoidanceTable& table,
            std::span<const Path> paths);
 

@@ -1,27 +1,29 @@
 // SPDX-License-Identifier: MIT
-// Algorithm 1 of the paper, lines 13-22: on a conflict make one child for each way to resolve it,
-// which replans under the *child's* constraints (the paper's line 17 plans under the parent's and
-// would repeat the conflict for ever).
+// Branching: Algorithm 1 of the paper, lines 13-22. On a conflict it creates one child for each way
+// to resolve the conflict and replans under the *child's* constraints. (The paper's line 17 plans
+// under the parent's constraints, which would repeat the conflict for ever.)
 //
-// Which conflict. *Strong branching*, as in integer programming (Applegate et al. 1995; for CBS the
-// idea behind cardinal conflicts, Boyarski et al. 2015): of every split that the node's conflicts
-// allow, both sides are priced exactly - by how much does the sum of costs rise? - and the one
-// whose cheaper side rises most is taken. The prices are costs of single agents under constraints,
-// which the memory keeps: among the conflicts of a node most were priced at its parent. A side
-// that cannot lead to a plan cheaper than the cutoff counts as infinitely dear, and a split with
-// two such sides ends the node.
+// *Choice of the conflict.* Strong branching, as in integer programming (Applegate et al. 1995; for
+// CBS the idea behind cardinal conflicts, Boyarski et al. 2015): for every split that the node's
+// conflicts allow, the increase of the sum of costs is computed exactly for both branches, and the
+// split whose smaller increase is largest is taken. The increases are differences of costs of
+// single agents under constraints. These costs are cached: most conflicts of a node were evaluated
+// at its parent. The increase of a branch that cannot lead to a plan cheaper than the cutoff counts
+// as infinite; a split with two such branches closes the node.
 //
-// *Fewest conflicts.* Of the paths of the side taken, all as cheap, one with the fewest conflicts
-// is found (fewest_conflicts.cpp): the low level alone sees few of the ways to spend a delay.
+// *Fewest conflicts.* Among the cheapest paths of a branch, one with the fewest conflicts is
+// computed (fewest_conflicts.cpp): the low level by itself examines few of the ways to spend a
+// delay.
 //
-// Bypassing (Boyarski et al. 2015). If a side costs nothing and its paths have fewer conflicts,
-// they obey all that the node demands, at the node's cost: they replace the node's paths, and
-// nothing is split.
+// *Bypassing* (Boyarski et al. 2015). If a branch costs nothing and its paths have fewer conflicts,
+// they satisfy all constraints of the node at the node's cost: they replace the node's paths, and
+// the node is not split.
 //
-// Why no plan is lost: a split is two demands of which every conflict-free plan meets one (see
-// conflict.cpp, target.cpp, traversal.cpp), whichever of them is chosen and whatever the paths. A
-// side is closed only if its demand, with the node's, makes single agents so dear that the sum -
-// each other agent costing at least what it costs at the node - reaches the cutoff.
+// *Claim: no plan is lost.* A split is a pair of constraints such that every conflict-free plan
+// satisfies at least one of them (see conflict.cpp, target.cpp, corridor.cpp), whichever split is
+// chosen and whatever the paths are. A branch is closed only if its constraint, together with the
+// node's, raises the costs of single agents so far that the sum reaches the cutoff, where each
+// other agent counts with its cost at the node, which is a lower bound.
 #include "search/brancher.h"
 
 #include <algorithm>
@@ -34,7 +36,7 @@
 namespace grove::detail {
 namespace {
 
-// A hash of the pair (the finaliser of SplitMix64, Steele et al. 2014).
+// Hash of the pair of agents (the finaliser of SplitMix64, Steele et al. 2014).
 std::uint64_t priority(const Conflict& conflict, std::uint64_t seed) {
   std::uint64_t x = seed * 0x9e3779b97f4a7c15 + (static_cast<std::uint64_t>(conflict.first) << 32) +
                     static_cast<std::uint64_t>(conflict.second);
@@ -55,8 +57,9 @@ Brancher::Brancher(const Problem& problem, const SearchOptions& options, PathPla
       others_(problem.instance.world()),
       shown_(problem.instance.agent_count()) {}
 
-// Each bypass saves conflicts, but by a count in which two rests on one cell are not symmetric, so
-// that alone does not prove that bypasses end.
+// The number of bypasses per call is limited. Each bypass lowers the number of conflicts, but the
+// count is not symmetric for two agents that rest on one cell, so the count does not prove that the
+// bypasses end.
 Brancher::Outcome Brancher::branch(NodeView& view, Cost cutoff,
                                    std::span<const Split> fallback_splits, const Limits& limits,
                                    std::vector<NodePtr>& children) {
@@ -83,7 +86,7 @@ Brancher::Outcome Brancher::branch(NodeView& view, Cost cutoff,
   return Outcome::kConflictFree;
 }
 
-// Brings the table up to the paths in scope. Most are those of the node before.
+// Updates the conflict avoidance table to the paths in scope. Most are those of the previous node.
 void Brancher::show_others(const NodeView& view) {
   for (std::size_t agent = 0; agent < shown_.size(); ++agent) {
     const Path& path = view.paths()[agent];
@@ -95,7 +98,8 @@ void Brancher::show_others(const NodeView& view) {
   if (options_.audit) audit(problem_, others_, view.paths());
 }
 
-// The split to make: the one that raises the bounds most, or that of a conflict of least time.
+// Chooses the split that raises the bounds most; without strong branching, or if there is none, a
+// split of an earliest conflict.
 bool Brancher::choose(const Task& task, std::span<const Split> fallback_splits, Branching& chosen) {
   const Techniques techniques = options_.techniques;
   if (!techniques.has(Technique::kStrongBranching)) {
@@ -120,9 +124,10 @@ bool Brancher::choose(const Task& task, std::span<const Split> fallback_splits, 
   return true;
 }
 
-// The same with splits on the next stops of the agents in conflict, where no conflict raises the
-// cost of both sides. Not usual: on 19 rooms and random maps of 10 and 20 agents it took up to
-// twice as many nodes; only where no conflict raises the cost of either side, as many as without.
+// Also considers splits on the next stops of the agents in conflict, if no conflict raises the cost
+// of both branches. Disabled by default. Measured on 19 rooms and random maps with 10 and 20
+// agents: up to twice as many nodes; restricted to nodes where no conflict raises the cost of
+// either branch, as many nodes as without.
 bool Brancher::improve_by_sequences(Choice& choice, const Task& task) {
   const NodeView& view = task.view;
   in_conflict_.clear();
@@ -163,7 +168,8 @@ Branching Brancher::earliest(const NodeView& view) {
   return {*best, splits_[splits_.size() > 1 ? 1 : 0]};
 }
 
-// The paths of one side of the split, around those of the others.
+// Replans the agents of one branch of the split, with few conflicts with the other agents' paths.
+// This and the next two functions return false if a limit was reached.
 bool Brancher::evaluate_branch(const Task& task, const AgentConstraint& demand, Branch& side) {
   side.open = true;
   side.increase = 0;
@@ -193,7 +199,8 @@ bool Brancher::replan(const Task& task, const AgentConstraint& demand, Branch& s
   return true;
 }
 
-// Writes a cheapest path under one constraint more to path_, if it costs at most `cutoff`.
+// Writes a cheapest path under the additional constraint `more` to path_ if it costs at most
+// `cutoff`; `found` says whether it does.
 bool Brancher::replan_one(const Task& task, AgentIndex agent, const Constraint& more, Time cutoff,
                           bool& found) {
   const AgentSequencing& order = task.view.order(agent);
@@ -220,7 +227,8 @@ bool Brancher::replan_one(const Task& task, AgentIndex agent, const Constraint& 
   return outcome != PathOutcome::kStopped;
 }
 
-// Takes the paths of a side for the node's own, if that costs nothing and saves conflicts.
+// Replaces the node's paths by those of a branch if that costs nothing and saves conflicts. Returns
+// whether it did.
 bool Brancher::bypass(NodeView& view, const Branch& side) {
   if (!options_.techniques.has(Technique::kBypass)) return false;
   if (!side.open || side.increase > 0 || side.conflicts >= 0) return false;

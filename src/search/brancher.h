@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Splitting a node on one of its conflicts.
+// Branching: splits a node on one of its conflicts.
 #pragma once
 
 #include <array>
@@ -20,68 +20,70 @@
 
 namespace grove::detail {
 
-// How a node was split, and what for.
+// The split of a node and the conflict that it resolves.
 struct Branching {
   Conflict conflict;  // of the node's paths
   Split split;
 };
 
-// Chooses the split of a node and makes its children. The essay is at the head of brancher.cpp.
-// Workspace of one thread.
+// Chooses the split of a node by strong branching and creates the children. The proof that no plan
+// is lost is at the head of brancher.cpp. One thread at a time.
 class Brancher {
  public:
   enum class Outcome : std::uint8_t {
     kBranched,
-    kConflictFree,  // of the scope, as they are at the node or after going round each other for
-                    // free: see NodeView::path()
-    kStopped,       // a limit struck: nothing is known
+    kConflictFree,  // the paths in scope have no conflict, at the node or after bypasses: see
+                    // NodeView::path()
+    kStopped,       // a limit was reached: no result
   };
 
-  // All must outlive this; `planner` and `memory` may be shared with others of the same thread.
+  // All arguments must outlive this object; `planner` and `memory` may be shared with other objects
+  // of the same thread.
   Brancher(const Problem& problem, const SearchOptions& options, PathPlanner& planner,
            WorkerCache& memory);
 
-  // Makes the children of the node that `view` has entered, appended to `children`: every plan that
-  // obeys the node's constraints and costs less than `cutoff` obeys those of one of them. At most
-  // two; a child that surely holds no such plan is none. `fallback_splits` are further splits,
-  // valid at the node: one is made where no conflict offers any that raises the cost of a side, and
-  // its two agents are in conflict.
+  // Creates the children of the node that `view` has entered and appends them to `children`, at
+  // most two. Every plan that satisfies the node's constraints and costs less than `cutoff`
+  // satisfies the constraints of one of them. A child that is proven to hold no such plan is
+  // omitted. `fallback_splits` are further splits that are valid at the node. They are considered
+  // if no split of a conflict raises the cost of a branch, and only if their two agents are in
+  // conflict.
   Outcome branch(NodeView& view, Cost cutoff, std::span<const Split> fallback_splits,
                  const Limits& limits, std::vector<NodePtr>& children);
-  // How the last node was split; none if it was not.
+  // The split of the last node; nullopt if it was not split.
   const std::optional<Branching>& branching() const { return branching_; }
 
-  // So far: nodes of sets of paths looked through for those of fewest conflicts; splits made, by
-  // the kind of their second demand, which tells where they come from (kRestBy: when an agent comes
-  // to rest, kNoRestBy: costs); sides taken for the node's own paths; prices.
+  // Counters: MDD nodes searched for paths of fewest conflicts; splits made, by the kind of their
+  // second constraint, which identifies the technique (kRestBy: target, kNoRestBy: cost splits);
+  // bypasses; cost computations for strong branching.
   std::int64_t optimal_nodes() const { return fewest_conflicts_.nodes(); }
   std::span<const std::int64_t, kConstraintKinds> splits() const { return splits_made_; }
   std::int64_t bypasses() const { return bypasses_; }
   const ChildCosts& prices() const { return prices_; }
 
  private:
-  // What one side of a split leads to.
+  // Result of one branch of a split.
   struct Branch {
-    bool open = false;  // else it holds no plan cheaper than the cutoff
+    bool open = false;  // false: the branch holds no plan cheaper than the cutoff
     Cost increase = 0;
-    int conflicts = 0;               // more than before
-    std::vector<AgentIndex> agents;  // who goes another way ...
-    std::vector<Path> paths;         // ... and which
+    int conflicts = 0;               // change of the number of conflicts
+    std::vector<AgentIndex> agents;  // the replanned agents ...
+    std::vector<Path> paths;         // ... and their new paths
   };
-  // The best split so far, by what its cheaper and its dearer side rise by.
+  // The best split so far, compared by (smaller, larger) cost increase of its branches.
   struct Choice {
     std::pair<Cost, Cost> gain{-1, -1};
     Branching branching;
   };
-  // What all steps of one call of branch() read.
+  // Input of one call of branch().
   struct Task {
     NodeView& view;
-    Cost slack;  // a child's cost may rise by so much
+    Cost slack;  // max cost increase of a child
     const Limits& limits;
   };
 
   void show_others(const NodeView& view);
-  // False: a limit struck.
+  // Returns false if a limit was reached.
   bool choose(const Task& task, std::span<const Split> fallback_splits, Branching& chosen);
   bool improve(Choice& choice, const Branching& by, const Task& task);
   bool improve_by_sequences(Choice& choice, const Task& task);

@@ -2,8 +2,8 @@
 #include "search/child_costs.h"
 
 namespace grove::detail {
-// With time windows, which is what cells barred for ever make, the low level is NP-hard, and one
-// call could take all the time there is.
+// Why there is a label limit: cells forbidden for ever act as time windows, with which the low
+// level is NP-hard, so that one call could use all the time.
 ChildCosts::Outcome ChildCosts::increase(NodeView& view, const AgentConstraint& demand, Cost slack,
                                          const Limits& limits, Cost& increase) {
   increase = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What single agents cost under one constraint more.
+// Costs of single agents under one additional constraint, for strong branching.
 #pragma once
 
 #include <cstdint>
@@ -12,31 +12,33 @@
 
 namespace grove::detail {
 
-// The prices of strong branching, which the memory keeps from node to node. Workspace of one
-// thread.
+// Computes the cost increase of a branch for strong branching. The costs of single agents are
+// cached from node to node. One thread at a time.
 class ChildCosts {
  public:
   enum class Outcome : std::uint8_t {
     kDone,
-    kTooHard,  // it would take longer than a price is worth
-    kStopped,  // a limit struck
+    kTooHard,  // the label limit was reached, now or at an earlier attempt
+    kStopped,  // a limit was reached
   };
 
-  // Both must outlive this. A split whose price takes more than `label_limit` is not considered.
+  // `planner` and `memory` must outlive this object. `label_limit` is the label limit of each low
+  // level call of increase(); a split that needs more labels is not considered.
   ChildCosts(PathPlanner& planner, WorkerCache& memory, std::int64_t label_limit)
       : planner_(planner), memory_(memory), most_labels_(label_limit) {}
 
-  // By how much the costs of the agents in scope rise, each alone, when `demand` is made; if by
-  // more than `slack`, kInfiniteCost.
+  // Computes by how much the individual costs of the agents in scope rise in total if `demand` is
+  // added; kInfiniteCost if by more than `slack`.
   Outcome increase(NodeView& view, const AgentConstraint& demand, Cost slack, const Limits& limits,
                    Cost& increase);
 
-  // What the agent costs under one constraint more; if that is above `cutoff`, anything above it.
-  // kTooHard only if it takes more than `label_limit`.
+  // Computes the cost of the agent under the additional constraint `more`. If it is above `cutoff`,
+  // returns some value above `cutoff`. kTooHard only if the computation takes more than
+  // `label_limit` labels.
   Outcome cost(NodeView& view, AgentIndex agent, const Constraint& more, Time cutoff,
                std::int64_t label_limit, const Limits& limits, Time& cost);
 
-  // Calls of cost() so far, and those of them that the memory answered.
+  // Number of calls of cost(), and of those answered from the cache.
   std::int64_t asked() const { return asked_; }
   std::int64_t known() const { return known_; }
 
@@ -50,7 +52,7 @@ class ChildCosts {
   std::int64_t known_ = 0;
 };
 
-// What an agent may cost if the sum of costs may rise by `slack`.
+// The max cost of an agent if the sum of costs may rise by `slack`.
 inline Time cutoff_for(const NodeView& view, AgentIndex agent, Cost slack) {
   return static_cast<Time>(std::min<Cost>(view.cost_of(agent) + slack, kNever - 1));
 }

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Each component of the hypergraph of statements is solved by itself. Is there a solution of sum B?
-// is asked for B = the greedy bound, then one more, and so on, by depth-first search: some
-// statement is not fulfilled; one of its agents must get one more. Once a branch has tried agent i,
-// its later siblings may not raise i again, so each solution is tried once. A branch whose greedy
-// bound exceeds what is left of B is given up. The first B with a solution is the optimum; when the
-// steps run out, the B under way is a bound, since all smaller ones were refuted.
+// Covering bound: least sum of nonnegative integers, one per agent, that fulfils all statements.
 //
-// The greedy bound takes statements in turn that share no agent with those taken: their sum is due,
-// whatever the solution. Where it is large - a statement may say "infinitely much" - it is near
-// enough: the search is as deep as B is large.
+// Each component of the hypergraph of statements is solved separately. For B = greedy bound,
+// greedy bound + 1, ... a depth-first search decides whether there is a solution of sum at most B.
+// It chooses a statement that is not fulfilled and branches on the agent of it that gets one more.
+// Once a branch has tried agent i, its later siblings may not raise i again, so each solution is
+// tried once. A branch is cut off if its greedy bound exceeds the rest of B. The first B with a
+// solution is the optimum. If the steps run out, the current B is a bound, because all smaller
+// values were refuted.
+//
+// The greedy bound is the sum of statements chosen one after the other such that no two share an
+// agent; every solution has at least this sum. If it is large (a statement may have infinite
+// excess), it is returned as the result: the search would be as deep as B is large.
 #include "search/covering.h"
 
 #include <algorithm>
@@ -26,7 +29,7 @@ constexpr std::int64_t kCallsPerPoll = 256;
 // A statement over the agents 0 .. count - 1 of its component.
 struct Statement {
   std::vector<int> agents;
-  Cost due;  // of its excess, what is not given yet
+  Cost due;  // the part of its excess that is not fulfilled yet
 };
 
 class Component {
@@ -59,8 +62,8 @@ class Component {
     return sum;
   }
 
-  // Can everything that is due be fulfilled with a sum of at most `left`? "Yes" when the steps run
-  // out.
+  // Returns whether all statements can be fulfilled with a further sum of at most `left`; true also
+  // if the steps run out.
   bool fulfil(Cost left) {
     steps_ -= static_cast<std::int64_t>(statements_.size());
     if (++calls_ % kCallsPerPoll == 0 && limits_.stop_requested()) steps_ = 0;
@@ -96,7 +99,7 @@ class Component {
   std::int64_t calls_ = 0;
 };
 
-// The smallest agent of each agent's component, by agent.
+// Union-find: maps each agent to the smallest agent of its component.
 class Components {
  public:
   explicit Components(AgentIndex agents) : parent_(static_cast<std::size_t>(agents)) {

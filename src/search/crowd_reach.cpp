@@ -1,33 +1,44 @@
 // SPDX-License-Identifier: MIT
-// Boards on which agents have room to change order: m nodes are free, two at least, or one if
-// agents may follow each other; and the board is no ring. (Pebble motion: Kornhauser, Miller and
-// Spirakis 1984; with rotations: Yu and Rus 2014. How a board falls apart follows Push and Rotate,
-// de Wilde, ter Mors and Witteveen 2014.)
+// Reachable configurations of pebble graphs on which agents have room to change their order.
 //
-// Agents change order at *crossings*: regions of nodes on rings, and single nodes with three ways.
-// With two free nodes at a crossing any two agents there can change places. With one they can on a
-// ring, if agents may follow: all go round, with one agent more or less than at first. So a
-// crossing *needs* 1 or 2. Between crossings are *ways* of nodes with two neighbours.
+// *Problem.* m nodes are free: at least two, or at least one if agents may follow each other; and
+// the graph is not a ring. Which configurations can be reached? (Pebble motion: Kornhauser, Miller
+// and Spirakis 1984; with rotations: Yu and Rus 2014. The decomposition of the graph follows Push
+// and Rotate, de Wilde, ter Mors and Witteveen 2014.)
 //
-// Take an agent on a way, t steps from the crossing at its beginning, with b free nodes on that
-// side of it. As long as it is on the way, that crossing included, t - b is the same: each step of
-// its own takes one free node from one side to the other, and nobody else brings one past it. At
-// t = 0 it can go aside only with b >= 1, if the crossing needs 2; and where one is enough, it
-// comes to t = 0 only if t - b <= 0. So who has t - b > 1 - need is *stuck* as seen from there.
-// Who is stuck as seen from both ends never leaves the way, nor changes order with others who
-// are. From the other end the way is d - t long and m - b free nodes are there: who is not stuck
-// as seen from either end has d <= m + 2 - both needs. If that does not hold, nobody who can leave
-// the way at one end can at the other. This proves what is not reached.
+// *Definitions.* Agents change their order at *crossings*: regions of nodes on rings, and single
+// nodes with three or more neighbours. With two free nodes at a crossing any two agents there can
+// change places. One free node suffices on a ring if agents may follow each other: all go round,
+// with one agent more or fewer than at first. So a crossing has a *need* of 1 or 2 free nodes. The
+// crossings are connected by *ways* of nodes with two neighbours each.
 //
-// The rest is reached, which no answer of ours rests on: where a way is that short, the crossings
-// at both ends are one for their agents. All that are not stuck as seen from some crossing that is
-// so joined, its *crowd*, can be arranged anyhow, on the nodes that they have: all arrangements of
-// free nodes can be come to, and two agents of the crowd can be brought to a crossing together,
-// change places, and all be brought back.
+// Consider an agent on a way, t steps from the crossing at the beginning of the way, with b free
+// nodes on that side of it. While the agent is on the way (including that crossing), t - b is
+// invariant: each step of the agent moves one free node from one side of it to the other, and no
+// other agent moves a free node past it. At t = 0 the agent can leave the way only with b >= 1, if
+// need = 2; if need = 1, it reaches t = 0 only if t - b <= 0. So an agent with t - b > 1 - need is
+// *stuck* as seen from this crossing.
 //
-// Which nodes are reached: of a crowd those of its crossings, and of ways from there those with t
-// <= m + 1 - need, for b = m is the most. Of an agent that is stuck, with as many agents on one
-// side of it for ever: those which leave room for 0 to m free nodes there.
+// *Claim.* (a) An agent that is stuck as seen from both ends never leaves the way, and never
+// changes its order with other such agents. (b) If d > m + 2 - (sum of both needs), where d is the
+// length of the way, then no agent that can leave the way at one end can leave it at the other.
+//
+// *Proof of (b).* From the other end the distance is d - t and there are m - b free nodes. For an
+// agent that is not stuck as seen from either end, the sum of the two inequalities is
+// d <= m + 2 - (sum of both needs).
+//
+// *Consequence.* This proves which configurations are unreachable.
+//
+// *Converse* (no answer of Grove relies on it): all others are reachable. Where a way has
+// d <= m + 2 - (sum of both needs), the crossings at its ends are one for their agents. Joining
+// crossings along such ways gives sets of crossings. The *crowd* of a set consists of the agents
+// that are not stuck as seen from some crossing of it. A crowd can be arranged in any order on the
+// nodes that it has: every arrangement of the free nodes can be reached, and two agents of the
+// crowd can be brought to a crossing together, change places, and all agents be brought back.
+//
+// *Reachable nodes.* A crowd reaches the nodes of its crossings, and the nodes of ways from there
+// with t <= m + 1 - need, because b <= m. A stuck agent always has the same number of agents on
+// either side; it reaches the nodes that leave room for 0 to m free nodes on one side.
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -40,16 +51,17 @@ namespace {
 
 constexpr PebbleNode kStuck = -1;
 
-// From a crossing, or a dead end, to the next. Ways between crossings are there twice.
+// A way from a crossing, or a dead end, to the next one. Ways between crossings are stored twice,
+// once per direction.
 struct Way {
-  PebbleNode from = PebbleGraph::kNone;  // kNone: the board is nothing but this way
-  std::vector<PebbleNode> nodes;         // the other end included
+  PebbleNode from = PebbleGraph::kNone;  // kNone: the graph consists of this way only
+  std::vector<PebbleNode> nodes;         // includes the other end
 
   int length() const { return static_cast<int>(nodes.size()); }
   PebbleNode before_end() const { return nodes.size() > 1 ? nodes[nodes.size() - 2] : from; }
 };
 
-// What does not depend on who is where.
+// The part of the analysis that depends on the graph and the number of free nodes only.
 class Crossings {
  public:
   Crossings(const PebbleGraph& board, int free, bool may_follow)
@@ -71,15 +83,15 @@ class Crossings {
     return board_.is_on_ring(node) || board_.neighbors(node).size() > 2;
   }
   int need(PebbleNode crossing) const { return may_follow_ && board_.is_on_ring(crossing) ? 1 : 2; }
-  // The number of all crossings that are joined to this one.
+  // The number of the set of joined crossings that contains `crossing`; it identifies the crowd.
   PebbleNode crowd(PebbleNode crossing) const { return joined_[crossing]; }
-  // How far from it who is not stuck is at most.
+  // The max distance from `crossing` of an agent that is not stuck as seen from it.
   int most_steps(PebbleNode crossing) const { return free_ + 1 - need(crossing); }
   bool is_reached(PebbleNode crowd_there, PebbleNode node) const {
     return (is_crossing(node) && crowd(node) == crowd_there) ||
            std::ranges::binary_search(near_, std::pair(node, crowd_there));
   }
-  // The one of the two that is looked at.
+  // Whether `way` is the one of its two directions that is used.
   bool is_first(const Way& way) const { return !is_between(way) || way.from < way.nodes.back(); }
 
  private:
@@ -123,12 +135,12 @@ class Crossings {
   const int free_;
   const bool may_follow_;
   std::vector<Way> ways_;
-  std::vector<PebbleNode> joined_;  // by node; while ways are looked at, a forest of regions
-  // Nodes beside a crossing, and the crowd that reaches them from there.
+  std::vector<PebbleNode> joined_;  // by node; during construction a union-find forest of regions
+  // Pairs of a node of a way and a crowd that reaches it, sorted.
   std::vector<std::pair<PebbleNode, PebbleNode>> near_;
 };
 
-// Who belongs where in an arrangement.
+// The crowds and the stuck agents of one configuration.
 class Membership {
  public:
   Membership(const Crossings& crossings, const PebbleConfiguration& arrangement)
@@ -147,11 +159,12 @@ class Membership {
       if (crossings.is_first(crossings.ways()[way])) find_queue(way);
   }
 
-  // Of who is on a node; kStuck: of none.
+  // The crowd of the agent on `node`; kStuck if the agent is stuck or the node is free.
   PebbleNode crowd(PebbleNode node) const { return crowds_[node]; }
-  // Those who are stuck on a way, in order.
+  // By way: the nodes of the agents that are stuck on it, in order.
   const std::vector<std::vector<PebbleNode>>& queues() const { return queues_; }
-  // How many nodes beyond this one, as seen from the way, are free?
+  // The number of free nodes on the side of the crossing at the beginning of the way, that crossing
+  // included.
   int free_before(const Way& way) const {
     return way.from == PebbleGraph::kNone
                ? 0
@@ -162,7 +175,8 @@ class Membership {
  private:
   const PebbleGraph& board() const { return crossings_.board(); }
 
-  // All that is free is ahead of it.
+  // Whether the agent on the crossing `node` is stuck on the way that begins with `next`: all free
+  // nodes are on that side.
   bool is_held_by(PebbleNode node, PebbleNode next) const {
     return crossings_.need(node) == 2 && board().is_bridge(node, next) &&
            board().beyond(node, next, free_) == crossings_.free();
@@ -195,12 +209,12 @@ class Membership {
 
   const Crossings& crossings_;
   const PebbleConfiguration& arrangement_;
-  std::vector<int> free_;  // sums
+  std::vector<int> free_;  // free nodes per subtree, see PebbleGraph::sums()
   std::vector<PebbleNode> crowds_;
   std::vector<std::vector<PebbleNode>> queues_;  // by way
 };
 
-// Each agent that belongs to a crowd, with the crowd.
+// All pairs of an agent and its crowd, sorted.
 std::vector<std::pair<AgentIndex, PebbleNode>> crowds_of(const PebbleConfiguration& arrangement,
                                                          const Membership& membership) {
   std::vector<std::pair<AgentIndex, PebbleNode>> crowds;
@@ -211,7 +225,7 @@ std::vector<std::pair<AgentIndex, PebbleNode>> crowds_of(const PebbleConfigurati
   return crowds;
 }
 
-// Those who are stuck, way by way.
+// The stuck agents in order, by way.
 std::vector<std::vector<AgentIndex>> queues_of(const PebbleConfiguration& arrangement,
                                                const Membership& membership) {
   std::vector<std::vector<AgentIndex>> queues;
@@ -250,15 +264,15 @@ class CrowdReach : public ReachableConfigurations {
   }
 
  private:
-  // Of who is stuck there, or of a node with no more than two ways: on what way it is. And how many
-  // nodes of the board come before it there.
+  // The way of a node that is no crossing, or of the agent that is stuck on a crossing; and the
+  // number of nodes of the graph before the node, as seen along the way.
   struct Spot {
     std::size_t way = 0;
     int nodes_before = 0;
   };
 
   const Way& held_on(PebbleNode node) const { return crossings_.ways()[spots_[node].way]; }
-  // Before the first that is no crossing.
+  // The number of nodes of the graph before the first node of `way`.
   int nodes_before(const Way& way) const {
     return way.from == PebbleGraph::kNone
                ? 0
@@ -293,9 +307,10 @@ class CrowdReach : public ReachableConfigurations {
   const PebbleConfiguration start_;
   const Crossings crossings_;
   const Membership now_;
-  const std::vector<int> sizes_;  // sums
+  const std::vector<int> sizes_;  // nodes per subtree, see PebbleGraph::sums()
   std::vector<Spot> spots_;
-  std::vector<int> agents_before_;  // by node: of who is stuck there, those for ever before it
+  // By node: number of agents that always stay before the agent that is stuck there.
+  std::vector<int> agents_before_;
 };
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kBytesPerPartner = 2 * sizeof(DependencyTable::Partner);  // about, as below
+constexpr std::size_t kBytesPerPartner = 2 * sizeof(DependencyTable::Partner);  // estimates
 constexpr std::size_t kBytesPerGroup = 160;
 
 std::uint32_t hash_of(DependencyTable::Id first, DependencyTable::Id second) {
@@ -105,7 +105,7 @@ void DependencyTable::partners(Id first, std::vector<Partner>& partners) const {
   });
 }
 
-// -1: it is not there.
+// Returns -1 if there is no such group.
 std::int32_t DependencyTable::Part::find_group(Id rarest, Id next,
                                                const std::vector<Id>& situations) const {
   for (const ListedGroup& listed : groups.of(rarest))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is known about agents that must together cost more than each alone.
+// Table of WDG edge and hyperedge weights: how much more agents cost together than individually.
 #pragma once
 
 #include <algorithm>
@@ -16,20 +16,23 @@
 
 namespace grove::detail {
 
-// By how much pairs and groups of agents in given situations cost more together than each alone.
-// Groups are named by their agents in ascending order and by the situations of these. All methods
-// may be called from any thread.
+// Weights (*excesses*) of pairs and groups of agents, keyed by the agents' subproblems: a lower
+// bound on the cost of the agents together, minus the sum of their individual costs. A subproblem
+// is an agent with its order of visits and its set of constraints (subproblem_table.h); variables
+// call its number a situation. The key of a group is its agents in ascending order and their
+// subproblems. Thread-safe.
 //
-// A group is *listed* under its rarest situation: few nodes ask for what is listed there. With it
-// stands the next rarest, for most groups that are not at a node differ from it in that already.
+// A group is *listed* under its rarest subproblem, because few nodes look that one up. The list
+// also stores the next rarest: most groups that do not apply to a node already differ from it
+// there.
 class DependencyTable {
  public:
   using Id = SubproblemTable::Id;
 
   struct Known {
-    Cost excess = 0;              // at least so much
-    bool exact = false;           // and conflict-free paths cost that
-    std::int32_t expansions = 0;  // spent on it
+    Cost excess = 0;              // proven lower bound
+    bool exact = false;           // conflict-free paths with this excess exist
+    std::int32_t expansions = 0;  // effort spent on it
     friend bool operator==(const Known&, const Known&) = default;
   };
   // Several agents, in ascending order.
@@ -38,39 +41,40 @@ class DependencyTable {
     std::vector<Id> situations;
     Known known;
 
-    // `now`, by AgentIndex: are these agents in these situations?
+    // Does the group apply to a node whose subproblems are `now`, by AgentIndex?
     bool is_at(const std::vector<Id>& now) const {
       return std::ranges::equal(situations, agents, {}, {},
                                 [&](AgentIndex agent) { return now[agent]; });
     }
   };
-  // The other agent of a pair that costs more.
+  // The other agent of a pair with positive excess.
   struct Partner {
     AgentIndex agent;
     Id situation;
     Cost excess;
   };
 
-  // What two say together. So it does not matter who says it first.
+  // The conjunction of two entries. It is commutative, so the order of merges does not matter.
   static Known join(Known a, Known b) {
     return {std::max(a.excess, b.excess), a.exact || b.exact, std::max(a.expansions, b.expansions)};
   }
 
-  // Of situations with these numbers, which must outlive this.
+  // `situations` numbers the subproblems and must outlive this object.
   explicit DependencyTable(const SubproblemTable& situations) : situations_(situations) {}
 
   Known of_pair(Id first, Id second) const;
-  // The agent is the second one. True, here and below: it was news.
+  // `agent` is the agent of `second`. merge_pair() and merge_group() return true if the table
+  // changed.
   bool merge_pair(Id first, Id second, AgentIndex agent, Known known);
-  // Of an agent in a situation, those of greater index that it costs more with. Appended.
+  // Appends the partners of greater index with which the agent of `first` has positive excess.
   void partners(Id first, std::vector<Partner>& partners) const;
 
   Known of_group(const std::vector<Id>& situations) const;
   bool merge_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
                    Known known);
-  // Calls use(group) once for each group that is at a node with the situations `now`, by
-  // AgentIndex. `use` must not call this object, and copies what it keeps. Returns how many groups
-  // were looked at in full.
+  // Calls use(group) once for each group that applies to a node with the subproblems `now`, by
+  // AgentIndex. `use` must not call this object, and must copy what it keeps. Returns the number of
+  // groups that were compared in full.
   template <class Use>
   std::int64_t groups_at(const std::vector<Id>& now, Use use) const {
     std::int64_t looked_at = 0;
@@ -86,7 +90,7 @@ class DependencyTable {
     return looked_at;
   }
 
-  // Memory held, in bytes (about).
+  // Approximate memory use in bytes.
   std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
 
  private:
@@ -95,7 +99,7 @@ class DependencyTable {
     Id second;
     Known known;
   };
-  // What is listed under situations of a part, which are numbered one after the other.
+  // Lists of items by subproblem. The subproblems of a part have consecutive places.
   template <class Item>
   class Lists {
    public:
@@ -114,20 +118,20 @@ class DependencyTable {
       return static_cast<std::size_t>(situation) / Sharded<int>::kParts;
     }
 
-    std::vector<std::int32_t> list_;  // by place: its number; -1: none
+    std::vector<std::int32_t> list_;  // by place: index in lists_; -1 if there is no list
     std::vector<std::vector<Item>> lists_;
   };
   struct ListedGroup {
-    AgentIndex agent;  // that is in the next rarest situation
+    AgentIndex agent;  // the one with the next rarest subproblem
     Id situation;
     std::int32_t number;
   };
   struct Part {
     std::vector<Pair> pairs;
     HashIndex index;          // of pairs
-    Lists<Partner> partners;  // by the first
+    Lists<Partner> partners;  // by first subproblem
     std::vector<Group> all_groups;
-    Lists<ListedGroup> groups;  // by the rarest
+    Lists<ListedGroup> groups;  // by rarest subproblem
     std::size_t listed_partners = 0;
 
     void list(const Partner& partner, Id first);
@@ -136,17 +140,17 @@ class DependencyTable {
     std::size_t bytes() const;
   };
 
-  // Calls what(part), which returns whether that was news, and keeps count of the bytes.
+  // Calls what(part), which returns whether the part changed, and updates bytes_.
   template <class What>
   bool merge(Id under, What what);
 
-  // The places of a group's rarest situation and of the next: those with the most constraints. (Not
-  // those that came up last, which are not the rarest where others tell of them.) Of equal ones the
-  // newest.
+  // The places, in `situations`, of a group's rarest subproblem and of the next rarest: those with
+  // the most bytes of constraints. (Not the newest: a subproblem received from another process is
+  // new here, but need not be rare.) Ties go to the larger number, which is about the newer one.
   std::array<std::size_t, 2> rarest_two(const std::vector<Id>& situations) const;
 
   const SubproblemTable& situations_;
-  Sharded<Part> parts_;  // by the situation that a pair or group is listed under
+  Sharded<Part> parts_;  // by the subproblem under which a pair or group is listed
   std::atomic<std::size_t> bytes_{0};
 };
 

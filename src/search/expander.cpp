@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Algorithm 1 of the paper, lines 9-22: validate the node's paths; if they conflict, first see what
-// more can be said about the node's bound - a node whose bound rises goes back to the frontier,
-// where others may now be better - then branch.
+// Expansion of a node: Algorithm 1 of the paper, lines 9-22. Validates the node's paths. If they
+// conflict, first tries to raise the node's bound: a node whose bound rises returns to the
+// frontier, where other nodes may now be better. Otherwise branches.
 #include "search/expander.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace grove::detail {
 namespace {
 
-// It is made of nothing but counts.
+// ExpansionCounts consists of 64-bit counters only.
 using Counts = std::array<std::int64_t, sizeof(ExpansionCounts) / sizeof(std::int64_t)>;
 
 template <class Operation>
@@ -116,7 +116,7 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
   return expansion;
 }
 
-// A side without a child holds no plan cheaper than the cutoff.
+// A branch without a child holds no plan cheaper than the cutoff.
 void Expander::log_proof(const Branching& branching, const NodePtr& node,
                          std::span<const NodePtr> children, Cost cutoff) {
   const Split& split = branching.split;
@@ -133,7 +133,7 @@ bool Expander::help(const NodePtr& node, Cost cutoff, double share, const Limits
   return dependencies_.help(node, view_, cutoff, share, limits);
 }
 
-// The plan of the view's paths, which are conflict-free.
+// The plan that consists of the view's paths, which are conflict-free.
 Plan Expander::plan(const Node& node) {
   Plan plan;
   for (AgentIndex i = 0; i < problem_.instance.agent_count(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Expanding a node: the one place where constraint trees grow.
+// Expansion of a node: the only place where constraint trees grow.
 #pragma once
 
 #include <array>
@@ -20,34 +20,35 @@
 
 namespace grove::detail {
 
-// What an expansion led to. If `stopped`, a limit struck, and if `unfinished`, there is more to
-// find out about the node than should be done at one go: nothing else is set and the node is as it
-// was. Otherwise the node's plans cheaper than the cutoff are exactly those of its children, or
-// `plan` is the best of them.
+// Result of an expansion. `stopped`: a limit was reached. `unfinished`: bounding the node takes
+// more work than one call should do. In both cases nothing else is set and the node is unchanged.
+// Otherwise the node's plans cheaper than the cutoff are exactly those of its children, or `plan`
+// is the best of them.
 struct Expansion {
   bool stopped = false;
   bool unfinished = false;
-  Cost cutoff = kInfiniteCost;    // of the expansion: the cost of the incumbent then
-  std::optional<Plan> plan;       // the node's paths, or others as cheap, are conflict-free
-  std::vector<NodePtr> children;  // at most two; a child without a path is none. One: perhaps the
-                                  // same node with a higher bound
+  Cost cutoff = kInfiniteCost;    // cost of the incumbent at the time of the call
+  std::optional<Plan> plan;       // the node's paths, or others of equal cost, if conflict-free
+  std::vector<NodePtr> children;  // at most two; a child without a path is omitted. A single child
+                                  // may be the same node with a higher bound
   std::optional<Branching> branching;  // if the node was split
 };
 
-// What expanders have done so far.
+// Counters of expansions.
 struct ExpansionCounts {
   std::int64_t low_level_calls = 0;
   std::int64_t low_level_expanded = 0;  // labels
   std::int64_t pair_expansions = 0;
-  std::int64_t optimal_nodes = 0;  // of sets of optimal paths, made or searched for conflicts
-  std::int64_t joint_pairs = 0;    // of such nodes, compared
-  std::int64_t group_states = 0;   // looked at by joint search of pairs and groups
-  std::int64_t group_work = 0;     // of it, in the unit of work.h
-  std::int64_t situations = 0;     // asked about
-  std::int64_t groups = 0;         // asked about
-  std::int64_t path_steps = 0;     // looked through for conflicts
-  // What branching did: splits by the kind of their second demand (brancher.h), ways round for
-  // free, prices asked for and answered from memory; and sets of optimal paths, likewise.
+  std::int64_t optimal_nodes = 0;  // MDD nodes built or searched for conflicts
+  std::int64_t joint_pairs = 0;    // pairs of MDD nodes compared (joint MDDs)
+  std::int64_t group_states = 0;   // states examined by joint search of pairs and groups
+  std::int64_t group_work = 0;     // work of joint search, in the unit of work.h
+  std::int64_t situations = 0;     // look-ups of subproblems
+  std::int64_t groups = 0;         // groups looked up
+  std::int64_t path_steps = 0;     // path steps searched for conflicts
+  // Branching: splits by the kind of their second constraint (brancher.h), bypasses, strong
+  // branching costs requested and answered from the cache. Then MDDs requested and answered from
+  // the cache.
   std::array<std::int64_t, kConstraintKinds> splits{};
   std::int64_t bypasses = 0;
   std::int64_t prices_asked = 0;
@@ -59,43 +60,47 @@ struct ExpansionCounts {
   ExpansionCounts& operator-=(const ExpansionCounts& less);
 };
 
-// Expands nodes with the workspace of one thread and the memory of what was found out about agents,
-// pairs and groups before. What it says is proven whatever the memory holds; how much it says may
-// depend on it, since a pair is looked into once, with the cutoff of that moment. Engines give each
-// worker its own expander.
+// Expands nodes, with cached results on agents, pairs and groups. Every bound is proven whatever
+// the cache holds. The strength of a bound may depend on the cache, because a pair is examined
+// once, with the cutoff of that moment. One thread at a time; engines give each worker its own
+// expander.
 class Expander {
  public:
-  // `problem` and `stops` must outlive the expander; `stops` may be shared with others of the same
-  // thread. `planner` plans agents whose order is open; null: Grove's own low level.
+  // `problem` and `stops` must outlive the expander; `stops` may be shared with other objects of
+  // the same thread. `planner` plans agents whose order of visits is free; nullptr: Grove's low
+  // level.
   Expander(const Problem& problem, AgentStopsCache& stops, const SearchOptions& options,
            std::shared_ptr<SharedCache> memory = std::make_shared<SharedCache>(),
            std::unique_ptr<AgentPlanner> planner = nullptr);
 
-  // Holds no node afterwards: how much memory nodes take would depend on who expanded which last.
-  // `cutoff`: plans that cost so much or more are of no interest (the incumbent's cost;
-  // kInfiniteCost: all are). `haste` makes the node's bound weaker, never wrong.
+  // Expands `node` for plans that cost less than `cutoff` (the cost of the incumbent;
+  // kInfiniteCost: all plans). A lower `bounding_effort` makes the node's bound weaker, but not
+  // invalid. The expander holds no node afterwards; otherwise the memory used by nodes would depend
+  // on which expander expanded which node last.
   Expansion expand(const NodePtr& node, Cost cutoff, const Limits& limits,
                    BoundingEffort bounding_effort = BoundingEffort::kFull);
 
-  // Finds out some of what a worker needs that has come back with `node` unfinished, beginning at
-  // this `share` in [0, 1) of it; to publish it is all. False: nothing was left to do.
+  // Helps to bound `node`, whose expansion by another worker returned `unfinished`: does part of
+  // the work that is left, beginning at fraction `share` in [0, 1) of it. The caller only has to
+  // publish the results. Returns false if nothing was left to do.
   bool help(const NodePtr& node, Cost cutoff, double share, const Limits& limits);
 
   ExpansionCounts counts() const;
-  // Work done so far: as it is weighed, and all of it; see work.h.
+  // Work done so far, see work.h: work() is the part by which tree and primal search are weighed
+  // against each other, whole_work() is all of it.
   std::int64_t work() const {
     return planner_.work() + dependencies_.joint_groups().work() + work_on_nodes_;
   }
   double whole_work() const;
 
-  // What was found out is known to this expander only, until it is published, or handed over for
-  // others to add to the memory.
+  // New results are visible to this expander only, until publish() merges them into the shared
+  // cache or take_delta() hands them over for merging elsewhere.
   void publish() { memory()->merge(take_delta()); }
   CacheDelta take_delta() { return memory_.take_delta(); }
-  // Goes on with another memory, perhaps an empty one.
+  // Continues with another shared cache, possibly an empty one.
   void turn_to(std::shared_ptr<SharedCache> memory) { memory_.turn_to(std::move(memory)); }
   const std::shared_ptr<SharedCache>& memory() const { return memory_.common(); }
-  // What it keeps of agents from node to node; see NodeView::exchange.
+  // Per-agent data kept between nodes; see NodeView::exchange.
   struct Kept {
     NodeView::Kept of_nodes;
     NodeView::Kept of_groups;

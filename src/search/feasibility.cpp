@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Five arguments, each a proof that there is no plan:
+// Presolve: five arguments, each of which proves that there is no plan.
 //
-// Reach. An agent cannot visit or rest on a place to which there is no way from its start.
+// *Reach.* An agent cannot visit or rest on a place that is unreachable from its start.
 //
-// Order. Of two places that an agent must visit one comes first, and from there is a way to the
-// other; from all of them there is one to its destination. (Where every step can be undone that
-// follows from reach. If it holds of all pairs, there is an order in which the agent, alone, can
-// visit all: the places in an order of "is there a way to".)
+// *Order.* An agent visits one of any two required places first, so the other must be reachable
+// from it; and its destination must be reachable from all required places. (Where every step can be
+// undone, this follows from *Reach*. If it holds for all pairs, there is an order in which the
+// agent, without the others, can visit all places: any order that is compatible with reachability.)
 //
-// Rest. Agents rest on different cells for ever: a CTS agent on its destination, an MG agent on one
-// of its own tasks. (An idle one anywhere: for it there is always a place left.) If the bipartite
-// graph of agents and cells to rest on has no matching that covers every agent, there is no plan
-// (Hall 1935; found by augmenting paths).
+// *Rest.* Agents rest on different cells for ever: a CTS agent on its destination, an MG agent on
+// one of its own tasks. (An idle agent may rest anywhere, and there is always a place left for it.)
+// If the bipartite graph of agents and resting cells has no matching that covers every agent, there
+// is no plan (Hall 1935). The matching is computed with augmenting paths.
 //
-// Corridor. In a component that is a simple path agents cannot pass each other: two next to each
-// other would have to share a cell or swap. So the order along the corridor never changes; an agent
-// with r agents on one side is never nearer than r cells to that end, and destinations lie in the
-// order of the starts.
+// *Corridor.* In a component that is a simple path agents cannot pass each other: two adjacent
+// agents would have to share a cell or swap. So the order along the corridor never changes. An
+// agent with r agents on one side is never nearer than r cells to that end, and the destinations
+// lie in the order of the starts.
 //
-// Crowding. See crowding.cpp.
+// *Pebble motion.* See pebble_motion.cpp.
 #include "search/feasibility.h"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@
 namespace grove::detail {
 namespace {
 
-// The cells that an agent must stand on at some time, its start aside.
+// The cells that an agent must occupy at some time, except for its start.
 std::vector<Cell> required_cells(const Instance& instance, const Agent& agent) {
   std::vector<Cell> cells;
   for (TaskIndex task : agent.tasks) cells.push_back(instance.task(task).cell);
@@ -85,7 +85,7 @@ std::optional<std::string> agent_without_an_order(const Problem& problem) {
   return std::nullopt;
 }
 
-// Kuhn's algorithm: agents to distinct cells to rest on.
+// Bipartite matching of agents to distinct resting cells (Kuhn's algorithm).
 class RestingMatching {
  public:
   explicit RestingMatching(const Instance& instance) : instance_(instance) {}
@@ -127,8 +127,8 @@ std::optional<std::string> no_room_to_rest(const Problem& problem) {
   return std::nullopt;
 }
 
-// The places of the corridor that ends at `end`, in order; empty if the component is no simple
-// path.
+// Returns the places of the corridor that ends at `end`, in order; empty if the component is not a
+// simple path.
 std::vector<Place> corridor_from(const World& world, Place end) {
   std::vector<Place> places{end};
   Place previous = kNoPlace;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Instances that can be seen to have no plan. CBS alone does not end on those.
+// Presolve: detects instances without a plan. CBS does not terminate on these.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,10 @@
 
 namespace grove::detail {
 
-// Why the instance has no plan, as a sentence for a person; none if that cannot be seen here.
-// Finds: cells that an agent must reach and cannot; agents that cannot all rest on different cells;
-// agents that would have to pass each other in a corridor, or anywhere with too little room.
+// Returns why the instance has no plan, as a sentence for the user; nullopt if presolve does not
+// prove that. Detects: cells that an agent must reach and cannot; agents that cannot all rest on
+// different cells; agents that would have to pass each other in a corridor, or in another part of
+// the map with too few free places.
 std::optional<std::string> presolve_infeasibility(const Problem& problem);
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where trees come from.
+// Interface: creates the constraint trees of a run.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace grove::detail {
 
-// The trees of a run, which together hold every plan, instantiated one by one as asked. What a tree
-// fixes is the policy: see sequence_forest.h and single_tree.h. Not for two threads at once;
-// outlives the nodes of its trees.
+// The constraint trees of a run, instantiated one by one on request. Together they hold every plan.
+// The implementation decides what a tree fixes: see sequence_forest.h and single_tree.h. Must
+// outlive the nodes of its trees. One thread at a time.
 class Forest {
  public:
   Forest() = default;
@@ -18,10 +18,10 @@ class Forest {
   Forest& operator=(const Forest&) = delete;
   virtual ~Forest() = default;
 
-  // A proven lower bound on every plan of every tree not yet instantiated; kInfiniteCost when all
-  // are.
+  // A proven lower bound on every plan of every tree not yet instantiated; kInfiniteCost if all are
+  // instantiated.
   virtual Cost next_bound() const = 0;
-  // The root of the next tree; null when there is none or a limit struck.
+  // The root of the next tree; nullptr if there is none or a limit was reached.
   virtual NodePtr next_root() = 0;
 
   // Sequencing problems solved so far.

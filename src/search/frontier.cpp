@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
-// When memory is short the worst open nodes are given up. Their plans, each of which costs at least
-// its node's bound, are then in no live node; but they all cost at least the least of these bounds,
-// E, so min(live nodes, E) is still a lower bound on everything that was ever pushed. It cannot
-// rise above E, and a frontier that has run empty proves E and no more - unless the incumbent costs
-// no more than E, for then what was given up might as well have been pruned.
+// Eviction of open nodes when memory is short, and why the bound stays valid.
 //
-// When nothing is live but something was given up, the caller begins anew from the roots. By then
-// every plan of these trees is known to cost at least E, or as much as the incumbent, so each node
-// of the second run ranks as if its bound were E at least. What lies below is known ground that
-// must only be crossed: it is taken newest first, depth first, with as many open nodes as the tree
-// is deep, and all the memory is left to the nodes above E, of which again the best are kept. If
-// the nodes of one bound alone are too many for the memory, each run raises the bound by one:
-// iterative deepening (Korf 1985), whose last run costs more than all before together where each
-// bound has twice as many nodes as the one before.
+// evict() drops the worst open nodes. Let E be the least bound of a dropped node. *Claim:
+// min(bounds of live nodes, E) is a lower bound on every plan that was ever pushed.* A plan of a
+// dropped node is in no live node, but it costs at least its node's bound, hence at least E. This
+// bound cannot rise above E: an empty frontier proves E and no more, unless the incumbent costs at
+// most E, because then the dropped nodes could as well have been pruned.
+//
+// *Restart.* When no node is live but some were dropped, the caller restarts from the roots. By
+// then every plan of these trees is known to cost at least E, or at least as much as the incumbent.
+// So in the second run a node ranks by max(bound, E). Nodes below E only have to be re-expanded.
+// They are taken newest first (depth first), so that only about as many are open as the tree is
+// deep, and the memory is left to the nodes above E, of which the best are kept again. If the nodes
+// of one single bound exceed the memory, each run raises the bound by one. This is iterative
+// deepening (Korf 1985): where each bound has twice as many nodes as the one before, the last run
+// costs more than all earlier runs together.
 #include "search/frontier.h"
 
 #include <algorithm>
@@ -28,7 +30,8 @@ void Frontier::push(NodePtr node) {
   push_locked(std::move(node));
 }
 
-// The order among nodes of one rank, for heaps with the best at the front: is `a` worse than `b`?
+// Order of nodes of one rank, for heaps with the best node in front: returns whether `a` is worse
+// than `b`.
 auto Frontier::order_in(Cost rank) const {
   return [newest_first = rank == proven_](const Open& a, const Open& b) {
     const auto conflicts = [](const Open& open) { return open.node->conflicts(); };
@@ -55,7 +58,8 @@ NodePtr Frontier::take() {
   return open_.empty() ? nullptr : take_locked(open_.begin());
 }
 
-// Within a bound the node of fewest conflicts is first, so only the first ones compete.
+// Compares only the first node of each rank: except at rank proven_ (newest first), it has the
+// fewest conflicts of its rank.
 NodePtr Frontier::take_by_estimate(Omega omega, Cost lower_bound, double per_conflict) {
   const std::lock_guard lock(mutex_);
   const auto expected = [&](const auto& rank) {
@@ -81,7 +85,8 @@ NodePtr Frontier::take_locked(std::map<Cost, std::vector<Open>>::iterator best) 
   return node;
 }
 
-// Until enough are found; a heap's last half holds none of its better ones.
+// Takes from the last half of each heap, which holds its leaves: each is worse than all its
+// ancestors, so this approximates the worse half.
 std::vector<NodePtr> Frontier::take_for_transfer(std::size_t count, bool keeps_next) {
   const std::lock_guard lock(mutex_);
   std::vector<NodePtr> spare;
@@ -162,7 +167,7 @@ Cost Frontier::evicted_bound() const {
   return evicted_;
 }
 
-// At one go: in between there would be neither nodes nor a bound.
+// Atomic, because in between there would be neither nodes nor a bound.
 void Frontier::restart(std::span<const NodePtr> roots, Cost proven) {
   const std::lock_guard lock(mutex_);
   GROVE_ASSERT(open_.empty() && taken_.empty(), "a search begins anew when no node is live");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The live nodes of the forest: open, or in the hands of a worker.
+// OPEN list of the forest: its live nodes, which are open or taken by a worker.
 #pragma once
 
 #include <algorithm>
@@ -15,70 +15,74 @@
 
 namespace grove::detail {
 
-// Best first: least bound, among equals the one of fewest conflicts, among those the newest (which
-// goes deep on plateaus). A node taken out counts as live until it is settled, so bound() is valid
-// while any number of workers expand. Nodes may be given up for want of memory: bound() remembers
-// the least bound among them, and restart() begins anew. Why that is sound: frontier.cpp. All
-// methods may be called from any thread; each holds one mutex for O(log of the distinct bounds),
-// prune() and evict() for as long as it takes to find their nodes. Where memory for an entry cannot
-// be had, std::bad_alloc is thrown and no node is lost: one taken stays taken, and counts.
+// Best-first queue: least bound, then fewest conflicts, then newest (depth first on plateaus). A
+// taken node counts as live until settle(), so bound() is valid while any number of workers expand.
+// When memory is short, evict() drops nodes: bound() keeps their least bound, and restart()
+// searches again from the roots. The proof is at the head of frontier.cpp. Thread-safe; each method
+// holds one mutex. push() and take() find the bound in O(log(distinct bounds)) and the node in
+// O(log(open nodes of that bound)); methods on many nodes hold the mutex for as long as it takes to
+// find them. If an entry cannot be allocated, throws std::bad_alloc and loses no node: a taken node
+// stays taken and counts in bound().
 class Frontier {
  public:
   void push(NodePtr node);
-  // The best open node; null when none is open. The caller must settle() it, or give it back.
+  // Takes the best open node; returns nullptr if none is open. The caller must settle() or
+  // reinsert() it.
   NodePtr take();
-  // Like take(), among the open nodes whose bound is within omega of `lower_bound`: the one below
-  // which the cheapest plan is expected, if each conflict costs `per_conflict`. Null when there is
-  // none. O(distinct bounds within omega).
+  // Like take(), but selects by estimated plan cost (EES): among the open nodes whose bound is
+  // within omega of `lower_bound`, the node with the least bound + `per_conflict` * conflicts.
+  // Returns nullptr if there is none. O(distinct bounds within omega).
   NodePtr take_by_estimate(Omega omega, Cost lower_bound, double per_conflict);
-  // Takes up to `count` nodes for another frontier, beginning with the best bound: of each bound
-  // half of the open nodes, the worse ones; if `keeps_next`, not the node that take() would. Settle
-  // them when they count there.
+  // Takes up to `count` open nodes for transfer to another frontier. For each bound, best first, it
+  // takes about the worse half of the open nodes; with `keeps_next` it leaves the node that take()
+  // would return. The caller must settle() each node once the other frontier counts it; until then
+  // the node stays taken and counts in bound().
   std::vector<NodePtr> take_for_transfer(std::size_t count, bool keeps_next);
-  // A taken node has been replaced by what it led to (push that first), or pruned.
+  // Completes a taken node: it was pruned, or replaced by its children (push those first).
   void settle(const NodePtr& node);
-  // A taken node goes back unexpanded.
+  // Returns a taken node to the open nodes, unexpanded.
   void reinsert(NodePtr node);
-  // Drops every open node whose bound is at least `bound`, which an incumbent costs; returns how
-  // many.
+  // Drops every open node whose bound is at least `bound`, the cost of an incumbent. Returns the
+  // number of dropped nodes.
   std::size_t prune(Cost bound);
 
-  // Gives up the worst `count` open nodes but for the best `keep`, and returns them. Their
-  // plans are no longer in any live node; the least of their bounds is kept in bound().
+  // Drops the worst `count` open nodes, but none of the best `keep`, and returns the dropped nodes.
+  // Their plans are then in no live node; bound() keeps the least of their bounds.
   std::vector<NodePtr> evict(std::size_t count, std::size_t keep = 0);
-  // The least bound of what was given up and not pruned since; kInfiniteCost: nothing.
+  // The least bound of the nodes evicted and not pruned since; kInfiniteCost if there is none.
   Cost evicted_bound() const;
-  // Forgets what was given up and pushes the roots of all the trees that it came from. Only when no
-  // node is live, and after every tree not yet instantiated costs at least `proven`, which is
-  // evicted_bound(), or the least of several frontiers'. Nodes below that bound are then taken
+  // Restarts the search after evictions: resets evicted_bound() and pushes `roots`, the roots of
+  // all trees from which nodes were evicted. `proven` is evicted_bound(), or its minimum over
+  // several frontiers. Requires that no node is live and that every tree not yet instantiated costs
+  // at least `proven`. From then on the nodes whose bound is at most `proven` are taken first,
   // newest first.
   void restart(std::span<const NodePtr> roots, Cost proven);
 
-  // All that is not settled or pruned, and the least bound of what was given up, at one moment.
+  // All live nodes and the least bound of evicted nodes, at one moment.
   struct Snapshot {
     std::vector<NodePtr> live;
     Cost evicted_bound = kInfiniteCost;
   };
   Snapshot snapshot() const;
-  // Something of this bound was given up elsewhere, and is now this frontier's to remember.
+  // Records that a node of bound `bound` was evicted elsewhere; bound() takes it into account.
   void record_evicted_bound(Cost bound);
 
-  // Empties the frontier without giving its nodes up, for when their pool is about to go: releasing
-  // millions of nodes one by one takes seconds.
+  // Empties the frontier without releasing its nodes. For use when their pool is about to be
+  // destroyed: releasing millions of nodes one by one takes seconds.
   void abandon();
 
-  // The least bound of any live node, open or taken, and of any that was given up; kInfiniteCost
-  // when there is none.
+  // The least bound of all live nodes (open or taken) and evicted nodes; kInfiniteCost if there is
+  // none.
   Cost bound() const;
   std::size_t open() const;
-  // How many open nodes there are of each bound; the least `most` bounds.
+  // The number of open nodes of each bound, for the `most` least bounds.
   struct Level {
     Cost bound = 0;
     std::int64_t open = 0;
     friend bool operator==(const Level&, const Level&) = default;
   };
   std::vector<Level> levels(std::size_t most) const;
-  // Open or taken.
+  // The number of live nodes: open or taken.
   std::size_t live() const;
   bool empty() const { return bound() == kInfiniteCost; }
 
@@ -96,10 +100,10 @@ class Frontier {
 
   mutable std::mutex mutex_;
   std::map<Cost, std::vector<Open>> open_;  // heaps, by rank
-  std::map<Cost, std::size_t> taken_;       // how many nodes of each rank are in workers' hands
-  std::vector<NodePtr> in_hand_;            // these; few
+  std::map<Cost, std::size_t> taken_;       // number of taken nodes of each rank
+  std::vector<NodePtr> in_hand_;            // the taken nodes; few
   Cost evicted_ = kInfiniteCost;
-  Cost proven_ = -1;  // before the restart: no plan costs less; -1: there was none
+  Cost proven_ = -1;  // bound proven before the last restart; -1 if there was no restart
   std::size_t open_count_ = 0;
   std::uint64_t serial_ = 0;
 };

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT
 // Why these decisions are sound, whatever the order in which nodes are expanded.
 //
-// Every plan belongs to a tree (the class of its joint sequence) and, in an instantiated tree, to a
-// live node, to a pruned one, or to one that was replaced by children which together hold every
-// plan it held (split() loses none). So at every moment each plan is (a) in a live node, (b) in a
-// tree not yet instantiated, or (c) was in a node pruned by an incumbent that cost no more than the
-// node's bound. A plan of kind (a) costs at least min(live bounds), of kind (b) at least the next
-// tree's bound, of kind (c) at least the incumbent. Hence min(live, next tree, incumbent) is a
-// lower bound on every plan; and as each such minimum was a valid bound when it was computed, so is
-// the largest so far.
+// Every plan belongs to a tree (the class of its joint sequence). In an instantiated tree it
+// belongs to a live node, to a pruned one, or to one that was replaced by children which together
+// hold every plan it held (no split loses a plan, see brancher.cpp). So at every moment each plan
+// is (a) in a live node, (b) in a tree not yet instantiated, or (c) in a node that was pruned by an
+// incumbent of cost at most the node's bound. A plan of kind (a) costs at least min(live bounds),
+// of kind (b) at least the next tree's bound, of kind (c) at least the incumbent. *Claim: min(live,
+// next tree, incumbent) is a lower bound on every plan.* Each such minimum was valid when it was
+// computed, so the largest so far is valid too.
 //
-// What is proven without the trees (joint, lagrangian) bounds every plan, or every plan
-// cheaper than an incumbent that the gate had checked before: then min(it, incumbent) bounds all,
-// and the largest of all such bounds does.
+// *Bounds proven outside the trees* (joint search, Lagrangian bound) hold for every plan, or for
+// every plan cheaper than an incumbent that was checked here before. Then min(that bound,
+// incumbent) is a lower bound on every plan, and so is the largest of all such bounds.
 //
-// Stopping at incumbent <= (1 + w) * lower bound is the definition of w-suboptimality. If nothing
-// of kind (a) or (b) is left the bound is the incumbent itself; without one there is no plan at
-// all.
+// *Stopping* at incumbent <= (1 + w) * lower bound is the definition of w-suboptimality. If nothing
+// of kind (a) or (b) is left, the bound is the incumbent itself; without an incumbent there is no
+// plan at all.
 //
-// Algorithm 4 of the paper instantiates the next tree when the popped cost exceeds (1 + w) times
-// the cost of the last one; that only delays trees, it proves nothing: the proof is the ledger's.
-// The paper's "OPEN is empty" must mean that no live node exists at all, the popped one included,
-// or every instance would get a needless second root. With w = inf only the first tree is ever
-// built (S-CBS).
+// *New trees.* Algorithm 4 of the paper instantiates the next tree when the popped cost exceeds
+// (1 + w) times the cost of the last one. This only delays trees and proves nothing: the proof is
+// the lower bound above. The paper's "OPEN is empty" must mean that no live node exists at all, the
+// popped one included; otherwise every instance would get a needless second root. With w = inf only
+// the first tree is ever built (S-CBS).
 #include "search/global_bounds.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bound ledger and every decision that rests on it (docs/design.md, section 2).
+// Incumbent and global lower bound; tests to prune and to stop (docs/design.md, section 2).
 #pragma once
 
 #include <mutex>
@@ -11,37 +11,39 @@
 
 namespace grove::detail {
 
-// Holds the incumbent and the proven lower bound, and alone decides - in integers - when to stop,
-// what to prune and whether a new tree is necessary. The argument is at the head of gate.cpp. All
-// methods may be called from any thread.
+// Holds the incumbent and the proven lower bound. Only this class decides when to stop, what to
+// prune and whether a new tree is necessary; it decides in integers. The proof is at the head of
+// global_bounds.cpp. Thread-safe.
 class GlobalBounds {
  public:
-  // `instance` must outlive the gate.
+  // `instance` must outlive this object.
   GlobalBounds(const Instance& instance, Omega omega) : instance_(instance), omega_(omega) {}
 
-  // Offers a plan from anywhere: a conflict-free node, a heuristic, a file. It is re-checked from
-  // scratch; kept if it is cheaper than the incumbent. True if kept. Throws std::logic_error if the
-  // checker refuses it: whoever made it is broken.
+  // Offers a plan from any source: a conflict-free node, a heuristic, a file. A plan that is
+  // cheaper than the incumbent is re-checked from scratch and replaces it. Returns true if it did.
+  // Throws std::logic_error if the checker refuses the plan: the code that made it has a bug.
   bool post(Plan plan);
 
-  // Tells the ledger the least bound of the live nodes and a proven lower bound on every tree not
-  // yet instantiated (kInfiniteCost: none). Both must have held at one moment.
+  // Updates the lower bound from `live_bound`, the least bound of the live nodes, and
+  // `next_tree_bound`, a proven lower bound on every tree not yet instantiated (kInfiniteCost if
+  // there is none). Both must have held at one moment.
   void update(Cost live_bound, Cost next_tree_bound);
 
-  // Proven: no plan costs less. Never decreases; at most the incumbent's cost.
+  // Proven lower bound on the cost of every plan. Never decreases; at most the incumbent's cost.
   Cost lower_bound() const;
   std::optional<Cost> incumbent_cost() const;
   std::optional<Plan> incumbent() const;
 
-  // The incumbent is good enough for w, or no live node and no further tree is left.
+  // Whether the incumbent is within omega of the lower bound, or no live node and no further tree
+  // is left.
   bool finished() const;
-  // No node and no tree is left and nothing was found: there is no plan.
+  // Whether no live node and no further tree is left and there is no incumbent: there is no plan.
   bool proven_infeasible() const;
-  // A node of this bound cannot lead to a plan cheaper than the incumbent.
+  // Whether a node of this bound cannot lead to a plan cheaper than the incumbent.
   bool prunes(Cost bound) const;
-  // Algorithm 4: must the next tree be instantiated before a node of `best_live` (kInfiniteCost: no
-  // live node) is expanded? `last_tree_cost` is the cost of the last joint sequence instantiated,
-  // none before the first.
+  // Algorithm 4: whether the next tree must be instantiated before a node of bound `best_live`
+  // (kInfiniteCost: no live node) is expanded. `last_tree_cost` is the cost of the joint sequence
+  // instantiated last, nullopt before the first.
   bool needs_new_tree(Cost best_live, std::optional<Cost> last_tree_cost) const;
 
  private:

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Whoever is given a node without what is known about the pairs at it finds all of that out again:
-// as much work as at the root, while its next ancestor left one or two pairs to look into. With
-// many workers who each expand few nodes that is most of what they do. So a node is sent with the
-// findings about it.
+// Group bounds that travel with nodes.
 //
-// *Claim: a finding is as true there as here.* It speaks of agents under sets of constraints, of
-// which both sides have the same text, and of nothing else; see dependencies.cpp. Its numbers of
-// situations differ, so agents and a node stand for them.
+// *Problem.* A rank that receives a node without the cached bounds of its pairs has to compute all
+// of them again. This is as much work as at the root, whereas the expansion of the node's parent
+// left only one or two pairs to examine. With many workers that expand few nodes each, this would
+// be most of their work. So a node is sent with the bounds that are known about it (*findings*).
+//
+// *Claim: a finding holds at the receiver as it does at the sender.* It is a statement about agents
+// under sets of constraints and about nothing else, and both sides have the same constraints; see
+// wdg_heuristic.cpp. The receiver numbers subproblems differently, so a finding names its agents
+// and a node instead.
 #include "search/group_bounds.h"
 
 #include <algorithm>
@@ -25,7 +28,7 @@ bool says_something(const Known& known) {
   return known.exact || known.excess > 0 || known.expansions > 0;
 }
 
-// The situations of all agents at a node.
+// Computes the numbers of the subproblems of all agents at a node.
 class SituationsAt {
  public:
   explicit SituationsAt(SharedCache& memory) : memory_(memory) {}
@@ -47,7 +50,7 @@ class SituationsAt {
   std::vector<Id> ids_;
 };
 
-// Collects what is known at one node after the other, once.
+// Collects the known bounds of one node after the other, each bound once.
 class Collector {
  public:
   explicit Collector(SharedCache& memory) : memory_(memory), situations_(memory) {}
@@ -76,7 +79,7 @@ class Collector {
   SharedCache& memory_;
   SituationsAt situations_;
   std::set<Id> seen_;
-  std::vector<bool> is_new_;  // by AgentIndex: a situation that no earlier node had
+  std::vector<bool> is_new_;  // by AgentIndex: whether no earlier node has this subproblem
 };
 
 void require_place(const GroupBound& finding, std::size_t nodes) {
@@ -106,7 +109,7 @@ std::vector<GroupBound> group_bounds_of(std::span<const NodePtr> nodes, SharedCa
 void merge(std::span<const GroupBound> findings, std::span<const NodePtr> nodes,
            SharedCache& memory) {
   SituationsAt situations(memory);
-  const Node* at = nullptr;  // whose situations these are:
+  const Node* at = nullptr;  // the node whose subproblems are in `ids`
   std::vector<Id> ids;
   std::vector<Id> key;
   for (const GroupBound& finding : findings) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is known about the agents of nodes, as values, to be told to whoever is given the nodes.
+// Proven excesses of pairs and groups of agents at nodes, as values that are sent with the nodes.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,24 @@
 
 namespace grove::detail {
 
-// Of agents in the situations that they are in at one of several nodes: by how much they cost more
-// together than each alone.
+// Excess (dependency_table.h) of some agents under the constraints of one node in a list of nodes:
+// by how much they cost more together than individually.
 struct GroupBound {
-  std::int32_t node = 0;           // its place among the nodes
+  std::int32_t node = 0;           // index in the list of nodes
   std::vector<AgentIndex> agents;  // two or more, in ascending order
   DependencyTable::Known known;
 };
 
-// What `memory` knows of pairs and groups of agents at these nodes, each at one node where it
-// holds. O(agents squared) for the first node, and for another what is new there; not quite all of
-// it: what combines situations of several earlier nodes is left out.
+// Returns the entries of `memory` on pairs and groups of agents at these nodes, each entry at one
+// node where it holds. Looks up all pairs of agents at the first node, and at each later node only
+// the pairs with a subproblem that no earlier node has. Omits entries all of whose subproblems
+// occur at earlier nodes, but not together at one of them.
 std::vector<GroupBound> group_bounds_of(std::span<const NodePtr> nodes, SharedCache& memory);
 
-// Adds what others found out about these nodes to what `memory` knows. Findings about a node that
-// is null are ignored. Throws std::invalid_argument, perhaps after some were added, for what cannot
-// be: a node or an agent that is not there, agents in another order.
+// Merges `findings`, received from another worker or rank, into `memory`. Ignores findings about a
+// node that is nullptr. Throws std::invalid_argument if a finding names a node or an agent that
+// does not exist, has agents out of order, or a negative excess; earlier findings may have been
+// merged.
 void merge(std::span<const GroupBound> findings, std::span<const NodePtr> nodes,
            SharedCache& memory);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds entries of a list by what they are. For tables with millions of small entries: 11 to 21
-// bytes for each beside the entry itself, no allocation of its own, and mostly one line of the
-// cache to learn that there is none.
+// Hash index: finds entries of a list by their content. For tables with millions of small entries:
+// 11 to 21 bytes per entry in addition to the entry itself, no allocation per entry, and mostly one
+// cache line for an unsuccessful search.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,15 @@
 
 namespace grove::detail {
 
-// Numbers of entries by their hashes: open addressing, at most three quarters full. What the
-// entries are the user knows, and keeps in the order of their numbers; nothing is ever removed. Of
-// one thread at a time.
+// Maps hashes to numbers of entries: open addressing, at most three quarters full. The user stores
+// the entries, in the order of their numbers. Entries are never removed. One thread at a time.
 class HashIndex {
  public:
   using Number = std::int32_t;
   static constexpr Number kNone = -1;
 
-  // The entry with this hash of which `is_it` says that it is the one; kNone. All bits of `hash`
-  // must be good.
+  // Returns the number of the entry with this hash for which is_it(number) holds, or kNone. All
+  // bits of `hash` must be well mixed.
   template <class IsIt>
   Number find(std::uint32_t hash, IsIt is_it) const {
     if (slots_.empty()) return kNone;
@@ -29,9 +28,9 @@ class HashIndex {
     return kNone;
   }
 
-  // Makes room for one more. Throws std::bad_alloc; add() then does not.
+  // Reserves space for one more entry. May throw std::bad_alloc; the next add() then does not.
   void reserve_one();
-  // An entry that is not there yet: its number is size() before.
+  // Adds an entry that is not in the index. Its number is the size() before the call.
   Number add(std::uint32_t hash);
 
   Number size() const { return size_; }
@@ -45,7 +44,7 @@ class HashIndex {
 
   void put(Slot slot);
 
-  std::vector<Slot> slots_;  // a power of two
+  std::vector<Slot> slots_;  // size: a power of two, or 0
   Number size_ = 0;
 };
 
