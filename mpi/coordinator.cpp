@@ -244,8 +244,8 @@ Solution Coordinator::conclude() {
   return solution;
 }
 
-// Uses the latest statistics of the ranks without RankFinished. A simulated run ends without
-// RankFinished.
+// The final statistics of the ranks that have finished, and the latest statistics of the others. A
+// simulated run that reaches a limit ends without RankFinished.
 RunStatistics Coordinator::told() const {
   RunStatistics all = farewell_.survey;
   for (const auto& [rank, survey] : surveys_)

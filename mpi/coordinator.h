@@ -84,11 +84,11 @@ class Coordinator {
 
   CheckpointTimer timer_;
   std::optional<DistributedCheckpoint> gathering_;
-  bool restored_ = true;  // false: the checkpoint's nodes were not all restored
+  bool restored_ = true;  // false: a limit was reached before all of the checkpoint was restored
   bool gathered_at_end_ = false;
   bool ending_ = false;
   Clock::time_point heard_at_;  // when the last message of any child was handled
-  // when check_unresponsive_ranks() first saw that a limit was reached
+  // When check_unresponsive_ranks() first saw that a limit was reached
   std::optional<Clock::time_point> stopped_at_;
   int farewells_ = 0;
   message::RankFinished farewell_;        // sum over the children that have finished
