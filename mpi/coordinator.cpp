@@ -40,7 +40,7 @@
 //   the sender. So this coordinator, and those above it, process the first status without the batch
 //   from the sender's group after the status that covers the batch on the receiver's side. Statuses
 //   sent upwards in between cover both.
-// - Plans travel up by the same way. Each is forwarded at once, and one is dropped only if an
+// - Plans travel up along the same path. Each is forwarded at once, and one is dropped only if an
 //   incumbent that GlobalBounds has checked is as good. So a plan still arrives before the status
 //   without the node that led to it.
 //
@@ -56,12 +56,12 @@
 // *Learned bounds* are sent from rank to rank (bound_broadcast.h). A learned bound is never a node
 // and is valid on every rank (search/learned_bounds.cpp). No rank waits for one or replies to one.
 //
-// *Remote pricing.* Rank 0 computes the Lagrangian bound besides its nodes. It requests subproblem
-// values under its multipliers from other ranks. Each request is for one part of the agents, and a
-// rank gets the next request when it has replied. A reply that is late or has other multipliers is
-// dropped (lagrangian_bound.cpp), and rank 0 computes missing values itself. So no part of this
-// protocol waits for subproblem values, and no bound depends on their order of arrival. Rank 0
-// reports the bounds that it proves by them in its statuses.
+// *Remote pricing.* Rank 0 computes the Lagrangian bound in addition to searching its nodes. It
+// requests subproblem values under its multipliers from other ranks. Each request is for one part
+// of the agents, and a rank gets the next request when it has replied. A reply that is late or has
+// other multipliers is dropped (lagrangian_bound.cpp), and rank 0 computes missing values itself.
+// So no part of this protocol waits for subproblem values, and no bound depends on their order of
+// arrival. Rank 0 reports the bounds that it proves by them in its statuses.
 //
 // *Unresponsive ranks.* The latest status of such a rank keeps covering its nodes. So if a limit
 // was reached and no message has arrived for long since then, the coordinator concludes without
@@ -73,7 +73,7 @@
 // coordinator then sends each rank the number of messages that other ranks sent to it directly
 // (batches, pricing requests, pricing replies, learned bounds). A rank waits for all of them, so
 // that no message is left in transit. Messages up arrive before RankFinished and messages down
-// arrive before MessageCounts, because they travel by the same ways.
+// arrive before MessageCounts, because they travel along the same paths.
 #include "mpi/coordinator.h"
 
 #include <algorithm>

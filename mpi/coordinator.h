@@ -88,7 +88,7 @@ class Coordinator {
   bool gathered_at_end_ = false;
   bool ending_ = false;
   Clock::time_point heard_at_;  // when the last message of any child was handled
-  // When check_unresponsive_ranks() first saw that a limit was reached
+  // When check_unresponsive_ranks() first saw that a limit was reached.
   std::optional<Clock::time_point> stopped_at_;
   int farewells_ = 0;
   message::RankFinished farewell_;        // sum over the children that have finished

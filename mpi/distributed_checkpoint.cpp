@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The ranks take their snapshots at different moments, while nodes are in transit. *Claim:* no node
-// is missed. *Proof.* SnapshotRequest reaches a rank by the same way as ReleaseCustody and
+// is missed. *Proof.* SnapshotRequest reaches a rank along the same path as ReleaseCustody and
 // AssignNodes, in order.
 // - *A node that one rank transferred to another.* Either it is still in the sender's custody at
 //   the sender's snapshot. Or the release was sent before SnapshotRequest by the lowest coordinator

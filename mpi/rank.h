@@ -65,7 +65,7 @@ class Rank {
   bool left() const;
 
  private:
-  struct DeferredBatch {  // that arrived before its tree or its epoch
+  struct DeferredBatch {  // a batch that arrived before its tree or its epoch
     int from;
     message::NodeBatch batch;
   };
@@ -120,7 +120,7 @@ class Rank {
   };
   std::map<int, Peer> peers_;
   std::int64_t in_custody_ = 0;         // nodes
-  std::int64_t cached_only_until_ = 0;  // number of nodes expanded here
+  std::int64_t cached_only_until_ = 0;  // kCachedOnly until this number of nodes is expanded here
   std::int64_t nodes_sent_ = 0;
   std::int64_t facts_sent_ = 0;
 
