@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// *Claim: each rank is told a fact once at most.* A rank of reach n has to do with the n ranks from
-// itself on. To the one at h = ceil(n / 2) from it goes the reach n - h, it keeps h; these are the
-// two parts of n, so no rank is in both, and it ends at 1.
+// *Claim:* each rank receives a learned bound at most once. *Proof.* A rank of reach n is
+// responsible for n consecutive ranks, beginning with itself. With h = ceil(n / 2), it sends the
+// bound with reach n - h to the rank at distance h, and its own reach becomes h. These two ranges
+// partition the n ranks, so no rank is in both. The recursion ends at reach 1.
 #include "mpi/bound_broadcast.h"
 
 #include <algorithm>
@@ -12,14 +13,14 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kPause_s = 1e-3;   // between two tellings, in the beginning; see pause_at()
-constexpr double kMostPauses = 10;  // whose bytes may be told at one go, after a silence
+constexpr double kPause_s = 1e-3;   // between two sends, at the beginning; see pause_at()
+constexpr double kMostPauses = 10;  // pauses without sending whose bytes may be sent at once
 constexpr std::size_t kMostWaiting = 1000;
-// Bytes. A fact that is longer than what may be told at one go would hold up all others.
+// Bytes. A bound longer than the allowance of one call would block all others.
 constexpr std::size_t kLongest = 1000;
-constexpr double kLeastAtOnce = 16e3;    // that may be saved up, to log2 of the ranks others
-constexpr double kFullRate_s = 1;        // from then on it falls, as one over the time
-constexpr std::size_t kBytesOfSize = 1;  // of a fact, in a message: about
+constexpr double kLeastAtOnce = 16e3;  // bytes that may be saved up, for all log2(ranks) receivers
+constexpr double kFullRate_s = 1;      // after this time the rate falls as 1 / time
+constexpr std::size_t kBytesOfSize = 1;  // bytes of the length field of a packed bound, about
 
 }  // namespace
 
@@ -54,7 +55,7 @@ std::vector<BoundBroadcast::OutgoingMessage> BoundBroadcast::due(double now) {
   last_ = now;
   next_ = now + pause;
   auto left = static_cast<double>(waiting_.size());
-  // The largest reach first: it has the longest way.
+  // The largest reach first: it has the longest path to go.
   for (auto at = waiting_.rbegin(); at != waiting_.rend(); ++at, --left) {
     const int reach = at->first;
     const int to = (rank_ + (reach + 1) / 2) % ranks_;
@@ -65,8 +66,8 @@ std::vector<BoundBroadcast::OutgoingMessage> BoundBroadcast::due(double now) {
   return parcels;
 }
 
-// In the beginning all are at the same nodes. Later each is in a part of the tree of its own, and
-// what it finds out is of less use to others; and memories are finite.
+// At the beginning all ranks are at the same nodes. Later each rank is in its own part of the tree,
+// so its bounds are of less use to others; and the caches are finite.
 double BoundBroadcast::rate_at(double now) const {
   return rate_ * kFullRate_s / std::max(now, kFullRate_s);
 }

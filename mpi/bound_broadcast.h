@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How what one rank finds out comes to all others.
+// Broadcast of learned bounds from each rank to all others.
 #pragma once
 
 #include <limits>
@@ -13,11 +13,12 @@
 
 namespace grove::detail {
 
-// What a rank has to tell of what was found out, here or by others. Each fact comes to each rank
-// once, by at most log2 of them others: whoever has to tell it to the next n ranks tells it to the
-// one in the middle, which tells it to the further half, and goes on with the nearer half. It says
-// the most worthwhile first and no more than ranks can bear; what waits too long is never said. So
-// it is of use, and nothing may depend on it. Of one thread.
+// Sends learned bounds of this rank, and forwards those of other ranks, along a binomial tree. Each
+// learned bound reaches each rank at most once, over at most ceil(log2(ranks)) hops. A rank that is
+// responsible for the next n ranks sends to the middle one, which becomes responsible for the
+// further half, and continues with the nearer half. Bounds of the highest utility are sent first,
+// at a limited rate; a bound that waits too long is dropped. So the search must not depend on any
+// delivery. One thread at a time.
 class BoundBroadcast {
  public:
   struct OutgoingMessage {
@@ -25,20 +26,21 @@ class BoundBroadcast {
     message::LearnedBounds facts;
   };
 
-  // `rate`: bytes per second that it may tell in the first second, and less and less after it; 0:
-  // nothing.
+  // `rate`: bytes per second that this rank may send in the first second. It falls as 1 / time
+  // after that. 0: nothing is sent.
   BoundBroadcast(int rank, int ranks, double rate) : rank_(rank), ranks_(ranks), rate_(rate) {}
 
   bool is_on() const { return ranks_ > 1 && rate_ > 0; }
 
-  // One that was found out here. Those of more than a thousand bytes are not told.
+  // Adds a bound learned on this rank. A bound of more than 1,000 bytes is not sent.
   void add(const LearnedBound& fact);
-  // One, packed, of this worth, that the next `reach` - 1 ranks are to be told.
+  // Adds a packed bound of this utility, to be forwarded to the next `reach` - 1 ranks.
   void add(double utility, std::string fact, int reach);
 
-  // What is to be said now, in seconds since the beginning.
+  // The messages to send now; `now` in seconds since the beginning.
   std::vector<OutgoingMessage> due(double now);
-  // When there may be something; infinity: unless something is added, never.
+  // When due() may return messages, in seconds since the beginning. Infinity: not before the next
+  // add().
   double next_send_time() const {
     return waiting_.empty() ? std::numeric_limits<double>::infinity() : next_;
   }
@@ -49,7 +51,7 @@ class BoundBroadcast {
     std::shared_ptr<const std::string> fact;
     friend bool operator<(const Piece& a, const Piece& b) { return a.utility < b.utility; }
   };
-  using Waiting = std::vector<Piece>;  // a heap
+  using Waiting = std::vector<Piece>;  // a max-heap by utility
 
   static void add(const Piece& piece, Waiting& waiting);
   double rate_at(double now) const;
@@ -61,7 +63,7 @@ class BoundBroadcast {
   double next_ = 0;
   double last_ = 0;
   double allowance_ = 0;            // bytes
-  std::map<int, Waiting> waiting_;  // by the reach of whoever tells; none is empty
+  std::map<int, Waiting> waiting_;  // by the reach of the sender; no heap is empty
 };
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Those who answer to one coordinator, as it speaks to them.
+// Message links from a coordinator to its children (ranks or sub-coordinators).
 #pragma once
 
 #include <vector>
@@ -10,23 +10,23 @@
 
 namespace grove::detail {
 
-// Ranks, or coordinators of the level below; counted from 0. Of one thread.
+// Children are numbered from 0: ranks, or coordinators of the level below. One thread at a time.
 class ChildLinks {
  public:
-  // Of the coordinator of this level on the transport's rank. `transport` must outlive this.
+  // Links of the coordinator of `level` on the transport's rank. `transport` must outlive this.
   ChildLinks(Transport& transport, const Hierarchy& hierarchy, int level)
       : transport_(transport), hierarchy_(hierarchy), post_{transport.rank(), level} {}
 
   int count() const { return hierarchy_.children(post_); }
-  // The one that this rank is, or is below; of a rank that is below all of them.
+  // The child that is `rank` or is above it. `rank` must be below this coordinator.
   int with(int rank) const { return hierarchy_.child_with(post_, rank); }
-  // The ranks that each is, or that are below it.
+  // For each child, the ranks that it is or that are below it.
   std::vector<std::vector<int>> ranks() const;
   bool include(int rank) const { return hierarchy_.is_below(post_, rank); }
 
   void tell(int child, const message::Message& message);
   void broadcast(const message::Message& message);
-  // Each its part of this.
+  // Sends each child the counts of the ranks that it is or that are below it.
   void send_message_counts(const message::MessageCounts& goodbye);
 
  private:

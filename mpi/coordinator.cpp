@@ -1,72 +1,79 @@
 // SPDX-License-Identifier: MIT
-// Ranks hold the nodes of one search and pass them to each other; the coordinator holds the ledger.
-// Where there are many ranks it hears them by way of sub-coordinators (hierarchy.h), which merge
-// what is said on the way up and spread what is said on the way down. Messages between two ranks
-// arrive in the order in which they were sent, others in any order.
+// Protocol of the distributed search, and why its lower bound is valid. The ranks hold the nodes of
+// one search and transfer them to each other. The coordinator holds the global bounds. With many
+// ranks, sub-coordinators (hierarchy.h) stand between the ranks and the coordinator: they merge
+// messages on the way up and spread messages on the way down. Messages from one rank to another
+// arrive in the order in which they were sent. All other messages may arrive in any order.
 //
-// *The bound.* Every node that may still lead to a plan is covered, at every moment, by the latest
-// status that the coordinator has of some child, by nodes that it has entrusted to one and not yet
-// seen covered, or by a tree not yet instantiated. For a rank that is a child:
-// - It covers the nodes in its frontier, open or taken. A worker settles a node after what it led
-//   to was pushed, and after a plan that it led to was posted; and a rank sends the plans posted
-//   before a status made no later. So the coordinator knows of the plan when it hears that the node
-//   is gone.
-// - A rank that gives nodes away keeps them taken: in custody. The receiver pushes them and then
-//   says so in a status; when the coordinator has processed that one, which covers them, it
-//   releases the sender, whose later statuses do without. (The minimum of the ranks' own bounds,
-//   sampled while nodes travel, would miss those that travel.)
-// - What is entrusted to it is covered by the coordinator until the status that says it has been
-//   pushed.
-// - What is not pushed is pruned by an incumbent that the gate has checked.
-// So min(latest statuses, entrusted, next tree) bounds all plans but those pruned, whatever the
-// delays, and a rank that says nothing for long only keeps the bound low.
+// *Invariant (lower bound).* At every moment, each node that may still lead to a plan is covered by
+// the latest status that the coordinator holds of some child, or by nodes that it has assigned to a
+// child and not yet seen covered, or by a tree that is not yet instantiated. For a child that is a
+// rank:
+// - *Own nodes.* The status covers the nodes in its frontier, open or taken. A worker completes a
+//   node only after it has pushed the children and posted a plan that the node led to. A rank sends
+//   the plans posted before a status no later than the status. So the coordinator knows the plan
+//   when it learns that the node is gone.
+// - *Custody.* A rank that transfers nodes keeps them taken. The receiver pushes them and then
+//   reports this in a status. When the coordinator has processed that status, which covers them, it
+//   releases the sender, whose later statuses omit them. (The minimum of per-rank bounds sampled
+//   while nodes are in transit would miss those nodes.)
+// - *Assigned nodes* are covered by the coordinator until the status that reports them pushed.
+// - *Nodes never pushed* were pruned by an incumbent that GlobalBounds has checked.
 //
-// *Sub-coordinators.* Call what is below one coordinator its group. Claim: at every moment the
-// least bound of the latest statuses and of what is entrusted, as one coordinator has them, covers
-// every node of its group, and every one that somebody of its group has in custody. For level 1
-// this is the argument above, for what comes from elsewhere and goes there is in the custody of
-// somebody or covered by a status already processed. Above it:
-// - A status of a sub-coordinator is that minimum of its own at one moment, so it covers what its
-//   group then held. What its group holds later comes from nodes covered then, from what was
-//   entrusted to it since, which is covered above until a status says that it has arrived, or from
-//   another group, in whose member's custody it still is.
-// - A batch is released by the coordinator nearest above both sides, when it has processed a status
-//   of the receiver's group that says that the batch was taken over: and covers it, for each
-//   coordinator on the way up passes that on in the status that covers it, or a later one. The
-//   release goes down to the giver, so what the giver's group says without the batch is processed
-//   by that coordinator, and above it, after what covers it on the other side. What is said above
-//   in between has both.
-// - Plans go up by the same way, each passed on at once, and one is dropped only where an incumbent
-//   that the gate has checked is as good. So a plan still comes before the status without the node
-//   that led to it.
+// Hence min(latest statuses, assigned nodes, next tree) is a lower bound on all plans that were not
+// pruned, whatever the message delays. A rank that is silent for long only keeps the bound low.
 //
-// *The end.* By the same argument no node is live if no latest status knows a live one and nothing
-// entrusted is under way. There is no other test for it, and no batch can be under way then.
+// *Sub-coordinators.* The group of a coordinator is the set of ranks below it. *Claim:* at every
+// moment, the minimum over the latest statuses and the assigned nodes that one coordinator holds
+// covers every node of its group, and every node that a rank of its group has in custody. *Proof.*
+// For level 1 this is the argument above: a node that comes from another group or goes there is in
+// the custody of some rank, or covered by a status already processed. For a higher level:
+// - A status of a sub-coordinator is its own minimum at one moment, so it covers the nodes that its
+//   group held then. A node that its group holds later comes from one of three sources: a node
+//   covered then; nodes assigned to the group since, which the coordinator above covers until a
+//   status reports that they have arrived; or another group, where a rank still has the node in
+//   custody.
+// - The lowest coordinator above both the sender and the receiver of a batch releases the batch. It
+//   does so when it has processed a status of the receiver's group that reports the batch as
+//   received. That status covers the batch, because each coordinator on the way up forwards the
+//   report in the status that covers the batch, or in a later one. The release then travels down to
+//   the sender. So this coordinator, and those above it, process the first status without the batch
+//   from the sender's group after the status that covers the batch on the receiver's side. Statuses
+//   sent upwards in between cover both.
+// - Plans travel up along the same path. Each is forwarded at once, and one is dropped only if an
+//   incumbent that GlobalBounds has checked is as good. So a plan still arrives before the status
+//   without the node that led to it.
 //
-// *A new beginning*, after nodes were given up for want of memory: nothing is live, all forget what
-// they gave up, and the roots are pushed again. A rank may be given nodes by one that has begun
-// anew before it hears of that itself: batches carry their era, and wait. Until a rank's status is
-// of the new era it is not known what it holds; a group is of the era of its last.
+// *Termination.* By the same argument no node is live if no latest status reports a live node and
+// no assigned nodes are in transit. There is no other test, and no batch can be in transit then.
 //
-// *Facts.* What ranks find out about agents they tell each other (knowledge.h). That is never a
-// node, is true wherever it comes (search/learned_bounds.cpp), and nobody waits for it or answers.
+// *Restart*, after nodes were evicted because memory was short: no node is live, all ranks forget
+// their evicted bounds, and the roots are pushed again. A rank may receive nodes from a rank that
+// has already restarted, before it receives Restart itself. Therefore a batch carries its epoch,
+// and a batch of a later epoch is deferred. Until the status of a rank has the new epoch, its nodes
+// are unknown. The epoch of a group is the lowest epoch of its ranks.
 //
-// *Prices.* The Lagrangian bound is rank 0's, beside its nodes. It asks other ranks for prices
-// under its multipliers, each for one share of the agents at a time: the next when it has answered.
-// An answer that comes late, or of other multipliers, is dropped there (lagrangian_bound.cpp), and
-// what is missing is found there; so nothing here waits for prices, and no bound depends on the
-// order in which they come. What rank 0 proves by them goes to the coordinator in its statuses.
+// *Learned bounds* are sent from rank to rank (bound_broadcast.h). A learned bound is never a node
+// and is valid on every rank (search/learned_bounds.cpp). No rank waits for one or replies to one.
 //
-// *Ranks that stand still.* What the latest status of such a rank covers stays covered. So when a
-// limit has struck, and nothing has been heard for long since then, the coordinator concludes
-// without it. A rank whose worker is in the midst of something tells what it has done so far, again
-// and again, as a sign of life.
+// *Remote pricing.* Rank 0 computes the Lagrangian bound in addition to searching its nodes. It
+// requests subproblem values under its multipliers from other ranks. Each request is for one part
+// of the agents, and a rank gets the next request when it has replied. A reply that is late or has
+// other multipliers is dropped (lagrangian_bound.cpp), and rank 0 computes missing values itself.
+// So no part of this protocol waits for subproblem values, and no bound depends on their order of
+// arrival. Rank 0 reports the bounds that it proves by them in its statuses.
 //
-// *Leaving.* After End, and what it was ordered before, a rank says farewell and sends nothing
-// more; a sub-coordinator does when all its children have. The coordinator then tells each rank how
-// many messages were sent to it directly by others (batches, questions for prices, answers, facts),
-// so that nothing is left under way. What went up came before the farewells, what goes down before
-// that last word, by the same ways.
+// *Unresponsive ranks.* The latest status of such a rank keeps covering its nodes. So if a limit
+// was reached and no message has arrived for long since then, the coordinator concludes without
+// these ranks. A rank whose worker is in a long step sends its statistics repeatedly, as a
+// heartbeat.
+//
+// *Shutdown.* After Terminate, and after it has handled the messages sent before, a rank sends
+// RankFinished and nothing more. A sub-coordinator does so when all its children have. The
+// coordinator then sends each rank the number of messages that other ranks sent to it directly
+// (batches, pricing requests, pricing replies, learned bounds). A rank waits for all of them, so
+// that no message is left in transit. Messages up arrive before RankFinished and messages down
+// arrive before MessageCounts, because they travel along the same paths.
 #include "mpi/coordinator.h"
 
 #include <algorithm>
@@ -83,9 +90,10 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kNodesEntrusted = 200;  // at a time
-// Ranks look at their limits every few milliseconds, and at the network every four at least. One
-// whose worker is at a long step has twice that before it is given up, after a checkpoint or not.
+constexpr std::size_t kNodesEntrusted = 200;  // per message
+// Longest silence after a limit. Ranks poll their limits every few milliseconds and the network at
+// least every four milliseconds. The run concludes without silent ranks no earlier than twice this
+// time after the limit, so a worker in a long step has that long, with a checkpoint or without.
 constexpr auto kLongSilence = std::chrono::milliseconds(700);
 
 }  // namespace
@@ -107,7 +115,7 @@ Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, co
   run_.announcements().survey_by([this] { return survey(); });
 }
 
-// An observer may have it written to disk: that comes first.
+// The observer comes first: it may write the plan to disk.
 void Coordinator::Announcer::on_incumbent(const Plan& plan, PlanSource source,
                                           const Progress& progress) {
   ForwardingObserver::on_incumbent(plan, source, progress);
@@ -121,7 +129,7 @@ void Coordinator::begin() {
     run_.begin();
 }
 
-// Spread over those below as they come.
+// Assigns the nodes to the children as they are read.
 void Coordinator::restore(CheckpointReader& checkpoint) {
   const auto roots = run_.restore(checkpoint.header());
   restored_ = roots.has_value();
@@ -149,7 +157,7 @@ void Coordinator::handle(int from, message::Message&& message) {
           [&](message::Status& status) { heard(children_.with(from), std::move(status)); },
           [&](message::NewPlan& found) { run_.ledger().post(std::move(found.plan), found.source); },
           [&](message::SnapshotTaken& gathered) {
-            if (gathering_) gathering_->handle(gathered);  // else it was given up
+            if (gathering_) gathering_->handle(gathered);  // else it was aborted
           },
           [&](message::SnapshotPart& part) {
             if (gathering_) gathering_->handle(std::move(part));
@@ -159,7 +167,7 @@ void Coordinator::handle(int from, message::Message&& message) {
           },
           [&](message::RankFinished& said) { leave(said); }, unexpected},
       message);
-  heard_at_ = limits_.now();  // after that: a checkpoint takes time to be written
+  heard_at_ = limits_.now();  // not before: writing a checkpoint takes time
 }
 
 void Coordinator::heard(int child, message::Status status) {
@@ -174,13 +182,14 @@ void Coordinator::heard(int child, message::Status status) {
   nodes_.update(child, std::move(status));
   run_.ledger().nodes_changed();
   run_.announcements().worked();
-  if (ending_) return;  // a batch sent after a farewell would be left under way
+  if (ending_) return;  // a batch sent after a RankFinished would be left in transit
   run_.trees().instantiate_due_tree();
   while (const auto gift = load_balancer_.next())
     children_.tell(gift->from, message::SendNodes{gift->to, gift->nodes, gift->to_idle});
 }
 
-// One at a time; the last one when the search is over, before the ranks are told.
+// Writes one checkpoint at a time, and the last one when the search is over, before Terminate is
+// sent.
 void Coordinator::look_after_checkpoints() {
   if (gathering_ && gathering_->is_done()) gathering_.reset();
   if (gathering_ || options_.checkpoints.directory.empty() || !restored_) return;
@@ -198,7 +207,7 @@ void Coordinator::step() {
     ending_ = true;
     children_.broadcast(message::Terminate{});
   } else if (!nodes_.any()) {
-    run_.trees().refill_nodes();  // a tree may bring none: then nobody has anything to say
+    run_.trees().refill_nodes();  // a tree may have no node: then no rank has a reason to report
   } else if (run_.trees().claim_preparation()) {
     run_.trees().prepare_tree();
   }
@@ -209,8 +218,9 @@ void Coordinator::leave(const message::RankFinished& said) {
   if (++farewells_ == children_.count()) children_.send_message_counts({farewell_.messages});
 }
 
-// What is known of a rank that stands still goes on to hold. Until the limit there may have been
-// nothing to say. This rank does not stand still: its worker may be in the midst of something.
+// The last report of an unresponsive rank stays valid. Silence before the limit does not count:
+// there may have been nothing to report. This rank is never counted, because its worker may be in a
+// long step.
 std::int64_t Coordinator::check_unresponsive_ranks() {
   if (ended() || !limits_.stop_requested()) return 0;
   const Clock::time_point now = limits_.now();
@@ -234,7 +244,8 @@ Solution Coordinator::conclude() {
   return solution;
 }
 
-// A simulated run ends without farewells.
+// The final statistics of the ranks that have finished, and the latest statistics of the others. A
+// simulated run that reaches a limit ends without RankFinished.
 RunStatistics Coordinator::told() const {
   RunStatistics all = farewell_.survey;
   for (const auto& [rank, survey] : surveys_)

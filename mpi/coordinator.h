@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The head of a distributed search.
+// The coordinator of a distributed search, on rank 0.
 #pragma once
 
 #include <cstdint>
@@ -18,37 +18,41 @@
 
 namespace grove::detail {
 
-// Holds the ledger, checks plans, brings trees, keeps ranks at work and ends the run. On rank 0, by
-// whose transport it speaks. The protocol and why it is sound: coordinator.cpp. Of one thread.
+// Holds the global bounds, checks plans, distributes trees and nodes, keeps ranks at work and ends
+// the run. Lives on rank 0 and uses that rank's transport. The protocol and the proof of the lower
+// bound: coordinator.cpp. One thread at a time.
 class Coordinator {
  public:
-  // All must outlive this.
+  // All arguments must outlive this.
   Coordinator(const Problem& problem, const SolveOptions& options, const Limits& limits,
               RunObserver& observer, Transport& transport);
 
-  // Before all else: the plan to start from, and the first tree; or all that a checkpoint knows.
-  // Throws as reading one does.
+  // Call this before any other function. Posts the start plan and instantiates the first tree, or
+  // restores a checkpoint. Throws what reading the checkpoint throws.
   void begin();
-  // What one of those below has said. Throws std::invalid_argument for what none can say, and what
-  // Gate::post() throws.
+  // Handles a message from a child. Throws std::invalid_argument for a message that a child cannot
+  // send, and what GlobalBounds::post() throws.
   void handle(int from, message::Message&& message);
-  // Looks at the limits; to be called now and then.
+  // Takes due checkpoints and refills the nodes, or ends the run if it is over. Call this
+  // repeatedly.
   void step();
 
   Cost lower_bound() { return run_.ledger().lower_bound(); }
-  // Have all ranks said farewell?
+  // Has every child sent RankFinished?
   bool ended() const { return farewells_ == children_.count(); }
-  // If a limit has struck, and somebody who is waited for has said nothing for too long since then:
-  // gives up a checkpoint that was being made; if there was none, says how many ranks but this one
-  // have not said farewell, themselves or by who speaks for them. Else 0.
+  // Tests for unresponsive ranks. It acts only if a limit was reached and no message has arrived
+  // for too long since then. If a checkpoint is in progress, it aborts the checkpoint and returns
+  // 0. Otherwise it returns the number of ranks, except this one, for which no RankFinished has
+  // arrived (from the rank or from its sub-coordinator). Returns 0 if no rank is considered
+  // unresponsive.
   std::int64_t check_unresponsive_ranks();
-  // When ended(), or without those ranks: the answer.
+  // The solution. Call this once ended(), or to conclude without the unresponsive ranks.
   Solution conclude();
 
  private:
   using Clock = Limits::Clock;
 
-  // Passes on better plans to all.
+  // Forwards events to the observer and broadcasts each new incumbent to all ranks.
   class Announcer : public ForwardingObserver {
    public:
     Announcer(RunObserver& observer, ChildLinks& children)
@@ -73,21 +77,22 @@ class Coordinator {
   const Hierarchy hierarchy_;
   ChildLinks children_;
   Announcer announcer_;
-  NodePool pool_;  // of the roots
+  NodePool pool_;  // nodes of the roots
   RankNodes nodes_;
   RunState run_;
   LoadBalancer load_balancer_;
 
   CheckpointTimer timer_;
   std::optional<DistributedCheckpoint> gathering_;
-  bool restored_ = true;  // nothing of a checkpoint is missing
+  bool restored_ = true;  // false: a limit was reached before all of the checkpoint was restored
   bool gathered_at_end_ = false;
   bool ending_ = false;
-  Clock::time_point heard_at_;                   // anybody, last
-  std::optional<Clock::time_point> stopped_at_;  // when a limit was first seen to have struck
+  Clock::time_point heard_at_;  // when the last message of any child was handled
+  // When check_unresponsive_ranks() first saw that a limit was reached.
+  std::optional<Clock::time_point> stopped_at_;
   int farewells_ = 0;
-  message::RankFinished farewell_;        // of those that have said it
-  std::map<int, RunStatistics> surveys_;  // by rank, before the farewells; the last one
+  message::RankFinished farewell_;        // sum over the children that have finished
+  std::map<int, RunStatistics> surveys_;  // by rank: the latest statistics before its RankFinished
 };
 
 }  // namespace grove::detail

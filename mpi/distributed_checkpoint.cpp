@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The ranks do not look at the same moment, and nodes travel. Yet none is missed. Gather comes to a
-// rank by the same way as the releases from custody and what is entrusted to it, in order. So a
-// node that one rank gave to another is still in its custody when it looks; or the release was sent
-// before Gather was, by the coordinator that is nearest above both: because a status that covered
-// the node had come from the receiver by then, which heard of Gather later than that coordinator,
-// and so held the node, or what it led to, when it looked. What was entrusted before Gather comes
-// to a rank before it, for a coordinator passes on at once what is entrusted to it. A node seen
-// twice does no harm.
+// The ranks take their snapshots at different moments, while nodes are in transit. *Claim:* no node
+// is missed. *Proof.* SnapshotRequest reaches a rank along the same path as ReleaseCustody and
+// AssignNodes, in order.
+// - *A node that one rank transferred to another.* Either it is still in the sender's custody at
+//   the sender's snapshot. Or the release was sent before SnapshotRequest by the lowest coordinator
+//   above both ranks. By then a status of the receiver that covered the node had arrived there. The
+//   receiver got SnapshotRequest later than that coordinator, so at its snapshot it held the node
+//   or the node's descendants.
+// - *A node assigned before SnapshotRequest* arrives at the rank before SnapshotRequest, because
+//   each coordinator forwards assigned nodes at once.
 //
-// The rest is as in engine/local_checkpoints.cpp: trees are counted before anybody looks, nodes of
-// later ones left out, and the incumbent is asked for when all have looked and said what plans they
-// had found by then.
+// A node recorded twice does no harm.
+//
+// The rest is as in engine/local_checkpoints.cpp: the trees are counted before the snapshots, and
+// nodes of later trees are omitted. The incumbent is read when all ranks have taken their snapshots
+// and sent the plans that they had found by then.
 #include "mpi/distributed_checkpoint.h"
 
 #include <algorithm>
@@ -40,7 +44,7 @@ DistributedCheckpoint::DistributedCheckpoint(const Checkpoints& checkpoints, con
   children.broadcast(message::SnapshotRequest{});
 }
 
-// The one before it stands if this one fails, and the run goes on.
+// If this checkpoint fails, the previous one stays valid and the run continues.
 template <class Write>
 void DistributedCheckpoint::write(Write what) {
   if (!report_.failure.empty()) return;
@@ -64,7 +68,8 @@ void DistributedCheckpoint::handle(const message::SnapshotTaken& gathered) {
   ask_next();
 }
 
-// Who has sent its part, or is still to be asked, would take rank 0 for one that stands still.
+// Otherwise a rank that has sent its snapshot, or waits for its request, would take rank 0 for
+// unresponsive.
 void DistributedCheckpoint::send_heartbeat() {
   if (limits_.now() - said_ < kLongestPause) return;
   children_.broadcast(message::Heartbeat{});

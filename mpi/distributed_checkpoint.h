@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One checkpoint of a distributed search, while it is being written.
+// One checkpoint in progress of a distributed search.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,13 @@
 
 namespace grove::detail {
 
-// All ranks look at their nodes while search goes on; then one after the other sends them. Why no
-// node is missed: gathering.cpp. Of one thread.
+// All ranks take a snapshot of their nodes while the search continues. Then one rank after the
+// other sends its snapshot. Why no node is missed: distributed_checkpoint.cpp. One thread at a
+// time.
 class DistributedCheckpoint {
  public:
-  // Tells all ranks, by way of the children of the top. All must outlive this.
+  // Requests the snapshots of all ranks, through the children of the top coordinator. All arguments
+  // must outlive this.
   DistributedCheckpoint(const Checkpoints& checkpoints, const Limits& limits, RunState& run,
                         Transport& transport, ChildLinks& children);
 
@@ -33,23 +35,23 @@ class DistributedCheckpoint {
 
   void ask_next();
   void send_heartbeat();
-  // Calls `what`, which may fail; then nothing more is written.
+  // Calls `what`. If it fails, no later call writes anything.
   template <class Write>
   void write(Write what);
 
   const Checkpoints& checkpoints_;
-  const Limits& limits_;  // for the time
+  const Limits& limits_;  // for the clock
   RunState& run_;
   Transport& transport_;
   ChildLinks& children_;
   const Clock::time_point begin_ = limits_.now();
-  Clock::time_point said_ = begin_;  // to all
-  const std::int64_t trees_;         // that count as instantiated
-  int looked_ = 0;                   // children
+  Clock::time_point said_ = begin_;  // last broadcast to all ranks
+  const std::int64_t trees_;         // number of trees that count as instantiated
+  int looked_ = 0;                   // children that have taken their snapshot
   Cost evicted_bound_ = kInfiniteCost;
-  int asked_ = -1;  // the rank that sends
+  int asked_ = -1;  // the rank that sends its snapshot
   bool done_ = false;
-  std::unique_ptr<CheckpointWriter> writer_;  // null before, and once it has failed
+  std::unique_ptr<CheckpointWriter> writer_;  // nullptr before the start and after a failure
   CheckpointReport report_;
 };
 

@@ -29,14 +29,14 @@ void require_mpi() {
     throw Error("MPI is not there for threads; expected MPI_Init_thread with MPI_THREAD_FUNNELED");
 }
 
-// All ranks.
+// Collective. The minimum of `mine`.
 std::int64_t least(std::int64_t mine, MPI_Comm communicator) {
   std::int64_t all = 0;
   MPI_Allreduce(&mine, &all, 1, MPI_INT64_T, MPI_MIN, communicator);
   return all;
 }
 
-// All ranks: what `act` throws on one of them, something is thrown on all.
+// Collective. If `act` throws on one rank, an exception is thrown on all ranks.
 template <class Act>
 void collective(MPI_Comm communicator, Act&& act) {
   std::exception_ptr failure;
@@ -96,7 +96,7 @@ std::optional<Solution> solve(const Instance& instance, const Options& options,
           if (all_search) {
             detail::MpiTransport network(communicator);
             answer = solve_distributed(problem, search, limits, network, listener, [] {});
-          } else if (rank == 0 && !answer) {  // a limit has struck elsewhere
+          } else if (rank == 0 && !answer) {  // a limit was reached on another rank
             answer = detail::solve(problem, search, limits, &listener);
           }
           return answer.value_or(detail::Solution());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who answers to whom, where there are many ranks.
+// Tree of coordinators over the ranks.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,8 @@
 
 namespace grove::detail {
 
-// Who is meant on a rank: at level 0 the rank itself, above it the coordinator of that level.
+// Address of a receiver on a rank: at level 0 the rank itself, at a higher level the coordinator of
+// that level.
 struct Endpoint {
   int rank = 0;
   int level = 0;
@@ -15,34 +16,34 @@ struct Endpoint {
   friend bool operator==(const Endpoint&, const Endpoint&) = default;
 };
 
-// Neighbouring ranks make groups, each with a coordinator of level 1 on its first rank;
-// neighbouring groups make groups with a coordinator of level 2, on the first rank again; up to the
-// one over all, on rank 0. Immutable; may be used from any thread.
+// Consecutive ranks form groups, each with a coordinator of level 1 on its first rank. Consecutive
+// groups form groups with a coordinator of level 2, again on the first rank, and so on up to the
+// top coordinator, on rank 0. Immutable: any thread may read it.
 class Hierarchy {
  public:
-  // With as few levels as there can be with at most `most_children` below each, and then as few
-  // children. From 1 and from 2.
+  // Uses the minimum number of levels with at most `most_children` children per coordinator, and
+  // then the minimum number of children. `ranks` >= 1, `most_children` >= 2.
   Hierarchy(int ranks, std::int64_t most_children);
 
   int ranks() const { return ranks_; }
-  // Of coordinators; 1 or more.
+  // Number of coordinator levels, >= 1.
   int levels() const { return static_cast<int>(strides_.size()) - 1; }
   Endpoint top() const { return {0, levels()}; }
-  // The highest at that rank; 0 where there is no coordinator.
+  // The highest level of a coordinator on `rank`. 0 if there is none.
   int highest_at(int rank) const;
 
-  // Whom the one at this post answers to, which is not the top.
+  // The parent of `post`, which is not the top.
   Endpoint parent(Endpoint post) const;
-  // How many answer to the coordinator at this post.
+  // The number of children of the coordinator at `post`.
   int children(Endpoint post) const;
   Endpoint child(Endpoint post, int number) const;
-  // The number of the child that this rank is, or is below; of one that is below the post.
+  // The number of the child that `rank` is or is below. `rank` must be below `post`.
   int child_with(Endpoint post, int rank) const;
   bool is_below(Endpoint post, int rank) const;
 
  private:
   int ranks_;
-  std::vector<int> strides_;  // by level: from one coordinator to the next
+  std::vector<int> strides_;  // by level: ranks from one coordinator to the next
 };
 
 }  // namespace grove::detail

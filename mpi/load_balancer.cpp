@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
-// A rank without open nodes is helped first, whatever the bounds of what can be spared: such nodes
-// may have to be expanded, and doing nothing helps nobody. A rank whose best node is worse than
-// what another has plenty of is helped too, so that all work near the lower bound; with w = 0 all
-// nodes below the optimum must be expanded in any case, so that is worth little, and few nodes are
-// not worth a message.
+// Load balancing policy.
 //
-// Ranks of one child are matched below it. What is left there of wishes and of nodes to spare is
-// matched here, or above.
+// *Idle ranks* come first, whatever the bounds of the surplus: these nodes may have to be expanded,
+// and an idle rank contributes nothing.
+//
+// *Busy ranks.* A rank whose best node is worse than the surplus of another child receives nodes
+// too, so that all ranks work near the lower bound. With omega = 0 all nodes below the optimum must
+// be expanded in any case. So such a transfer gains little, and a small number of nodes is not
+// worth a message.
+//
+// *Levels.* Requests of ranks of one child are matched within the child. The remaining requests and
+// surplus are matched here or by the parent.
 #include "mpi/load_balancer.h"
 
 #include <algorithm>
@@ -50,7 +54,7 @@ void LoadBalancer::arrived(int rank) {
   awaiting_.erase(rank);
 }
 
-// The best of what it can spare.
+// Replaces the surplus of `child`, and its offer: the best entry of the surplus.
 void LoadBalancer::offer(int child, std::vector<message::Surplus> surplus) {
   View& at = view(child);
   const auto best = [&] { return Offer(at.surplus[0].bound, -all_of(at.surplus[0]), child); };
@@ -69,7 +73,8 @@ void LoadBalancer::take(int child, std::int64_t nodes) {
   offer(child, std::move(left));
 }
 
-// Wishes come in order of need: where nothing helps one, nothing helps those after it.
+// Requests are in order of urgency: if no transfer is worthwhile for one, none is for those after
+// it.
 std::optional<LoadBalancer::Transfer> LoadBalancer::next() {
   for (const auto& [wish, child] : wishes_) {
     const auto& [busy, minus_best, to] = wish;

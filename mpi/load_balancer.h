@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who gives nodes to whom.
+// Load balancing: decides which child sends nodes to which rank.
 #pragma once
 
 #include <cstdint>
@@ -14,41 +14,43 @@
 
 namespace grove::detail {
 
-// Matches ranks that have nothing to expand, or nothing as good as others, with children of a
-// coordinator that have most to spare. Decides nothing that an answer depends on. Of one thread.
+// Matches ranks that have no node to expand, or only worse nodes than others, with the children of
+// a coordinator that have the largest surplus. It affects only the running time, not the validity
+// of the answer. One thread at a time.
 class LoadBalancer {
  public:
   struct Transfer {
     int from = 0;            // the child
-    int to = 0;              // the rank, which is not there
+    int to = 0;              // the receiving rank, which is not below `from`
     std::int64_t nodes = 0;  // at most
     bool to_idle = false;
   };
 
-  // The ranks that each child is, or that are below it; nobody has nodes yet.
+  // `children`: for each child, the ranks that it is or that are below it. No rank has nodes yet.
   explicit LoadBalancer(const std::vector<std::vector<int>>& children, const Tuning& tuning = {});
 
-  // A child's new status.
+  // Handles a new status of `child`.
   void heard(int child, const message::Status& status);
-  // A gift to this rank has arrived.
+  // A transfer to `rank` has arrived.
   void arrived(int rank);
-  // What to order next. Until it has arrived the receiver is given nothing else.
+  // The next transfer to order. A rank with a transfer in transit gets no other. Returns nullopt if
+  // no transfer is worthwhile.
   std::optional<Transfer> next();
 
-  // The child that is to give so many nodes to somebody elsewhere: the one that can spare the best,
-  // or any.
+  // The child that has to send `nodes` nodes to a rank below another coordinator: the one with the
+  // best surplus, or child 0 if none has a surplus.
   int donor(std::int64_t nodes);
-  // What all children together can spare of their best bounds, and who of them needs nodes most:
-  // for a superior, to match with those of others.
+  // The surplus of all children at their best bounds, and the most urgent work requests: for the
+  // parent, which matches them with those of other children.
   std::vector<message::Surplus> surplus() const;
   std::vector<message::WorkRequest> work_requests() const;
 
  private:
-  using Offer = std::tuple<Cost, std::int64_t, int>;  // bound, minus all nodes, child
-  using Request = std::tuple<bool, Cost, int>;        // has nodes in hand, minus best bound, rank
+  using Offer = std::tuple<Cost, std::int64_t, int>;  // bound, -(nodes + next), child
+  using Request = std::tuple<bool, Cost, int>;        // is busy, -best bound, rank
 
   struct View {
-    std::vector<message::Surplus> surplus;  // ascending in bound, none of them empty
+    std::vector<message::Surplus> surplus;  // ascending in bound, none empty
     std::vector<Request> wishes;
   };
 
@@ -59,8 +61,8 @@ class LoadBalancer {
   const Tuning tuning_;
   std::vector<View> children_;
   std::set<Offer> offers_;
-  std::map<Request, int> wishes_;  // whose child they are
-  std::set<int> awaiting_;         // ranks, a gift
+  std::map<Request, int> wishes_;  // value: the child of the request
+  std::set<int> awaiting_;         // ranks with a transfer in transit
 };
 
 }  // namespace grove::detail

@@ -24,8 +24,8 @@ void serialize(Archive& archive, LearnedBound& fact) {
           fact.excess.exact, fact.excess.expansions);
 }
 
-// At its full width: what a process takes is another number in each run, and messages would have
-// another length in each simulation.
+// Writes the number without compression. The memory of a process differs from run to run, so with a
+// variable width the messages of a simulation would differ in length.
 template <class Archive>
 void at_full_width(Archive& archive, std::int64_t& number) {
   archive(cereal::binary_data(&number, sizeof number));
@@ -195,7 +195,7 @@ void serialize(Archive& archive, Addressed& addressed) {
   addressed.level = level;
 }
 
-// What becomes an Addressed, without a copy.
+// Serializes as an Addressed, without a copy of the message.
 struct ToAddress {
   std::uint8_t level;
   const Message& message;

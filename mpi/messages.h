@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All that ranks say to each other about one search. Values; see coordinator.cpp for the protocol,
-// and hierarchy.h for who answers to whom.
+// Messages between the ranks of one distributed search. Values. The protocol is in coordinator.cpp,
+// the tree of coordinators in hierarchy.h.
 #pragma once
 
 #include <cereal/types/utility.hpp>
@@ -25,27 +25,28 @@
 
 namespace grove::detail::message {
 
-// Nodes of one bound.
+// Nodes of one bound that a rank can give away.
 struct Surplus {
   Cost bound = kInfiniteCost;
   std::int64_t nodes = 0;
-  // Beside these, for idle ranks only: the next nodes of ranks that are at another one. (Busy ranks
-  // would hand each other their best nodes for ever.)
+  // Further nodes, for idle ranks only: the next node of each rank whose worker is at another node.
+  // (Busy ranks would transfer their best nodes to each other for ever.)
   std::int64_t next = 0;
 
   friend bool operator==(const Surplus&, const Surplus&) = default;
 };
 
-// A rank that would expand better nodes if it had some.
+// A rank that would expand better nodes if it had some. A node is wanted if it must be expanded
+// before the run can end.
 struct WorkRequest {
   std::int32_t rank = 0;
-  bool idle = true;           // it has no node that the end waits for
-  Cost best = kInfiniteCost;  // of its open nodes that the end waits for
+  bool idle = true;           // it has no wanted node
+  Cost best = kInfiniteCost;  // least bound of its wanted open nodes
 
   friend bool operator==(const WorkRequest&, const WorkRequest&) = default;
 };
 
-// That many batches of rank `from` have been taken over by rank `by`.
+// Rank `by` has received `batches` batches of rank `from`, in total.
 struct BatchReceived {
   std::int32_t by = 0;
   std::int32_t from = 0;
@@ -54,135 +55,138 @@ struct BatchReceived {
   friend bool operator==(const BatchReceived&, const BatchReceived&) = default;
 };
 
-// To the superior: where a rank stands, or all that are below a coordinator. Covers the nodes it
-// holds, those it has given away that nobody was said to have taken over, and the least bound of
-// those it has given up.
+// Status report to the parent, for one rank or for all ranks below a sub-coordinator. Covers the
+// nodes that they hold, the nodes that they have transferred and whose receipt was not confirmed,
+// and the least bound of the nodes that they have evicted.
 struct Status {
   Cost bound = kInfiniteCost;
   Cost evicted_bound = kInfiniteCost;
-  Cost proven = 0;  // beside the nodes; see Ledger::prove
+  Cost proven = 0;  // proven outside the tree search; see SharedBounds::prove
   BoundSource proven_by = BoundSource::kJointSearch;
-  bool live = false;  // is any node?
+  bool live = false;  // is any node live?
   std::int64_t open = 0;
   std::int64_t expanded = 0;
-  std::int32_t epoch = 0;                  // how many Restart all have obeyed
-  std::int64_t entrusted = 0;              // how many Entrust it has obeyed
-  StopReason stopped = StopReason::kNone;  // a limit that struck there
-  std::vector<Surplus> surplus;            // of the least bounds of which any can be spared
-  std::vector<WorkRequest> work_requests;  // the neediest first; not of all ranks below
-  std::vector<BatchReceived> taken;        // since the last status; from ranks not below
+  std::int32_t epoch = 0;                  // number of Restart messages that all have handled
+  std::int64_t entrusted = 0;              // number of AssignNodes messages that it has handled
+  StopReason stopped = StopReason::kNone;  // a limit that was reached there
+  std::vector<Surplus> surplus;  // by bound, ascending, from the least bound with a surplus
+  std::vector<WorkRequest> work_requests;  // the most urgent first; not of all ranks below
+  std::vector<BatchReceived> taken;  // new since the last status; from ranks that are not below
 
   friend bool operator==(const Status&, const Status&) = default;
 };
 
-// Rank 0 to a rank that has answered all that it was asked before: find these prices, at once.
+// From rank 0 to a rank that has replied to every earlier request: solve these pricing problems at
+// once.
 struct RequestPricing {
   PricingRequest share;
 };
 
-// A rank to rank 0: it has.
+// From a rank to rank 0: the reply to RequestPricing.
 struct PricingDone {
   PricingReply answer;
 };
 
-// To the superior: a plan, to be checked.
+// To the parent: a plan to be checked.
 struct NewPlan {
   Plan plan;
   PlanSource source{};
 };
 
-// To the superior, now and then: what has been done so far, for who looks on.
+// To the parent, periodically: the statistics so far, for observers.
 struct ProcessStatistics {
   RunStatistics survey;
 };
 
-// To the superior, after End: what was done, and how many messages were sent to whom that went
-// directly from rank to rank. The sender sends nothing more.
+// To the parent, after Terminate: the final statistics, and how many messages were sent directly to
+// each rank. The sender sends nothing more.
 struct RankFinished {
   RunStatistics survey;
   std::map<std::int32_t, std::int64_t> messages;
 };
 
-// What two say together.
+// Adds `part` to `sum`.
 void add(const RankFinished& part, RankFinished& sum);
 
-// Rank to rank: nodes and what is known about them. Perhaps none.
+// From rank to rank: nodes, and the group bounds known for them. `nodes` may be empty.
 struct NodeBatch {
   std::int32_t epoch = 0;
   std::vector<NodeRecord> nodes;
   std::vector<GroupBound> findings;
 };
 
-// Rank to rank: what was found out. The receiver tells it to the next `reach` - 1 ranks, in the
-// order of ranks, the first being after the last; see knowledge.h.
+// From rank to rank: learned bounds. The receiver forwards them to the next `reach` - 1 ranks in
+// cyclic order of rank; see bound_broadcast.h.
 struct LearnedBounds {
   std::int32_t reach = 1;
-  std::vector<std::string> facts;  // packed, see below: many pass by who only hands them on
+  std::vector<std::string> facts;  // packed, see packed(): many ranks only forward them
 };
 
-// To all below: a tree, before any of its nodes.
+// To all ranks below: a tree, sent before any of its nodes.
 struct NewTree {
   std::uint32_t number = 0;
   TreeRecord tree;
 };
 
-// Coordinator to a child: these nodes are yours; and others, of this bound at least, were given up.
+// From a coordinator to a child: nodes to search. `evicted_bound`: a lower bound on the nodes that
+// were evicted.
 struct AssignNodes {
   std::vector<NodeRecord> nodes;
   Cost evicted_bound = kInfiniteCost;
 };
 
-// Coordinator to a child: a rank there is to send up to `count` nodes to rank `to`, in one batch;
-// see Spare::next.
+// From a coordinator to a child: one rank of the child sends up to `count` nodes to rank `to`, in
+// one batch. `to_idle`: see Surplus::next.
 struct SendNodes {
   std::int32_t to = 0;
   std::int64_t count = 0;
   bool to_idle = false;
 };
 
-// On its way to rank `from`: what it sent to rank `to`, up to this number of batches, is covered by
-// that rank's status.
+// To rank `from`, through the coordinators: the first `batches` batches that it sent to rank `to`
+// are covered by the status of that rank.
 struct ReleaseCustody {
   std::int32_t from = 0;
   std::int32_t to = 0;
   std::int64_t batches = 0;
 };
 
-// To all below: a plan that has been checked.
+// To all ranks below: a plan that has been checked.
 struct Incumbent {
   Plan plan;
 };
 
-// To all below: no node is live anywhere; forget what was given up, the roots come again.
-// Every plan that was not pruned costs `proven` at least.
+// To all ranks below: no node is live on any rank. Each rank forgets its evicted bound, and the
+// roots are assigned again. Every plan that was not pruned costs at least `proven`.
 struct Restart {
   Cost proven = 0;
 };
 
-// To all below: look at your nodes, for a checkpoint.
+// To all ranks below: take a snapshot of the nodes, for a checkpoint.
 struct SnapshotRequest {};
 
-// To the superior: all here have. The plans of nodes that were gone by then have been sent before.
+// To the parent: all ranks here have taken their snapshot. The plans of nodes that were gone by
+// then have been sent before.
 struct SnapshotTaken {
   Cost evicted_bound = kInfiniteCost;
 };
 
-// The top to a rank: send some of what you saw then.
+// From the top coordinator to a rank: send the next part of the snapshot.
 struct SnapshotNext {};
 
-// A rank to the top: some of it.
+// From a rank to the top coordinator: a part of the snapshot.
 struct SnapshotPart {
   std::vector<NodeRecord> nodes;
   bool last = false;
 };
 
-// To all below, while a checkpoint is written: rank 0 does not stand still.
+// To all ranks below, while a checkpoint is written: rank 0 is responsive.
 struct Heartbeat {};
 
-// To all below: it is over; say farewell.
+// To all ranks below: the run is over; reply with RankFinished.
 struct Terminate {};
 
-// To all below, after their farewells: how many messages were sent to each directly, by rank.
+// To all ranks below, after their RankFinished: how many messages were sent directly to each rank.
 struct MessageCounts {
   std::map<std::int32_t, std::int64_t> messages;
 };
@@ -195,17 +199,17 @@ using Message =
                  SnapshotRequest, SnapshotNext, Heartbeat, Terminate, MessageCounts>;  // down
 
 struct Addressed {
-  int level = 0;  // whom it is for, on the rank that it has come to; see Post
+  int level = 0;  // receiver on the destination rank; see Endpoint
   Message message;
 };
 
-// A fact as it travels.
+// Serialized form of a learned bound.
 std::string packed(const LearnedBound& fact);
-// Throws std::invalid_argument for bytes that are no fact.
+// Throws std::invalid_argument if `bytes` is not a learned bound.
 LearnedBound unpacked(std::string_view bytes);
 
 std::string bytes_of(const Message& message, int level);
-// Throws std::invalid_argument for bytes that are no message.
+// Throws std::invalid_argument if `bytes` is not a message.
 Addressed message_of(std::string_view bytes);
 
 }  // namespace grove::detail::message

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The MPI of a process, from beginning to end.
+// Initialization and finalization of MPI in a process.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@
 
 namespace grove::detail {
 
-// One per process, made by the thread that is to speak, which is the only one that may use this and
-// the transports. What all ranks must call together is marked so.
+// One per process. Only the thread that constructs it may use it and its transports. "Collective"
+// marks what all ranks must call.
 class MpiSession {
  public:
-  // Without MPI: rank 0 of 1, which may gather() and nothing else. It serves programs that only
-  // print their help, which must work where MPI cannot start.
+  // Without MPI: rank 0 of 1. Only gather() may be called. For programs that only print their help,
+  // which must work where MPI cannot start.
   MpiSession() = default;
-  // Throws std::runtime_error if MPI cannot be started.
+  // Starts MPI. Throws std::runtime_error if MPI does not support threads (MPI_THREAD_FUNNELED).
   MpiSession(int& argc, char**& argv);
   ~MpiSession();
   MpiSession(const MpiSession&) = delete;
@@ -28,11 +28,13 @@ class MpiSession {
 
   int rank() const { return rank_; }
   int ranks() const { return ranks_; }
-  // All ranks: what each of them says, by rank.
+  // Collective. The text `mine` of each rank, by rank.
   std::vector<std::string> gather(const std::string& mine) const;
-  // All ranks: a network among those that name the same group, numbered as they are here.
+  // Collective. A transport among the ranks that pass the same `group`, in the order of their ranks
+  // here.
   std::unique_ptr<Transport> connect(int group = 0) const;
-  // All ranks, with the same numbers: memory that those on one host share, see MpiSharedMemory.
+  // Collective, with the same arguments. Memory shared by the ranks of one host; see
+  // MpiSharedMemory.
   std::unique_ptr<SharedMemory> share(std::size_t bytes, std::size_t zero_bytes) const;
   // Ends the processes of all ranks.
   [[noreturn]] void abort(int exit_code) const;

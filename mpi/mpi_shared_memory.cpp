@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Open MPI keeps windows in files of /dev/shm. Where there is too little room it fails on the rank
-// that makes the file, and the others wait for it for ever; so they look for room themselves first.
+// *Space.* Open MPI keeps windows in files of /dev/shm. If there is too little space, it fails on
+// the rank that creates the file, and the other ranks wait for that rank for ever. So the ranks
+// check the free space first.
 //
-// Its windows begin behind its own data, wherever that ends (in Open MPI 4.1 at 8 beyond a multiple
-// of 64), in all processes at the same place of a page. So a little more is taken, and begun later.
+// *Alignment.* A window begins behind Open MPI's own data, at any offset (in Open MPI 4.1 at 8
+// beyond a multiple of 64). The offset within a page is the same in all processes. So a few bytes
+// more are allocated, and the memory begins at the next aligned address.
 #include "mpi/mpi_shared_memory.h"
 
 #include <sys/statvfs.h>
@@ -19,10 +21,10 @@ namespace {
 
 constexpr const char* kFolder = "/dev/shm";
 
-// A tenth more than is asked for, since MPI has other files there.
+// True if /dev/shm has space for `bytes` bytes and a tenth more, since MPI has other files there.
 bool has_room(std::size_t bytes) {
   struct statvfs folder = {};
-  if (::statvfs(kFolder, &folder) != 0) return true;  // then MPI puts it elsewhere
+  if (::statvfs(kFolder, &folder) != 0) return true;  // then MPI uses another directory
   return static_cast<double>(folder.f_bavail) * static_cast<double>(folder.f_frsize) >
          1.1 * static_cast<double>(bytes);
 }
@@ -52,7 +54,7 @@ bool MpiSharedMemory::all_on_host(bool mine) const {
   return all == 1;
 }
 
-// The pages of a file that are never touched take no memory.
+// Pages of the file that are never touched take no memory.
 void MpiSharedMemory::allocate(std::size_t bytes, std::size_t zero_bytes) {
   if (!all_on_host(has_room(bytes))) {
     why_not_ = std::string("there is too little room in ") + kFolder;

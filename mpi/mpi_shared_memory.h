@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shared memory by windows of MPI.
+// Shared memory in MPI windows.
 #pragma once
 
 #include <mpi.h>
@@ -12,16 +12,18 @@ namespace grove::detail {
 
 class MpiSharedMemory : public SharedMemory {
  public:
-  // All ranks of `communicator`, with the same numbers: so many bytes for those on each host, of
-  // which the first `zero_bytes` are zero. None for a rank that is alone on its host, nor for 0
-  // bytes. Of the thread that initialised MPI, as its destruction.
+  // Collective over `communicator`, with the same arguments. Allocates `bytes` bytes for the ranks
+  // of each host; the first `zero_bytes` of them are zero. No memory is allocated if `bytes` is 0
+  // or a rank is the only one on its host. Construction and destruction: only the thread that
+  // initialized MPI.
   MpiSharedMemory(MPI_Comm communicator, std::size_t bytes, std::size_t zero_bytes);
-  // While an exception passes it leaves the memory to the end of the process: others may not come.
+  // During stack unwinding the memory is not freed before the process ends, because the other ranks
+  // may not take part.
   ~MpiSharedMemory() override;
 
  private:
   void allocate(std::size_t bytes, std::size_t zero_bytes);
-  // Whether all ranks of the host say so.
+  // Collective over the ranks of the host: true if `mine` is true on all of them.
   bool all_on_host(bool mine) const;
 
   MPI_Comm host_ = MPI_COMM_NULL;

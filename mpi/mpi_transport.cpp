@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One tag on one communicator, so MPI keeps the order between each two ranks (MPI 4.0, section
-// 3.5). Failures end the job by MPI's own handler, which names the rank.
+// All messages have one tag on one communicator, so MPI keeps the order between each two ranks (MPI
+// 4.0, section 3.5). Errors end the job through MPI's own error handler, which names the rank.
 #include "mpi/mpi_transport.h"
 
 #include <exception>
@@ -22,8 +22,8 @@ MpiTransport::MpiTransport(MPI_Comm communicator) {
   MPI_Comm_size(communicator_, &ranks_);
 }
 
-// While an exception passes others may stand still, or not come: then nothing is waited for, and
-// the bytes of messages under way are left to MPI.
+// During stack unwinding other ranks may be unresponsive or not get here. Then nothing is waited
+// for, and the buffers of unfinished sends stay with MPI.
 MpiTransport::~MpiTransport() {
   if (std::uncaught_exceptions() > 0) {
     static_cast<void>(std::make_unique<std::list<Sending>>(std::move(sending_)).release());
@@ -56,7 +56,7 @@ std::optional<ReceivedMessage> MpiTransport::receive() {
   return parcel;
 }
 
-// The oldest are done first, as a rule.
+// Tests the oldest sends first, which usually complete first.
 void MpiTransport::forget_sent() {
   while (!sending_.empty()) {
     int done = 0;

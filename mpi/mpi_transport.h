@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Messages by MPI.
+// Transport over MPI.
 #pragma once
 
 #include <mpi.h>
@@ -11,13 +11,13 @@
 
 namespace grove::detail {
 
-// Over a communicator of its own, a duplicate of the one given, so that nobody else's messages are
-// taken for its own. Of the thread that initialised MPI. All ranks make it, and destroy it, at the
-// same point of the program; what was sent must have been received by then.
+// Uses its own communicator, a duplicate of the one given, so that it receives no other messages.
+// Only the thread that initialized MPI may use it. Construction and destruction are collective, and
+// all messages must have been received before the destruction.
 class MpiTransport : public Transport {
  public:
   explicit MpiTransport(MPI_Comm communicator);
-  // While an exception passes it leaves the network to the end of the process.
+  // During stack unwinding the communicator is not freed before the process ends.
   ~MpiTransport() override;
 
   int rank() const override { return rank_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A visitor made of lambdas.
+// Visitor composed of lambdas, for std::visit.
 #pragma once
 
 namespace grove::detail {
@@ -9,6 +9,6 @@ struct Overloaded : Handlers... {
   using Handlers::operator()...;
 };
 template <class... Handlers>
-Overloaded(Handlers...) -> Overloaded<Handlers...>;  // clang 16 asks for it
+Overloaded(Handlers...) -> Overloaded<Handlers...>;  // needed by clang 16
 
 }  // namespace grove::detail

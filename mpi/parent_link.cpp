@@ -8,8 +8,9 @@
 namespace grove::detail {
 namespace {
 
-// Between two statuses that nothing hangs on, in seconds, in the beginning; see pause_at(). A
-// coordinator hears all its children.
+// Minimum time between two statuses that are not urgent, in seconds at the beginning; see
+// pause_at(). It grows with the number of siblings, because the parent receives from all its
+// children.
 constexpr double kPause = 2e-3;
 constexpr double kPausePerSibling = 50e-6;
 
@@ -32,8 +33,8 @@ void ParentLink::tell(const message::Message& message) {
   transport_.send(to_.rank, message::bytes_of(message, to_.level));
 }
 
-// What can be spared matters at once when it has doubled: while few ranks have nodes the others
-// would wait a pause for each doubling.
+// A surplus is urgent when half of the open nodes has more than doubled. Otherwise, while few ranks
+// have nodes, the others would wait a pause for each doubling.
 bool ParentLink::is_urgent(const message::Status& status) const {
   const bool has_more = !status.surplus.empty() && status.open / 2 > 2 * (said_.open / 2);
   return has_more || !status.taken.empty() || status.entrusted != said_.entrusted ||

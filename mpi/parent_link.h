@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a rank or a coordinator says to the one above it, and when it is worth saying.
+// Throttled status reports from a rank or sub-coordinator to its parent.
 #pragma once
 
 #include <limits>
@@ -10,25 +10,25 @@
 
 namespace grove::detail {
 
-// Of one thread.
+// One thread at a time.
 class ParentLink {
  public:
-  // Of the one at this post, which is not the top. The superior takes it that `first` was said.
-  // `transport` must outlive this.
+  // Link of the rank or sub-coordinator at `post`, which is not the top. The parent takes `first`
+  // as the status already reported. `transport` must outlive this.
   ParentLink(Transport& transport, const Hierarchy& hierarchy, Endpoint post,
              message::Status first);
 
-  // Says this at once.
+  // Sends `message` at once.
   void tell(const message::Message& message);
-  // Says where things stand, if that is news: at once if it may matter at once, else not more often
-  // than the superior can bear who hears all its children. `now` in seconds since the beginning.
-  // True if it was said.
+  // Sends `status` if it differs from the last one. An urgent status is sent at once, any other at
+  // a rate that the parent can handle from all its children. `now` in seconds since the beginning.
+  // Returns true if it was sent.
   bool report(message::Status status, double now);
-  // The next status matters at once, whatever it says.
+  // Makes the next status urgent, even if it is unchanged.
   void urge() { urgent_ = true; }
-  // When what was kept back may be said; infinity if nothing was, or is to be any more.
+  // When a withheld status may be sent. Infinity if none is withheld, or after end_reports().
   double reports_at() const { return reports_at_; }
-  // No more reports.
+  // Cancels a withheld status.
   void end_reports() { reports_at_ = std::numeric_limits<double>::infinity(); }
 
  private:
@@ -37,7 +37,7 @@ class ParentLink {
   Transport& transport_;
   const Endpoint to_;
   const double pause_;    // seconds
-  message::Status said_;  // last
+  message::Status said_;  // last status sent
   double said_at_ = -1;
   double reports_at_ = std::numeric_limits<double>::infinity();
   bool urgent_ = false;

@@ -13,14 +13,15 @@ namespace grove::detail {
 namespace {
 
 constexpr std::size_t kLevels = 4;
-// After an idle rank was given nodes, or at the beginning. (Simulated, 128 ranks: room-32-32-4
-// 22/40 takes 0.178 s without haste, 0.142 with two such nodes and 0.152 with four; random-32-32-20
-// with 50 agents 0.099, 0.090, 0.091.)
+// The number of nodes expanded with BoundingEffort::kCachedOnly after nodes were sent to an idle
+// rank, and at the beginning. (Simulated, 128 ranks: room-32-32-4 22/40 takes 0.178 s with none,
+// 0.142 s with two and 0.152 s with four; random-32-32-20 with 50 agents takes 0.099, 0.090 and
+// 0.091 s.)
 constexpr std::int64_t kCachedOnlyNodes = 2;
 constexpr std::size_t kNodesInAPart = 500;
 constexpr double kBytesPerMegabyte = 1e6;
 
-// What a rank with these open nodes can spare; see Frontier::take_for_transfer().
+// Surplus of a rank with these open nodes; see Frontier::take_for_transfer().
 std::vector<message::Surplus> spare_of(const std::vector<Frontier::Level>& levels,
                                        bool keeps_next) {
   std::vector<message::Surplus> surplus;
@@ -33,7 +34,7 @@ std::vector<message::Surplus> spare_of(const std::vector<Frontier::Level>& level
   return surplus;
 }
 
-// As it stands at the beginning.
+// Status at the beginning.
 message::Status first_status(int rank) {
   message::Status status;
   status.work_requests = {{rank, true, kInfiniteCost}};
@@ -109,7 +110,8 @@ void Rank::handle(int from, message::Message&& message) {
       message);
 }
 
-// Its tree may not have been heard of yet, or what was given up here has yet to be forgotten.
+// True if a tree of the batch has not arrived yet, or if the batch is of a later epoch: then this
+// rank has not yet handled Restart.
 bool Rank::must_defer(const message::NodeBatch& batch) const {
   return batch.epoch > epoch_ || std::ranges::any_of(batch.nodes, [&](const NodeRecord& node) {
            return !roots_.contains(node.tree);
@@ -134,7 +136,7 @@ void Rank::take_over_held() {
   for (auto& [from, batch] : std::exchange(held_, {})) take_over(from, batch);
 }
 
-// What is given stays in custody: taken from the frontier, but not settled.
+// The nodes sent stay in custody: taken from the frontier, but not completed.
 void Rank::give(const message::SendNodes& order) {
   if (order.to_idle) others_wait();
   const bool keeps = !order.to_idle || keeps_next();
@@ -153,15 +155,17 @@ void Rank::give(const message::SendNodes& order) {
   parent_.urge();
 }
 
-// Where a node's pairs and groups are looked into before it is split, which may take 10 ms, the
-// first ten generations of nodes take most of a short run, with nothing to do for most ranks. They
-// had rather look into those of its descendants, each into its own.
+// Limits the next nodes to cached bounds, because other ranks wait for nodes. Computing the bounds
+// of a node's pairs and groups before it is split may take 10 ms. The first ten generations of
+// nodes would then take most of a short run, in which most ranks have no work. It is better to
+// split first, so that each rank computes these bounds for its own descendants of the node.
 void Rank::others_wait() {
   cached_only_until_ = nodes_.expanded + kCachedOnlyNodes;
   search_.set_bounding_effort(BoundingEffort::kCachedOnly);
 }
 
-// Not while a worker is at a node: that may take long, and hardly ever ends without another one.
+// False while a worker expands a node: that may take long, and it nearly always yields another
+// node.
 bool Rank::keeps_next() const {
   return static_cast<std::int64_t>(nodes_.frontier.live()) <=
          static_cast<std::int64_t>(nodes_.frontier.open()) + in_custody_;
@@ -184,7 +188,7 @@ void Rank::accept(const message::AssignNodes& entrusted) {
 }
 
 void Rank::push(const std::vector<NodeRecord>& records, const std::vector<GroupBound>& findings) {
-  std::vector<NodePtr> nodes;  // null: pruned
+  std::vector<NodePtr> nodes;  // nullptr: pruned
   for (const NodeRecord& record : records) {
     const NodePtr& root = roots_.at(record.tree);
     const bool pruned = record.bound >= ledger_.cutoff();
@@ -195,7 +199,7 @@ void Rank::push(const std::vector<NodeRecord>& records, const std::vector<GroupB
     if (node) nodes_.push(std::move(node));
 }
 
-// A plan was posted before the node that led to it was gone.
+// The snapshot comes first: a plan is posted before the node that led to it is gone.
 void Rank::gather() {
   Frontier::Snapshot snapshot = nodes_.frontier.snapshot();
   send_found();
@@ -220,8 +224,9 @@ void Rank::begin_anew(Cost proven) {
   take_over_held();
 }
 
-// Workers go on meanwhile. Where no node is live none is given up any more, so what was is asked
-// for later: a new beginning must know all of it.
+// Workers run concurrently, so the order of the reads matters. If no node is live, none is evicted
+// any more. Therefore the evicted bound is read after `live`: a restart must know every evicted
+// node.
 message::Status Rank::status() const {
   message::Status status;
   const auto live = static_cast<std::int64_t>(nodes_.frontier.live());
@@ -240,23 +245,24 @@ message::Status Rank::status() const {
   status.expanded = nodes_.expanded;
   status.epoch = epoch_;
   status.entrusted = assigned_;
-  limits_.stop_requested();  // nobody else may look
+  limits_.stop_requested();  // possibly the only check of the limits on this rank
   status.stopped = limits_.reason();
   for (const auto& [rank, peer] : peers_)
     if (peer.news) status.taken.push_back({transport_.rank(), rank, peer.taken});
   return status;
 }
 
-// Does the end wait for nodes of this bound? Not where the incumbent is within w of it: who has
-// no others expands them for want of better, but had rather be given some, and has nothing to give.
-// (128 ranks that proved 1 % took 1.7 times as long when they passed such nodes around.)
+// Must nodes of this bound be expanded before the run can end? Not if the incumbent is within omega
+// of the bound. A rank that has no other nodes expands them nevertheless, but it counts as idle and
+// has no surplus. (When such nodes were transferred, 128 ranks that proved 1 % took 1.7 times as
+// long.)
 bool Rank::is_wanted(Cost bound) const {
   const Cost cutoff = ledger_.cutoff();
   return cutoff == kInfiniteCost || !omega_.accepts(cutoff, bound);
 }
 
-// A node that led to a plan is settled after the plan was posted. So a status that does not count
-// the node any more is made before plans are looked for, and sent after them.
+// A node that led to a plan is completed after the plan was posted. So the status is made before
+// the plans are read and is sent after them.
 void Rank::send_updates(double now) {
   if (ended_) return;
   if (nodes_.expanded >= cached_only_until_) search_.set_bounding_effort(BoundingEffort::kFull);
@@ -286,7 +292,8 @@ void Rank::speak_of_facts(double now) {
   }
 }
 
-// Others further on have to be told even if there is no room here.
+// The bounds are forwarded even if there is no room for them in this rank's cache: other ranks get
+// them only through this one.
 void Rank::receive(message::LearnedBounds& facts) {
   const auto memory = search_.memory();
   const bool has_room = search_.has_room_for_facts();
@@ -325,7 +332,7 @@ void Rank::send_statistics(Stats counts) {
   parent_.tell(message::ProcessStatistics{survey(std::move(counts))});
 }
 
-// Limits may strike just when a plan was found.
+// A limit may be reached just when a plan was found.
 void Rank::send_finished(Stats counts) {
   send_found();
   parent_.tell(message::RankFinished{survey(std::move(counts)), told_});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One rank's part of a search, and of the talk about it.
+// One rank of a distributed search: its nodes and its messages.
 #pragma once
 
 #include <algorithm>
@@ -25,44 +25,47 @@
 
 namespace grove::detail {
 
-// The nodes that a rank holds, for its workers, and all that is said about them to the coordinator
-// and to other ranks. The protocol is told at the head of coordinator.cpp. search() and what it
-// leads to may be used from any thread, the rest by one: the one that speaks.
+// Holds the nodes of a rank for its workers, and exchanges messages about them with the coordinator
+// and with other ranks. The protocol is at the head of coordinator.cpp. search() and the objects
+// reachable from it are thread-safe. Everything else: one thread at a time, the thread that
+// communicates.
 class Rank {
  public:
-  // All must outlive this, but for `stops`, of which it makes a copy: what is known already of the
-  // agents' stops.
+  // All arguments must outlive this, except `stops`, which is copied: the agents' stops computed so
+  // far.
   Rank(const Problem& problem, const SolveOptions& options, const Limits& limits,
        Transport& transport, const AgentStopsCache& stops);
 
   SharedSearch& search() { return search_; }
   const LocalNodes& nodes() const { return nodes_; }
-  // For workers to begin with.
+  // Initial contents of the workers' caches.
   const AgentStopsCache& stops() const { return stops_; }
 
-  // Something that a rank may be told. Throws std::invalid_argument for what cannot be.
+  // Handles a message to a rank. Throws std::invalid_argument for a message that a rank cannot
+  // receive.
   void handle(int from, message::Message&& message);
-  // On rank 0: no plan of the whole search costs less.
+  // On rank 0: sets the lower bound of the whole search.
   void know(Cost bound) { ledger_.know(bound); }
-  // Says what is new: plans always; where it stands at once if that may matter at once, else not
-  // more often than ranks can bear. `now` in seconds since the beginning.
+  // Sends what is new. Plans are always sent. A status is sent at once if it is urgent, otherwise
+  // at a limited rate; see ParentLink::report(). `now` in seconds since the beginning.
   void send_updates(double now);
-  // When it may have something to say though nothing has happened since; infinity: never.
+  // When send_updates() may have something to send even if nothing happens until then, in seconds
+  // since the beginning. Infinity: never.
   double next_send_time() const {
     return ended_ ? parent_.reports_at()
                   : std::min(parent_.reports_at(), knowledge_.next_send_time());
   }
 
-  // Until the farewell: tells what has been done so far, workers' counts among it.
+  // Sends the statistics so far, including `counts` of the workers. Not after send_finished().
   void send_statistics(Stats counts);
-  // Is it time for workers to end? Then, when they have, say farewell: what they counted.
+  // True if the workers have to end. When they have, call send_finished() with their counts.
   bool ended() const { return ended_; }
   void send_finished(Stats counts);
-  // Is nothing more to come?
+  // True if no further message will arrive.
   bool left() const;
 
  private:
-  struct DeferredBatch {  // that arrived before what it needs
+  struct DeferredBatch {  // a batch that arrived before its tree or its epoch
     int from;
     message::NodeBatch batch;
   };
@@ -96,13 +99,13 @@ class Rank {
   ParentLink parent_;
   LocalNodes nodes_;
   AgentStopsCache stops_;
-  Trees trees_;  // outlives all that holds nodes of them
+  Trees trees_;  // outlives every holder of their nodes
   RemoteBounds ledger_;
-  TreeSource elsewhere_;    // the coordinator brings trees,
-  WorkObserver unwatched_;  // and counts what is done
+  TreeSource elsewhere_;    // the coordinator instantiates trees,
+  WorkObserver unwatched_;  // and counts the work
   SharedSearch search_;
 
-  std::map<std::uint32_t, NodePtr> roots_;  // by the number of the tree
+  std::map<std::uint32_t, NodePtr> roots_;  // by tree number
   TreeIndex trees_of_facts_;
   BoundBroadcast knowledge_;
   std::int32_t epoch_ = 0;
@@ -111,21 +114,21 @@ class Rank {
 
   struct Peer {
     std::int64_t sent = 0;                                 // batches
-    std::int64_t taken = 0;                                // batches from there
-    bool news = false;                                     // of `taken`, since the last status
-    std::map<std::int64_t, std::vector<NodePtr>> custody;  // by the number of the batch
+    std::int64_t taken = 0;                                // batches received from there
+    bool news = false;                                     // `taken` changed since the last status
+    std::map<std::int64_t, std::vector<NodePtr>> custody;  // by batch number
   };
   std::map<int, Peer> peers_;
   std::int64_t in_custody_ = 0;         // nodes
-  std::int64_t cached_only_until_ = 0;  // that so many nodes have been expanded here
+  std::int64_t cached_only_until_ = 0;  // kCachedOnly until this number of nodes is expanded here
   std::int64_t nodes_sent_ = 0;
   std::int64_t facts_sent_ = 0;
 
-  std::vector<NodePtr> gathered_;  // for a checkpoint; not sent yet
+  std::vector<NodePtr> gathered_;  // nodes for a checkpoint that are not sent yet
 
   bool ended_ = false;
-  // Directly from rank to rank: how many messages went to whom, came here, and are to come
-  // altogether, which is known at the very end.
+  // Messages directly from rank to rank: how many were sent to each rank, how many were received
+  // here, and how many will be received in total (set at shutdown).
   std::map<std::int32_t, std::int64_t> told_;
   std::int64_t heard_ = 0;
   std::optional<std::int64_t> to_hear_;

@@ -16,8 +16,7 @@ RankNodes::RankNodes(ChildLinks& children)
   for (std::size_t child = 0; child < latest_.size(); ++child) bounds_.insert(kInfiniteCost);
 }
 
-// A child obeys in the order in which it is told: its status covers the first nodes that it was
-// sent.
+// A child handles AssignNodes in the order sent, so its status covers the first assignments.
 void RankNodes::update(int child, message::Status status) {
   const auto place = static_cast<std::size_t>(child);
   message::Status& latest = latest_.at(place);
@@ -53,7 +52,7 @@ Cost RankNodes::evicted_bound() const {
   return std::ranges::min(latest_, {}, &message::Status::evicted_bound).evicted_bound;
 }
 
-// What a child that has yet to hear of a new beginning holds is not known.
+// The nodes of a child that has not handled the last Restart are unknown.
 bool RankNodes::any() const {
   return children_with_nodes_ > 0 || entrusted_under_way_ > 0 ||
          children_of_this_era_ < std::ssize(latest_);

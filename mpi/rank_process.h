@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One end of a distributed search.
+// One process of a distributed search.
 #pragma once
 
 #include <deque>
@@ -13,11 +13,12 @@
 
 namespace grove::detail {
 
-// A rank, and the coordinators beside it if there are any, which share a transport. Of one thread,
-// but for what Rank says otherwise.
+// A rank and the coordinators on it, if any, which share a transport. One thread at a time, except
+// for the thread-safe functions of Rank.
 class RankProcess {
  public:
-  // All must outlive this, but for `stops`; see Rank. The observer hears of the run on rank 0.
+  // All arguments must outlive this, except `stops`; see Rank. On rank 0 the observer receives the
+  // events of the run.
   RankProcess(const Problem& problem, const SolveOptions& options, const Limits& limits,
               RunObserver& observer, Transport& transport, const AgentStopsCache& stops);
   RankProcess(const Problem& problem, const SolveOptions& options, const Limits& limits,
@@ -25,16 +26,17 @@ class RankProcess {
       : RankProcess(problem, options, limits, observer, transport,
                     AgentStopsCache(problem.instance, problem.distances)) {}
 
-  // Handles what has arrived and says what is new. `now` in seconds since the beginning. True if
-  // anything had arrived.
+  // Handles all messages that have arrived, and sends what is new. `now` in seconds since the
+  // beginning. Returns true if any message had arrived.
   bool exchange_messages(double now);
 
   Rank& rank() { return rank_; }
-  // When something may have to be said though nothing has happened since; infinity: never.
+  // When exchange_messages() may have something to send even if nothing happens until then, in
+  // seconds since the beginning. Infinity: never.
   double next_send_time() const;
-  // The one over all; null but on rank 0.
+  // The top coordinator. nullptr on all ranks except 0.
   Coordinator* coordinator() { return coordinator_.get(); }
-  // Is nothing more to be said, nor to come?
+  // True if no further message is to be sent or received.
   bool left() const { return rank_.left(); }
 
  private:

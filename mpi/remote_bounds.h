@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ledger where it is in another process.
+// Global bounds of a search whose coordinator is in another process.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,9 @@
 
 namespace grove::detail {
 
-// What was last heard of the ledger, and the plans that it has yet to hear of. What workers ask may
-// be asked from any thread; the rest is for the thread that speaks for this rank.
+// The latest bounds received from the coordinator, and the plans and bounds to be sent to it. The
+// functions of SharedBounds are thread-safe. All others: only the thread that communicates for this
+// rank.
 class RemoteBounds : public SharedBounds {
  public:
   struct Found {
@@ -23,30 +24,31 @@ class RemoteBounds : public SharedBounds {
     PlanSource source{};
   };
 
-  // Both must outlive this.
+  // Both arguments must outlive this.
   RemoteBounds(const Limits& limits, const Frontier& frontier)
       : limits_(limits), frontier_(frontier) {}
 
   bool over() const override { return over_ || limits_.stop_requested(); }
   Cost cutoff() const override { return cutoff_; }
   std::optional<Plan> plan_below(Cost cost) const override;
-  // Where that of the whole search is not known, that of the nodes here will do to choose among
-  // them.
+  // If the bound of the whole search is unknown, that of the local nodes is sufficient to choose
+  // among them.
   Cost lower_bound() const override { return std::min(known_.load(), frontier_.bound()); }
-  // Nobody prunes by the plan before it has been checked.
+  // No worker prunes by the plan before rank 0 has checked it.
   void post(Plan plan, PlanSource source) override;
   void prove(Cost bound, BoundSource by) override;
   void nodes_changed() override {}
 
-  // The best plan posted since, if it is of use.
+  // The best plan posted since the last call. Returns nullopt if no posted plan was better than the
+  // incumbent.
   std::optional<Found> take_found();
-  // What was proven beside the nodes, and by whom.
+  // The best bound proven outside the tree search, and its source.
   std::pair<Cost, BoundSource> proven() const;
-  // No plan of the whole search costs less.
+  // Sets the lower bound of the whole search.
   void know(Cost bound) { known_ = bound; }
-  // A plan that has been checked.
+  // Takes a checked plan as the incumbent if it is better.
   void adopt(Plan plan);
-  // The run is over.
+  // Ends the run: cancels the workers.
   void end();
 
  private:
@@ -56,7 +58,7 @@ class RemoteBounds : public SharedBounds {
   std::atomic<Cost> cutoff_{kInfiniteCost};
   std::atomic<Cost> known_{kInfiniteCost};
   mutable std::mutex mutex_;
-  std::optional<Plan> incumbent_;  // under mutex_, as is found_
+  std::optional<Plan> incumbent_;  // incumbent_, found_ and proven_ are guarded by mutex_
   std::optional<Found> found_;
   std::pair<Cost, BoundSource> proven_{0, BoundSource::kJointSearch};
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory that the ranks on a host have in common.
+// Memory shared by the ranks on one host.
 #pragma once
 
 #include <cstddef>
@@ -8,20 +8,21 @@
 
 namespace grove::detail {
 
-// All its members made it together, and destroy it together, when none uses it any more.
+// All ranks that share it construct it together. They also destroy it together, when none of them
+// uses it any more.
 class SharedMemory {
  public:
-  SharedMemory() = default;  // none
+  SharedMemory() = default;  // no shared memory
   virtual ~SharedMemory() = default;
   SharedMemory(const SharedMemory&) = delete;
   SharedMemory& operator=(const SharedMemory&) = delete;
 
-  // The same bytes for all members, if at other addresses, all of them multiples of
-  // SharedArrays::kAlignment. Empty: there is none.
+  // The same bytes on all members, possibly at different addresses. Each address is a multiple of
+  // SharedArrays::kAlignment. Empty: there is no shared memory.
   std::span<std::byte> bytes() const { return bytes_; }
   int member() const { return member_; }
   int members() const { return members_; }
-  // Why there is none that was asked for, in a few words; empty: nothing is missing.
+  // Why requested memory could not be provided, in a few words. Empty: nothing is missing.
   const std::string& why_not() const { return why_not_; }
 
  protected:

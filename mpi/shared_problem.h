@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A problem of which the ranks on a host hold the large parts together.
+// A problem whose large arrays are shared by the ranks on one host.
 #pragma once
 
 #include <cstddef>
@@ -13,17 +13,17 @@ namespace grove::detail {
 
 class SharedProblem {
  public:
-  // The memory to share, in bytes, and how many of them must be zero: the same on all ranks.
-  // Nothing for small problems.
+  // The size of the shared memory in bytes, and how many of these bytes must be zero. Equal on all
+  // ranks. Both are 0 for small problems.
   struct Need {
     std::size_t bytes = 0;
     std::size_t zero_bytes = 0;
   };
   static Need need(const Instance& instance);
 
-  // What all ranks that have a part in `memory` make of the same instance, each a share of it. If
-  // that is none, each makes all for itself. `instance` and `memory` must outlive this. Of these
-  // there is one at a time in a process.
+  // Builds the problem of `instance`. The ranks that share `memory` each build a part of the
+  // arrays. If `memory` is empty, each rank builds all arrays itself. `instance` and `memory` must
+  // outlive this. A process may have only one SharedProblem at a time.
   SharedProblem(const Instance& instance, const Limits& limits, int threads,
                 const SharedMemory& memory);
   ~SharedProblem();

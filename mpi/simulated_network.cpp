@@ -53,7 +53,7 @@ void SimulatedNetwork::send(int from, int to, std::string bytes) {
 std::optional<ReceivedMessage> SimulatedNetwork::receive(int rank) {
   Inbox& inbox = inboxes_[static_cast<std::size_t>(rank)];
   if (inbox.empty() || inbox.top().arrival > now_) return std::nullopt;
-  // Moving the bytes out does not touch what the order depends on.
+  // The order depends only on arrival and serial, so the bytes may be moved out.
   ReceivedMessage parcel = std::move(const_cast<UnderWay&>(inbox.top()).parcel);
   inbox.pop();
   return parcel;

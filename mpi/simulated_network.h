@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A network inside one process, with a clock of its own: for tests and for the simulator.
+// Network inside one process with a simulated clock, for tests and for the simulator.
 #pragma once
 
 #include <cstddef>
@@ -15,30 +15,32 @@
 
 namespace grove::detail {
 
-// Delivers each message when its time has come, which depends on the delay that the caller gives
-// it: messages of different pairs overtake each other, those of one pair never. Of one thread.
+// Delivers each message after the delay that the caller's function gives for it. Messages of
+// different pairs of ranks may overtake each other, messages from one rank to another never. One
+// thread at a time.
 class SimulatedNetwork {
  public:
-  // How long a message takes, in seconds of the simulated clock.
+  // The time from sending to arrival, in seconds of the simulated clock.
   using Delay = std::function<double(int from, int to, std::size_t bytes)>;
 
   SimulatedNetwork(int ranks, Delay delay);
   ~SimulatedNetwork();
 
-  // One rank's end; lives as long as the network.
+  // The transport of `rank`. It lives as long as the network.
   Transport& at(int rank);
 
   double now() const { return now_; }
-  // Sets the clock; it never goes back.
+  // Advances the clock to `time`. No effect if `time` is in the past.
   void advance_to(double time);
-  // When the next message for `rank` arrives, perhaps in the past; infinity: none is under way.
+  // Arrival time of the next message for `rank`, possibly in the past. Infinity if none is in
+  // transit.
   double next_arrival(int rank) const;
 
  private:
   class End;
   struct UnderWay {
     double arrival;
-    std::int64_t serial;  // the order in which messages were sent
+    std::int64_t serial;  // number of the message in order of sending
     ReceivedMessage parcel;
   };
   struct Later {

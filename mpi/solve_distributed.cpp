@@ -21,16 +21,16 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kAccountInterval_s = 2;      // of what nobody but who looks on has to know
-constexpr double kHeartbeatInterval_s = 0.3;  // while all wait for a worker to end
+constexpr double kAccountInterval_s = 2;      // of statistics, which only observers need
+constexpr double kHeartbeatInterval_s = 0.3;  // while all ranks wait for a worker to end
 
-constexpr double kLeastNap_s = 1e-5;  // or a look would be taken for the next one
+constexpr double kLeastNap_s = 1e-5;  // a shorter sleep would count as the same poll
 
 void sleep(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
-// The threads that search, and what became of them.
+// The searching threads and their result.
 class Searching {
  public:
   Searching(const Problem& problem, const SolveOptions& options, const Limits& limits, Rank& rank,
@@ -70,11 +70,11 @@ class Searching {
   std::vector<std::unique_ptr<Worker>> workers_;
   std::exception_ptr failure_;
   std::atomic<bool> ended_{false};
-  std::jthread thread_;  // the first to go
+  std::jthread thread_;  // declared last, so destroyed first
 };
 
-// For how long nothing was heard. Of a time in which this process did not run hardly anything
-// counts: what came meanwhile is still to be heard.
+// Time since the last message. A time in which this process did not run counts at most
+// kMostAtOnce_s: messages that arrived in that time are not received yet.
 class ReceiveTimeout {
  public:
   void go_on(double now, bool heard) {

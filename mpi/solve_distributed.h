@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A solve by several processes.
+// Solves an instance with several processes.
 #pragma once
 
 #include <cstdint>
@@ -14,23 +14,24 @@
 
 namespace grove::detail {
 
-// Thrown on rank 0: a limit has struck, and some ranks say nothing any more. The transport cannot
-// be left then, nor can anything be done by all; their processes must be ended from outside.
+// Thrown on rank 0: a limit was reached and some ranks are unresponsive. The transport cannot be
+// closed then, and collective calls are impossible. The processes must be ended from outside.
 struct UnresponsiveRanks : std::runtime_error {
   UnresponsiveRanks(Solution found, std::int64_t count);
 
-  Solution solution;   // without them
-  std::int64_t ranks;  // how many
+  Solution solution;   // the solution without these ranks
+  std::int64_t ranks;  // number of unresponsive ranks
 };
 
-// Solves with all ranks of `transport`, each of which calls this with the same problem and options
-// but for its own number of threads; the calling thread speaks, others search. Rank 0 returns the
-// answer, the others nothing. The limits of rank 0 are the run's, but any rank's limits may stop
-// it. `meanwhile` is called every few milliseconds. `observer` hears of the run on rank 0; of
-// single nodes it hears of roots only. `options.deterministic` must not be set. Throws what solve()
-// does. Rank 0 throws UnresponsiveRanks; the others then wait for this rank, until their process is
-// ended from outside. They throw std::runtime_error if they have heard nothing for `--tune
-// patience`, that long after the time limit: rank 0 stands still.
+// Solves with all ranks of `transport`. Each rank calls this with the same problem and options,
+// except for its own number of threads. The calling thread communicates, other threads search. Rank
+// 0 returns the solution, the other ranks return nullopt. The limits of rank 0 are those of the
+// run, but the limits of any rank may stop it. `meanwhile` is called every few milliseconds. On
+// rank 0 `observer` receives the events of the run; of single nodes it receives only roots.
+// `options.deterministic` must not be set. Throws what solve() throws. Rank 0 throws
+// UnresponsiveRanks; the other ranks then wait for rank 0 until their process is ended from
+// outside. They throw std::runtime_error if rank 0 is unresponsive: if they have received nothing
+// for `--tune patience` seconds, and the time limit was that long ago.
 std::optional<Solution> solve_distributed(const Problem& problem, const SolveOptions& options,
                                           const Limits& limits, Transport& transport,
                                           RunObserver& observer,

@@ -12,7 +12,7 @@
 namespace grove::detail {
 namespace {
 
-// As it stands at the beginning, when all below are idle.
+// Status at the beginning, when all ranks below are idle.
 message::Status first_status(const LoadBalancer& broker) {
   message::Status status;
   status.work_requests = broker.work_requests();
@@ -73,7 +73,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
   changed_ = true;
 }
 
-// A batch between two of those below is covered by what is merged here, before and after.
+// A batch between two children is covered by the merged status before and after its release.
 void SubCoordinator::heard(int child, message::Status&& status) {
   load_balancer_.heard(child, status);
   for (const message::BatchReceived& taken : status.taken) {
@@ -85,12 +85,12 @@ void SubCoordinator::heard(int child, message::Status&& status) {
       taken_.push_back(taken);
   }
   nodes_.update(child, std::move(status));
-  if (ending_) return;  // a batch sent after a farewell would be left under way
+  if (ending_) return;  // a batch sent after a RankFinished would be left in transit
   while (const auto gift = load_balancer_.next())
     children_.tell(gift->from, message::SendNodes{gift->to, gift->nodes, gift->to_idle});
 }
 
-// All of the plans that were found before have been passed on by then.
+// All plans found before the snapshots have been forwarded by then.
 void SubCoordinator::gathered(const message::SnapshotTaken& parts) {
   gathered_.evicted_bound = std::min(gathered_.evicted_bound, parts.evicted_bound);
   if (++looked_ == children_.count()) parent_.tell(gathered_);
@@ -101,7 +101,7 @@ void SubCoordinator::send_finished(const message::RankFinished& said) {
   if (++farewells_ == children_.count()) parent_.tell(farewell_);
 }
 
-// Somebody must: the receiver waits for it, even if it brings nothing.
+// Some child must send a batch, even an empty one, because the receiver waits for it.
 void SubCoordinator::order(const message::SendNodes& order) {
   children_.tell(load_balancer_.donor(order.count), order);
 }

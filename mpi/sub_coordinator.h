@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A coordinator of some of the ranks, where there are many.
+// Coordinator of a part of the ranks, used when there are many ranks.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,20 @@
 
 namespace grove::detail {
 
-// Merges what is said below it on its way up, spreads what is said above it on its way down, and
-// keeps those below it at work. To its superior it is like a rank, to its children like the one
-// coordinator: why that is sound is told at the head of coordinator.cpp. Of one thread.
+// Merges messages of its children on the way up, spreads messages of its parent on the way down,
+// and keeps the ranks below it at work. To its parent it acts like a rank, to its children like the
+// top coordinator. The proof that this is sound is at the head of coordinator.cpp. One thread at a
+// time.
 class SubCoordinator {
  public:
-  // Of this level on the transport's rank; not the top one. `transport` must outlive this.
+  // The coordinator of `level`, below the top, on the transport's rank. `transport` must outlive
+  // this.
   SubCoordinator(Transport& transport, const Hierarchy& hierarchy, int level, const Tuning& tuning);
 
-  // From a rank that is a child or has one's coordinator, or from that of the superior. Throws
-  // std::invalid_argument for what neither sends.
+  // Handles a message of a child (`from` is its rank) or of the parent. Throws
+  // std::invalid_argument for a message that neither of them sends.
   void handle(int from, message::Message&& message);
-  // Tells the superior what is new; see Superior::report().
+  // Reports changes to the parent; see ParentLink::report().
   void send_updates(double now);
   double next_send_time() const { return parent_.reports_at(); }
 
@@ -41,13 +43,13 @@ class SubCoordinator {
   RankNodes nodes_;
   LoadBalancer load_balancer_;
   ParentLink parent_;
-  bool changed_ = false;                       // since the last status
-  std::int64_t assigned_ = 0;                  // how many Entrust it has obeyed
-  std::vector<message::BatchReceived> taken_;  // not said yet
-  Cost cutoff_ = kInfiniteCost;                // what the incumbent costs
-  message::SnapshotTaken gathered_;            // of those that have looked
+  bool changed_ = false;                       // changed since the last status
+  std::int64_t assigned_ = 0;                  // number of AssignNodes messages handled
+  std::vector<message::BatchReceived> taken_;  // not reported yet
+  Cost cutoff_ = kInfiniteCost;                // cost of the incumbent
+  message::SnapshotTaken gathered_;  // merged over the children that have taken a snapshot
   int looked_ = 0;
-  message::RankFinished farewell_;  // of those that have said it
+  message::RankFinished farewell_;  // sum over the children that have finished
   int farewells_ = 0;
   bool ending_ = false;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How processes talk.
+// Message passing between processes.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace grove::detail {
 
-// A message and where it comes from.
+// A message and the rank of its sender.
 struct ReceivedMessage {
   int from = 0;
   std::string bytes;
 };
 
-// Carries messages among a fixed set of ranks, 0 to ranks() - 1. Each arrives once, whole, and
-// after what the same sender sent to the same receiver before it; nothing is said of other orders.
-// A rank may send to itself. Of one thread.
+// Carries messages among a fixed set of ranks, 0 to ranks() - 1. Each message arrives once, whole,
+// and after every earlier message of the same sender to the same receiver. No other order is
+// guaranteed. A rank may send to itself. One thread at a time.
 class Transport {
  public:
   Transport() = default;
@@ -27,16 +27,16 @@ class Transport {
 
   virtual int rank() const = 0;
   virtual int ranks() const = 0;
-  // Returns at once; the message is under way.
+  // Starts sending and returns at once.
   void send(int to, std::string bytes) {
     ++messages_;
     bytes_ += static_cast<std::int64_t>(bytes.size());
     do_send(to, std::move(bytes));
   }
-  // The next message that has arrived, if any has; returns at once.
+  // The next message that has arrived. Returns nullopt at once if there is none.
   virtual std::optional<ReceivedMessage> receive() = 0;
 
-  // Sent so far.
+  // Messages and bytes sent so far.
   std::int64_t messages() const { return messages_; }
   std::int64_t bytes() const { return bytes_; }
 

@@ -15,7 +15,7 @@ namespace {
 constexpr int kMaster = 0;  // of the world
 constexpr int kLeader = 0;  // of the group
 
-// A text to tell failure by: never empty.
+// The text of the error, never empty.
 std::string error_text(const std::exception& error) {
   const std::string text = one_line(error.what());
   return text.empty() ? "an unknown error" : text;
@@ -57,7 +57,7 @@ void FarmClient::lead() {
   }
 }
 
-// None: dismissed.
+// Returns nullopt if there is no more work.
 std::optional<Entry> FarmClient::next_entry() {
   tell_master(RequestWork{});
   for (;;) {
@@ -69,7 +69,7 @@ std::optional<Entry> FarmClient::next_entry() {
     } else if (std::holds_alternative<NoMoreWork>(*message)) {
       return std::nullopt;
     } else {
-      interrupted_ = true;  // a Stop that came when all was done
+      interrupted_ = true;  // a Stop that came after the instance was done
     }
   }
 }
@@ -85,7 +85,7 @@ Row FarmClient::solve(const Entry& entry) {
   } catch (const std::exception& error) {
     row.outcome = {.error = error_text(error)};
   }
-  if (broken_) std::rethrow_exception(broken_);  // no fault of the instance
+  if (broken_) std::rethrow_exception(broken_);  // not an error of the instance
   row.outcome.version = options_.version;
   row.wall_s = options_.clock.seconds() - start;
   row.ended_at = options_.clock.utc();

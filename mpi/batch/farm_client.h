@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A rank's part in a batch: solves with its group what the master hands out.
+// A rank of a batch: solves with its group the instances that the master assigns.
 #pragma once
 
 #include <atomic>
@@ -16,38 +16,39 @@
 
 namespace grove::detail::batch {
 
-// Solves an instance; called on all ranks of the group together. What it says in `row` - facts,
-// outcome, plan file - counts on the leader, which is rank 0 of the group. It writes the plan file
-// before it returns. `poll` must be
-// called about every millisecond, from the thread that called; what it throws must be passed on. An
-// exception (std::exception) on any rank makes a row with that error; ranks that wait for one that
-// threw must come to know of it by themselves (gather.h). No rank begins the next instance before
-// all ranks of its group have ended this one.
+// Solves an instance. Called on all ranks of the group together. Only the `row` of the leader, rank
+// 0 of the group, counts: it gets the facts of the instance, the outcome and the plan file. The
+// plan file is written before the function returns. The function must call `poll` about every
+// millisecond, from the thread that called it, and must pass on what `poll` throws. A
+// std::exception on any rank makes a row with that error. Ranks that wait for a rank that threw
+// must detect this themselves (gather.h). No rank begins the next instance before all ranks of its
+// group have ended this one.
 using Solve = std::function<void(const Entry& entry, Row& row, const std::function<void()>& poll)>;
 
 struct ClientOptions {
   Solve solve;
   Settings settings = {};  // of all runs
-  int threads = 1;         // of this rank, for the rows
+  int threads = 1;         // threads of this rank, for the rows
   std::string version = {};
   std::string machine = {};
   BatchClock clock;
-  std::function<void()> idle;  // called while there is nothing to do: sleeps for a moment, say
+  std::function<void()> idle;  // called while there is nothing to do; it may sleep for a moment
 };
 
-// Of one thread.
+// One thread at a time.
 class FarmClient {
  public:
-  // `world` is all ranks, `group` those of this rank's group (Grouping), in the same order; the
-  // farm alone uses them, so `options.solve` needs a transport of its own. `interrupted` is the
-  // flag that this rank's signal handler sets and that its search watches; the client sets it when
-  // the master says so. `master` is the one on this rank; null on all ranks but 0. All must outlive
-  // this.
+  // `world` connects all ranks, `group` those of this rank's group (Grouping), in the same order.
+  // Only the farm uses them, so `options.solve` needs a transport of its own. `interrupted` is the
+  // flag that this rank's signal handler sets and that its search polls. The client sets it when
+  // the master sends Stop. `master` is the one on this rank; nullptr on all ranks except 0. All
+  // arguments must outlive this.
   FarmClient(Transport& world, Transport& group, std::atomic<bool>& interrupted,
              ClientOptions options, FarmMaster* master);
 
-  // Returns when this rank is dismissed, with a master when that is done; every message sent to
-  // this rank has then been received. Throws what the master throws.
+  // Returns when this rank has received NoMoreWork; on the rank of the master, when the master is
+  // done too. Every message sent to this rank has been received then. Throws what the master
+  // throws.
   void run();
 
  private:
@@ -67,7 +68,7 @@ class FarmClient {
   std::atomic<bool>& interrupted_;
   const ClientOptions options_;
   FarmMaster* const master_;
-  std::exception_ptr broken_;  // what poll() threw
+  std::exception_ptr broken_;  // exception of poll()
 };
 
 }  // namespace grove::detail::batch

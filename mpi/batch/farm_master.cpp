@@ -86,7 +86,7 @@ void FarmMaster::tell(int leader, FarmMessage message) {
   }
 }
 
-// Signals may have reached some ranks only.
+// Sends Stop to the groups, because a signal may have reached only some ranks.
 void FarmMaster::stop_if_interrupted() {
   if (stopping_ || !interrupted_) return;
   stopping_ = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hands out the instances of a batch and collects the rows.
+// Assigns the instances of a batch to groups of ranks and collects the rows.
 #pragma once
 
 #include <atomic>
@@ -23,34 +23,37 @@ namespace grove::detail::batch {
 
 struct MasterOptions {
   Settings settings;  // of all runs
-  // Since the master was made. Then nothing more is handed out; what is under way goes on.
+  // Seconds since the construction of the master. After that no instance is assigned, and instances
+  // in progress continue.
   double total_time_limit_s = std::numeric_limits<double>::infinity();
-  // Told at every poll(); may be empty.
+  // Called at every poll(); may be empty.
   std::function<void(const BatchState&)> watch = {};
 };
 
-// Lives on rank 0 of the world beside that rank's FarmClient, which polls it: everything that
-// arrives there arrives here first. Instances are handed out one at a time, in the table's order,
-// to the group that asks; a row is on disk before its group gets the next. When `interrupted` is
-// set, here or at a leader, nothing more is handed out, all groups are told, and what they then
-// give up leaves no row. Of one thread.
+// Lives on rank 0 of the world, together with that rank's FarmClient, which polls it and through it
+// receives all messages to that rank. Instances are assigned one at a time, in the order of the
+// table, to the group that requests work. A row is on disk before its group gets the next instance.
+// When `interrupted` is set, here or at a leader, no more instances are assigned, and the groups
+// with an instance in progress are sent Stop. An instance that a group then aborts leaves no row.
+// One thread at a time.
 class FarmMaster {
  public:
   // Begins `table` with `entries`. `world`, `table` and `interrupted` must outlive this.
   FarmMaster(Transport& world, Grouping grouping, std::vector<Entry> entries, ResultTable& table,
              std::atomic<bool>& interrupted, BatchClock clock, MasterOptions options);
 
-  // Does what there is to do and never waits for messages; a row costs a write to disk. To be
-  // called about every millisecond. Throws InputError when the table cannot be written, and
-  // std::logic_error when a leader breaks the rules.
+  // Handles all pending work and never waits for messages; a row costs a write to disk. Call this
+  // about every millisecond. Throws InputError if the table cannot be written, and std::logic_error
+  // if a leader violates the protocol.
   void poll();
-  // Every group was dismissed, and the table is complete; no more poll() is needed.
+  // True if every group was sent NoMoreWork and the table is complete; then poll() is no longer
+  // needed.
   bool done() const { return dismissed_ == grouping_.groups(); }
 
   BatchState state() const;
   // Was the batch interrupted?
   bool interrupted() const { return stopping_; }
-  // How many instances have no row, neither a result nor an error.
+  // Number of instances without a row, neither a result nor an error.
   int left() const { return state_.total - state_.done(); }
 
   // The next message for the leader on this rank.
@@ -85,14 +88,14 @@ class FarmMaster {
   const MasterOptions options_;
   const double start_;
   const std::vector<Entry> entries_;
-  const std::vector<Run> runs_;          // of entries_
-  const std::vector<std::size_t> todo_;  // of runs_
-  std::size_t next_ = 0;                 // of todo_
+  const std::vector<Run> runs_;          // runs of entries_
+  const std::vector<std::size_t> todo_;  // indices into runs_
+  std::size_t next_ = 0;                 // index into todo_
   std::map<int, UnderWay> under_way_;    // by leader
-  std::vector<Row> finished_;            // not yet on disk
-  std::deque<int> asking_;               // leaders
-  std::deque<FarmMessage> own_;          // for the leader on this rank
-  BatchState state_;                     // what can be counted
+  std::vector<Row> finished_;            // rows not yet on disk
+  std::deque<int> asking_;               // leaders that wait for an assignment
+  std::deque<FarmMessage> own_;          // messages for the leader on this rank
+  BatchState state_;                     // only the fields that are counted
   bool stopping_ = false;
   int dismissed_ = 0;
   double next_csv_s_ = 0;

@@ -12,7 +12,7 @@ void serialize(Archive& archive, Entry& entry) {
   archive(entry.id, entry.path, entry.map, entry.agents, entry.digest);
 }
 
-// As it will stand in the table.
+// A row travels as its line in the table.
 template <typename Archive>
 void save(Archive& archive, const Report& report) {
   archive(json_line(report.row));

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// All that the ranks of a batch tell each other about who solves what.
+// Messages between the ranks of a batch about the assignment of instances.
 //
 //     leader of a group        master (rank 0)
 //       RequestWork   ->
-//                    <-   Assignment   or Dismissal, the last word to this leader
+//                    <-   Assignment   or NoMoreWork, the last message to this leader
 //                    <-   Stop         perhaps, while the leader has an assignment
 //       Report, or Aborted ->
 //       RequestWork   -> ...
 //
 //     leader                   each other rank of its group
-//       Assignment   ->        or Dismissal, the last word
+//       Assignment   ->        or NoMoreWork, the last message
 //                    <-   Ended
 #pragma once
 
@@ -22,7 +22,7 @@
 
 namespace grove::detail::batch {
 
-// The group has nothing to do.
+// The group is idle.
 struct RequestWork {
   friend bool operator==(const RequestWork&, const RequestWork&) = default;
 };
@@ -31,24 +31,24 @@ struct Report {
   Row row;
   friend bool operator==(const Report&, const Report&) = default;
 };
-// The group was interrupted; its assignment is to be solved another time.
+// The group was interrupted; its assignment is left for another run.
 struct Aborted {
   friend bool operator==(const Aborted&, const Aborted&) = default;
 };
-// Solve this.
+// Solve this instance.
 struct Assignment {
   Entry entry;
   friend bool operator==(const Assignment&, const Assignment&) = default;
 };
-// The run is to end: give up.
+// The run ends: abort the assignment.
 struct Stop {
   friend bool operator==(const Stop&, const Stop&) = default;
 };
-// There is nothing more to do.
+// No more instances are assigned.
 struct NoMoreWork {
   friend bool operator==(const NoMoreWork&, const NoMoreWork&) = default;
 };
-// The rank has ended its part of the assignment, with an error or without.
+// The rank has ended its part of the assignment. `error` is empty if it succeeded.
 struct Ended {
   std::string error;
   friend bool operator==(const Ended&, const Ended&) = default;
@@ -57,7 +57,7 @@ struct Ended {
 using FarmMessage = std::variant<RequestWork, Report, Aborted, Assignment, Stop, NoMoreWork, Ended>;
 
 std::string encode(const FarmMessage& message);
-// Throws std::invalid_argument when `bytes` are no message.
+// Throws std::invalid_argument if `bytes` is not a message.
 FarmMessage decode(std::string_view bytes);
 
 }  // namespace grove::detail::batch

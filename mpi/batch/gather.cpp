@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rank 0 hears all and tells all, so nobody can be a round ahead of anybody it hears from.
+// Rank 0 receives all texts and sends them to all ranks. So no rank can be a round ahead of a rank
+// that it receives from.
 #include "mpi/batch/gather.h"
 
 #include <utility>

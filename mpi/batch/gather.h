@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the ranks of a group come to know what each of them found.
+// All-gather among the ranks of a group, with polling.
 #pragma once
 
 #include <functional>
@@ -10,9 +10,9 @@
 
 namespace grove::detail::batch {
 
-// All ranks of `transport`: what each of them says, by rank. For what may fail on some of them only
-// (reading a file, say) before they do something that none can do alone. Nothing else may go over
-// `transport`; `wait` is called again and again until all have spoken.
+// Collective over `transport`: the text `mine` of each rank, by rank. Use it for an action that may
+// fail on some ranks only (reading a file, say), before a collective action. Nothing else may be
+// sent over `transport`. `wait` is called repeatedly until all ranks have called this.
 std::vector<std::string> gather(Transport& transport, const std::string& mine,
                                 const std::function<void()>& wait);
 

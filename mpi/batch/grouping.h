@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Which ranks solve an instance together.
+// Assignment of ranks to groups that solve an instance together.
 #pragma once
 
 namespace grove::detail::batch {
 
-// The ranks of the world in groups of `per_group` consecutive ones; the last may be smaller. The
-// first of each leads. Both numbers at least 1.
+// Partitions the ranks of the world into groups of `per_group` consecutive ranks; the last group
+// may be smaller. The first rank of each group is its leader. Both numbers are >= 1.
 struct Grouping {
   int ranks = 1;
   int per_group = 1;

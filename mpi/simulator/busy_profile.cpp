@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bins of one width, merged in pairs whenever time outgrows them.
+// The bins have one width. When the time exceeds the last bin, pairs of bins are merged.
 #include "mpi/simulator/busy_profile.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sets of optimal paths that many simulated ranks made, each once.
+// Interns MDDs: stores equal MDDs of many simulated ranks once.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@
 
 namespace grove::detail {
 
-// Each rank makes the sets that it needs for itself, and most need the same. What is equal need not
-// be in memory twice: two fifths of what 128 ranks hold otherwise on room-32-32-4 22/40, a quarter
-// of what 1,024 do. Of one thread.
+// Each rank builds the MDDs that it needs itself, and most ranks need the same MDDs. Storing equal
+// MDDs once saves memory on room-32-32-4 22/40: two fifths of what 128 ranks hold otherwise, a
+// quarter of what 1,024 ranks hold. One thread at a time.
 class MddInterner {
  public:
-  // One that is equal, if it is still in use; this one otherwise.
+  // Returns an equal stored MDD that is still in use. If there is none, stores and returns `set`.
   MddCache::Set one_of(const MddCache::Set& set);
 
   std::size_t size() const { return sets_.size(); }

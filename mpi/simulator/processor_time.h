@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The clock of one thread.
+// Processor time of a thread.
 #pragma once
 
 namespace grove::detail {
 
-// Seconds that the calling thread has had a processor.
+// Processor time of the calling thread, in seconds.
 double processor_time();
 
 }  // namespace grove::detail

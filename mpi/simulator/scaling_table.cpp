@@ -23,7 +23,7 @@ double ratio(double part, double whole) {
   return whole == 0 ? 0 : part / whole;
 }
 
-// By what part it is more than before.
+// The increase relative to `before`.
 double growth(double now, double before) {
   return ratio(now - before, before);
 }

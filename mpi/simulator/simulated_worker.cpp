@@ -14,8 +14,10 @@ void SimulatedWorker::begin(double now, Expander& expander) {
   worker_.perform(*turn_, expander);
   expander.exchange(kept_);
   for (auto& [id, set] : turn_->found.sets)
-    if (set.use_count() == 1) set = sets_.one_of(set);  // just made
-  Worker::publish(*turn_);  // nobody else on this rank asks before this turn has ended
+    if (set.use_count() == 1) set = sets_.one_of(set);  // just built
+  // Not too early: a simulated rank has one worker, so no other worker of the rank reads the
+  // results before this work item ends.
+  Worker::publish(*turn_);
   const double processor_s = processor_time() - before_s;
   const double work = expander.whole_work() - before + static_cast<double>(turn_->lagrangian.work);
   const double takes_s =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The worker of a simulated rank.
+// Worker of a simulated rank.
 #pragma once
 
 #include <cstdint>
@@ -11,32 +11,32 @@
 
 namespace grove::detail {
 
-// Plays a worker's turns on a simulated clock: between what a turn chooses and does and what others
-// see of it time passes, by its work. Of one thread.
+// Runs a worker's work items on a simulated clock. The results of an item are visible to other
+// ranks only after its simulated duration (Machine::seconds_per_work). One thread at a time.
 class SimulatedWorker {
  public:
   struct Tally {
     std::int64_t turns = 0;
     double work = 0;          // see search/work.h
-    double busy_s = 0;        // simulated
-    double processor_s = 0;   // that it really took
-    double first_turn_s = 0;  // if any: when it began
+    double busy_s = 0;        // simulated seconds
+    double processor_s = 0;   // real processor time
+    double first_turn_s = 0;  // when the first work item began, if any
   };
 
-  // All must outlive this. `sets`: of all workers.
+  // All arguments must outlive this. `sets` is shared by all workers.
   SimulatedWorker(Worker& worker, const Machine& machine, MddInterner& sets)
       : worker_(worker), machine_(machine), sets_(sets) {}
 
-  // Begins a turn if there is anything to do: it is busy then. The expander is any one of the same
-  // problem, and used as if it were this worker's own.
+  // Begins a work item if there is one; then the worker is busy. `expander` may be any expander of
+  // the same problem. It is used as if it were this worker's own.
   void begin(double now, Expander& expander);
   bool busy() const { return turn_.has_value(); }
-  // Of the present turn, or the last.
+  // Start and end of the current or last work item, in simulated seconds.
   double began() const { return began_; }
   double busy_until() const { return busy_until_; }
-  // Brings back what it led to.
+  // Ends the work item and commits its results.
   void end();
-  // The same before its time, for the end of a run: it led to nothing.
+  // Ends the work item early, without results, at the end of a run.
   void abandon(double now);
 
   const Tally& tally() const { return tally_; }
@@ -45,8 +45,8 @@ class SimulatedWorker {
   Worker& worker_;
   const Machine& machine_;
   MddInterner& sets_;
-  std::optional<Worker::WorkItem> turn_;  // none: not busy
-  Expander::Kept kept_;                   // as an expander of its own would
+  std::optional<Worker::WorkItem> turn_;  // nullopt: not busy
+  Expander::Kept kept_;                   // per-agent data that an expander of its own would keep
   double began_ = 0;
   double busy_until_ = 0;
   Tally tally_;

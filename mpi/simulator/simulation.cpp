@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Discrete events. A rank has a worker and a talker; an event is that one of them is due, and what
-// it does then makes others due. One thread plays all ranks with the engine's own coordinator,
-// ranks, nodes and workers, and one expander serves them all, which turns to the memory of the rank
-// whose turn it is, and to the agents as they were at that rank's last node: what a rank has found
-// out is its own, but for what others tell it.
+// Discrete-event simulation of a distributed search. Each rank has a worker and a communicator. An
+// event is a time at which one of them is due, and its actions make others due. One thread runs all
+// ranks with the engine's own coordinator, ranks, nodes and workers. One expander serves all
+// workers. For each work item it uses the caches of the item's rank and the agents as they were at
+// that rank's last node. So a rank has only its own results and those that other ranks sent to it.
 //
-// The talker looks at the network every so often, but that matters only if there is a message or
-// something new to say. So each cause of talk asks for the next look that there would be.
+// *Polls.* A communicator polls the network periodically, but a poll matters only if a message has
+// arrived or there is something new to send. So only the next poll after each such cause is
+// simulated.
 //
-// Between two looks nothing from without reaches a rank and nothing leaves it. So its worker's
-// turns up to the next look are played in one go: what a rank knows then stays in the processor's
-// caches, where those of a thousand ranks have no room.
+// *Batching.* Between two polls a rank neither receives nor sends anything. So all work items of
+// its worker up to the next poll are run in succession. This keeps the data of the rank in the
+// processor's caches, which cannot hold the data of a thousand ranks.
 #include "mpi/simulator/simulation.h"
 
 #include <algorithm>
@@ -35,13 +36,13 @@ namespace {
 constexpr double kNotDue = std::numeric_limits<double>::infinity();
 constexpr double kGoldenRatio = 0.6180339887;  // its multiples spread evenly over [0, 1)
 
-// Nobody looks for plans beside the tree.
+// The simulated search has no primal search.
 SolveOptions without_primal(SolveOptions options) {
   options.techniques = options.techniques.without(Technique::kPrimal);
   return options;
 }
 
-// What all ranks have in common.
+// Data shared by all ranks.
 struct Setting {
   Setting(const Problem& the_problem, const SolveOptions& the_options, const Limits& the_limits,
           int ranks, const Machine& the_machine)
@@ -81,14 +82,14 @@ struct SimulatedRank {
            member.rank().search().lagrangian().has_jobs();
   }
 
-  Limits limits;  // of its own, for ranks end one after the other
+  Limits limits;  // one per rank, because ranks end one after the other
   TimedTransport transport;
   RankProcess member;
   Worker worker;
   SimulatedWorker player;
-  double heard_at;  // last; looks at the network follow from it
+  double heard_at;  // when the last message was handled; the poll times follow from it
   double talk_due = kNotDue;
-  double talks_until = 0;  // now, or did last
+  double talks_until = 0;  // end of the current or last communication
   double talking_s = 0;
   double talking_processor_s = 0;
   bool said_farewell = false;
@@ -125,7 +126,7 @@ class Simulation {
   enum class Who : std::uint8_t { kTalker, kWorker };
   struct Event {
     double time;
-    std::int64_t serial;  // the order in which events were foreseen
+    std::int64_t serial;  // number of the event in order of scheduling
     int rank;
     Who who;
   };
@@ -138,14 +139,14 @@ class Simulation {
   SimulatedRank& at(int rank) { return ranks_[static_cast<std::size_t>(rank)]; }
   void foresee(double time, int rank, Who who) { agenda_.push({time, serial_++, rank, who}); }
 
-  // When its talker can speak or listen, at `time` or later.
+  // The first time at `time` or later at which the rank can communicate.
   double first_talk(SimulatedRank& r, double time) const {
     const double interval = max_poll_interval(r.member.rank().ended(), setting_.machine.poll);
     if (time > r.talks_until) time = next_poll(r.heard_at, time, interval);
     return std::max(time, r.talks_until);
   }
 
-  // There is cause for this rank's talker to look at the network at `time` or soon after.
+  // Schedules a poll of the rank at `time` or soon after.
   void talk_from(double time, int rank) {
     SimulatedRank& r = at(rank);
     time = first_talk(r, time);
@@ -156,7 +157,7 @@ class Simulation {
 
   void talk(int rank) {
     SimulatedRank& r = at(rank);
-    if (r.talk_due != now_) return;  // it was due before
+    if (r.talk_due != now_) return;  // the rank has communicated already
     r.talk_due = kNotDue;
     setting_.talk = {};
     const double before_s = processor_time();
@@ -171,7 +172,7 @@ class Simulation {
     if (heard) r.heard_at = r.talks_until;
   }
 
-  // What follows from the talk that this rank began at `time`.
+  // Schedules the consequences of the communication that this rank began at `time`.
   void talked(int rank, double time) {
     SimulatedRank& r = at(rank);
     r.talks_until = time + setting_.talk.takes_s;
@@ -188,7 +189,7 @@ class Simulation {
     wall_s_ = std::max(wall_s_, r.talks_until);
   }
 
-  // Turns of the worker, up to the first that others may have a say in.
+  // Runs work items of the rank's worker until the first whose end may depend on other ranks.
   void work(int rank) {
     SimulatedRank& r = at(rank);
     if (r.said_farewell) return;
@@ -201,7 +202,8 @@ class Simulation {
     foresee(r.player.busy_until(), rank, Who::kWorker);
   }
 
-  // False: what it works on takes longer; this was foreseen before that was begun.
+  // Ends the current work item. Returns false if it ends after `time`: then this event was
+  // scheduled before the item began.
   bool cancel_workers(int rank, double time) {
     SimulatedRank& r = at(rank);
     if (r.player.busy_until() > time) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What talking costs a simulated rank.
+// Transport of a simulated rank that accounts for the cost of communication.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,19 @@
 
 namespace grove::detail {
 
-// What a rank says and hears at one go, which begins at the network's present time. A value.
+// The cost of one exchange of messages by a rank, which begins at the current time of the network.
+// A value.
 struct Talk {
-  double takes_s = 0;          // so far
-  std::vector<int> receivers;  // of what was sent
+  double takes_s = 0;          // seconds so far
+  std::vector<int> receivers;  // receivers of the messages sent
 };
 
-// A rank's end of a simulated network, where each message takes the time of whoever talks. Of one
-// thread.
+// A rank's transport on a simulated network, where each message costs time of the rank that sends
+// or receives it. One thread at a time.
 class TimedTransport : public Transport {
  public:
-  // All must outlive this. `talk` is the one under way, whoever talks; messages that it sends leave
-  // when it has taken so long.
+  // All arguments must outlive this. `talk` is the exchange in progress, of any rank. A message
+  // that it sends leaves when the exchange has taken `talk.takes_s`.
   TimedTransport(SimulatedNetwork& network, int rank, const Machine& machine, Talk& talk)
       : network_(network), end_(network.at(rank)), machine_(machine), talk_(talk) {}
 
@@ -32,9 +33,9 @@ class TimedTransport : public Transport {
   int ranks() const override { return end_.ranks(); }
   std::optional<ReceivedMessage> receive() override;
 
-  // Messages, so far.
+  // Messages received so far.
   std::int64_t received() const { return received_; }
-  // Seconds between the arrival of each and its being dealt with, summed.
+  // Seconds between arrival and handling, summed over the messages received.
   double waited_s() const { return waited_s_; }
 
  private:
