@@ -31,8 +31,8 @@ struct NodeRecord {
 // O(depth + length of the paths).
 NodeRecord record_of(const Node& node);
 
-// Throws std::invalid_argument if the record cannot be one of this instance: an agent that does not
-// exist, a path that is no walk, a bound below the root's.
+// Throws std::invalid_argument if the record cannot be one of this instance: an agent or place that
+// does not exist, a path that is no walk, a bound below the root's or below its cost.
 void check(const NodeRecord& record, const Node& root, const Instance& instance);
 
 // Recreates the node below the root of its tree, or below the root of a tree that fixes the same.

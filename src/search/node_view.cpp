@@ -36,7 +36,7 @@ void NodeView::look_at_constraints() {
     canonical(kept_.constraints[agent]);
     kept_.situations[agent] = {};
     std::swap(demands_[agent],
-              kept_.demands[agent]);  // last, because a line above may throw std::bad_alloc
+              kept_.demands[agent]);  // last: the rest may throw
   }
 }
 

@@ -73,7 +73,7 @@ void PebbleGraph::number(const World& world, Place root) {
 
 // Runs backwards, so that a node is complete before its parent.
 void PebbleGraph::find_blocks() {
-  std::vector<PebbleNode> highest(size());  // node adjacent to the node's subtree
+  std::vector<PebbleNode> highest(size());  // least node adjacent to the subtree
   for (PebbleNode node = 0; node < size(); ++node) {
     highest[node] = node;
     for (const PebbleNode other : neighbors(node))
