@@ -35,8 +35,7 @@ void NodeView::look_at_constraints() {
     kept_.constraints[agent] = demands_[agent];
     canonical(kept_.constraints[agent]);
     kept_.situations[agent] = {};
-    std::swap(demands_[agent],
-              kept_.demands[agent]);  // last: the rest may throw
+    std::swap(demands_[agent], kept_.demands[agent]);  // last: the rest may throw
   }
 }
 

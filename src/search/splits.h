@@ -12,8 +12,8 @@
 namespace grove::detail {
 
 // Appends the splits that these techniques allow for a conflict of `paths` (by AgentIndex): the
-// standard split of CBS, then those of symmetry reasoning. The best one to take without evaluation
-// comes first.
+// standard split of CBS, then those of symmetry reasoning, the one to prefer without evaluation
+// first.
 void splits_of(const Conflict& conflict, std::span<const Path> paths, const Problem& problem,
                Techniques techniques, std::vector<Split>& splits);
 

@@ -7,9 +7,9 @@
 // respects all constraints of the node on them. *Claim: in every plan that satisfies the node's
 // constraints, these two agents cost together at least the least cost among the open nodes of that
 // search.* *Proof.* Splitting loses no plan, and the other agents cannot make these two cheaper.
-// *Consequence.* A search that is aborted early leaves a valid bound. A search whose least-cost open
-// node is conflict-free yields the exact value. Let `slack` be the largest excess below the cutoff. A child
-// that reaches the cutoff is pruned and counts as an excess of slack + 1.
+// *Consequence.* A search that is aborted early leaves a valid bound. A search whose least-cost
+// open node is conflict-free yields the exact value. Let `slack` be the largest excess below the
+// cutoff. A child that reaches the cutoff is pruned and counts as an excess of slack + 1.
 //
 // *Joint MDDs.* Before that search, the MDDs of the two agents are compared
 // (planning/joint_mdd_search.cpp). If some pair of their paths does not collide, the excess is 0.
