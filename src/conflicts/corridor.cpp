@@ -26,8 +26,7 @@
 //
 // Turning round inside and starting inside are no traversals and stay allowed. Nothing is said
 // about the order of visits or about other passages. Each path of the conflict violates its branch.
-// The split states "which agent passes first" by times only, without
-// labels.
+// The split states "which agent passes first" by times only, without labels.
 #include <algorithm>
 #include <array>
 

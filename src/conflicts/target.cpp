@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Target reasoning (Li, Harabor, Stuckey, Ma, Gange and Koenig, AIJ 2021), without
-// its labels, for agents with several goals.
+// Target reasoning (Li, Harabor, Stuckey, Ma, Gange and Koenig, AIJ 2021), without its
+// labels, for agents with several goals.
 //
 // *Problem.* Agent a stays on place v for ever from time f on, and b passes v at t >= f. The
 // standard split bars a from v at t, so that a arrives later or steps aside and returns, or it bars

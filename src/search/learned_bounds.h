@@ -31,9 +31,9 @@ struct LearnedBound {
   SubproblemTable::Known cost;           // if there is one agent
   DependencyTable::Known excess;         // if there are several
 
-  // Expected benefit of sending this bound. It rises with the effort that the bound took, is higher
-  // if the bound is positive, and falls with the number of constraints, because subproblems with
-  // few constraints recur more often.
+  // Expected benefit of sending this bound. It rises with the expansions that the bound took, is
+  // higher if the excess is positive, and falls with the size of the constraints, because
+  // subproblems with few constraints recur more often.
   double utility() const;
 };
 

@@ -42,7 +42,7 @@ class NodeView {
 
   // Loads a node. `scope` lists the agents in scope in ascending order.
   void enter(const NodePtr& node, std::span<const AgentIndex> scope);
-  // Releases the node.
+  // Drops the reference to the node.
   void leave() { node_ = nullptr; }
   // Swaps the per-agent data between two nodes. So one view can serve several workers as if each
   // had its own view: the caller keeps the data of each and swaps them in.

@@ -30,7 +30,7 @@ enum class Technique : std::uint8_t {
   kJointSearch,      // A* over joint states, if there are few agents and places
   kLagrangian,       // Lagrangian bound, if there are many agents
   kJointGroups,      // A* over joint states of pairs and groups that splits do not solve
-  kPricedPlans,      // LNS guided by the multipliers of the Lagrangian bound
+  kPricedPlans,      // LNS: the Lagrangian multipliers choose which paths to re-plan, and where to
 };
 
 struct NamedTechnique {

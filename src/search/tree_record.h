@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Serializable trees, and the forest that recreates them.
+// Serializable trees, and the container that recreates trees from them.
 #pragma once
 
 #include <cstddef>

@@ -19,7 +19,7 @@ namespace grove::detail {
 // How much effort the bound of a node may take before the node is split.
 enum class BoundingEffort : std::uint8_t {
   kFull,
-  kCachedOnly,  // for its children: only cached results, no new search
+  kCachedOnly,  // to get its children sooner: only cached results, no new search
 };
 
 // Weighted pairwise-dependency heuristic of CBS (WDG: Li et al., IJCAI 2019), with a cache that
@@ -35,7 +35,7 @@ class WdgHeuristic {
     kDone,
     kUnfinished,  // Tuning::bound_work was reached, so that other work can run; the next call for
                   // the same node continues
-    kStopped,  // a limit was reached
+    kStopped,     // a limit was reached
   };
 
   // Helps other workers that bound the same node with the same shared cache: solves pairs, starting
@@ -56,7 +56,7 @@ class WdgHeuristic {
   // Key of the lemma which proves that such a split loses no plan. `view` has entered the node.
   ProofKey why(NodeView& view, const Split& split);
 
-  // Releases all nodes.
+  // Drops all references to nodes.
   void leave();
 
   // Counters since construction: expansions for pairs and groups, pairs of places compared in joint
