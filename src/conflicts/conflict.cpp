@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Two arrays hold who is where now and one step ago, as a list per place, and a third one who has
-// come to rest there and need not be looked at again; entries carry a stamp that grows for ever, so
-// nothing is ever cleared.
+// Two arrays hold the moving agents by place, one for now and one for a step ago, as linked lists.
+// A third one holds the agents that have come to rest, which need not be visited again. Entries
+// carry a stamp that only grows, so the arrays are never cleared.
 #include "conflicts/conflict.h"
 
 #include <algorithm>
@@ -13,7 +13,8 @@ namespace grove::detail {
 Split split(const Conflict& c) {
   GROVE_ASSERT(c.first >= 0 && c.first < c.second, "two agents conflict");
   if (c.is_following()) {
-    // Whoever leaves may not have been there just before, or the other not enter then.
+    // Either the leaving agent must not have been there just before, or the follower must not enter
+    // then.
     const auto bar = [&](AgentIndex agent) {
       const Time time = agent == c.follower ? c.time : c.time - 1;
       return Constraint{c.cell, kNoPlace, time, time};
@@ -58,7 +59,7 @@ void ConflictFinder::begin(std::span<const Path> paths, std::span<const AgentInd
     by_agent->resize(std::max(by_agent->size(), paths.size()));
 }
 
-// Moves everybody on to `time`; whose path has ended rests from then on.
+// Moves all agents to `time`. An agent whose path has ended rests from then on.
 void ConflictFinder::step(std::span<const Path> paths, Time time) {
   const auto rests = [&](AgentIndex agent) {
     if (time < static_cast<Time>(paths[agent].size())) return false;
@@ -74,7 +75,7 @@ void ConflictFinder::step(std::span<const Path> paths, Time time) {
   }
 }
 
-// In the order of the second agents, and of one of these from the nearest first one on.
+// Sorts the conflicts of one time by `second` ascending, then `first` descending.
 void ConflictFinder::meet_all(Time time, std::vector<Conflict>& conflicts) {
   const auto first = std::ssize(conflicts);
   for (const AgentIndex agent : moving_) meet(agent, time, conflicts);
@@ -84,7 +85,7 @@ void ConflictFinder::meet_all(Time time, std::vector<Conflict>& conflicts) {
   });
 }
 
-// Puts the agent where it is, and reports whom it meets there.
+// Enters the agent at its place and reports its vertex conflicts there.
 void ConflictFinder::meet(AgentIndex agent, Time time, std::vector<Conflict>& conflicts) {
   const Place place = now_[agent];
   Visit& visit = visits_[time % 2][place];
@@ -102,7 +103,7 @@ void ConflictFinder::meet(AgentIndex agent, Time time, std::vector<Conflict>& co
     report(other);
 }
 
-// Who rests swaps with nobody.
+// A resting agent swaps with no other.
 void ConflictFinder::swap_all(AgentIndex agent, Time time, std::vector<Conflict>& conflicts) const {
   const Place to = now_[agent];
   const Place from = before_[agent];
@@ -113,7 +114,7 @@ void ConflictFinder::swap_all(AgentIndex agent, Time time, std::vector<Conflict>
     if (agent < other && now_[other] == from) conflicts.push_back({agent, other, to, from, time});
 }
 
-// Those that stay are met, those that come the other way swapped with.
+// Agents that stay are vertex conflicts, and agents in the opposite direction are swaps.
 void ConflictFinder::follow_all(AgentIndex agent, Time time,
                                 std::vector<Conflict>& conflicts) const {
   const Place to = now_[agent];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where two plans collide (docs/design.md, section 1; vertex and edge conflicts of CBS, Sharon et
+// Conflicts between paths (docs/design.md, section 1; vertex and edge conflicts of CBS, Sharon et
 // al. 2015).
 #pragma once
 
@@ -13,9 +13,9 @@
 
 namespace grove::detail {
 
-// Two agents that are on one place at one time, or that swap places in one step; or, where that is
-// forbidden (Instance::may_follow), one that enters a place in the step in which the other leaves
-// it.
+// A vertex conflict: two agents are on one place at the same time. An edge conflict: they swap
+// places in one step. Or, where it is forbidden (Instance::may_follow), a following conflict: an
+// agent enters a place in the step in which the other leaves it.
 struct Conflict {
   AgentIndex first = -1;
   AgentIndex second = -1;
@@ -30,21 +30,21 @@ struct Conflict {
   bool is_following() const { return follower >= 0; }
 };
 
-// Two demands of which every conflict-free plan meets at least one.
+// Two constraints, at least one of which every conflict-free plan satisfies.
 using Split = std::array<AgentConstraint, 2>;
 
-// Standard CBS splitting: every pair of paths without this conflict obeys at least one of the two.
+// Standard CBS split: every pair of paths without this conflict satisfies at least one constraint.
 Split split(const Conflict& conflict);
 
-// Finds conflicts among paths. Workspace of one thread: reuse it, do not share it.
+// Finds conflicts among paths. One thread at a time; reuse it.
 class ConflictFinder {
  public:
   // `world` must outlive this. `may_follow`: see Instance.
   explicit ConflictFinder(const World& world, bool may_follow = true);
 
-  // Every conflict among the paths of `agents` (`paths` is by AgentIndex), in order of time;
-  // `first` < `second` in each. Of two agents that stand on one place together only the first time.
-  // Replaces `conflicts`. O(agents * time + conflicts).
+  // Replaces `conflicts` by all conflicts among the paths of `agents`, in order of time; `paths` is
+  // by AgentIndex, and `first` < `second` in each. If two agents stay on one place together, only
+  // the first time counts. O(agents * time + conflicts).
   void all(std::span<const Path> paths, std::span<const AgentIndex> agents,
            std::vector<Conflict>& conflicts);
 
@@ -64,12 +64,12 @@ class ConflictFinder {
   const World& world_;
   const bool may_follow_;
   std::int64_t base_ = 0;
-  std::vector<AgentIndex> moving_;            // whose paths have not ended, in ascending order
-  std::vector<Place> now_, before_;           // where they are, by agent
-  std::array<std::vector<Visit>, 2> visits_;  // of these: by parity of the time, then by place
-  // Who else is there: by parity of the time, then by agent; -1 ends the list.
+  std::vector<AgentIndex> moving_;   // agents whose paths have not ended, in ascending order
+  std::vector<Place> now_, before_;  // their places, by agent
+  std::array<std::vector<Visit>, 2> visits_;  // of moving agents: by parity of time, then by place
+  // Linked list of the other agents there: by parity of time, then by agent; -1 ends the list.
   std::array<std::vector<AgentIndex>, 2> also_there_;
-  std::vector<Visit> rests_;            // of the others, by place; the stamp is base_
+  std::vector<Visit> rests_;            // of resting agents, by place; the stamp is base_
   std::vector<AgentIndex> also_rests_;  // as also_there_
 };
 

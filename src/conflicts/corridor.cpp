@@ -1,29 +1,32 @@
 // SPDX-License-Identifier: MIT
-// Two agents that meet head on in a corridor conflict at one place, but barring one of them from
-// there moves the conflict along by a step: CBS tries all places and times before it finds that one
-// agent must wait until the other is through (corridor symmetry: Li et al., ICAPS 2020). Corridor
-// reasoning with bans on the corridor's ends would forbid an agent with several goals to come back
-// later on another errand. What must be forbidden is one *traversal*.
+// Corridor reasoning (corridor symmetry: Li et al., ICAPS 2020), for agents with several goals.
 //
-// A chain has k moves from end to end, and its inner places have two neighbors each. An agent
-// *traverses* it when it moves from one end into it and leaves it for the other end without having
-// left it in between; p is the time at which it arrives at that other end.
+// *Problem.* Two agents that meet head on in a corridor conflict at one place. If one of them is
+// barred from there, the conflict moves along by a step: CBS tries all places and times before it
+// finds that one agent must wait until the other is through. Range constraints on the ends of the
+// corridor, as Li et al. use them, would forbid an agent with several goals to return later for
+// another one. Only one *traversal* must be forbidden.
+//
+// *Definitions.* A corridor ("chain" in names) has k moves from end to end, and its inner places
+// have two neighbours each. An agent *traverses* it when it moves from one end into it and leaves
+// it at the other end without having left it in between. It arrives at that other end at time p.
 //
 // *Claim: two traversals in opposite directions that arrive at p and q with |p - q| <= k collide.*
-// Let a's last time on the end where it enters be s <= p - k, b's r <= q - k. Both are on the chain
-// or its ends in I = [max(s, r), min(p, q)], which is not empty: s <= p - k <= q and r <= q - k <=
-// p. Number the places 0 .. k along a's way. When I begins, a is at 0 or b at k; when it ends, a is
-// at k or b at 0. So a's place is first at most, and at last at least, b's. Per step the difference
-// grows by 2 at most: it is 0 at some time (one place), or jumps from -1 to 1 (a swap).
+// *Proof.* Let s <= p - k be a's last time on the end where it enters, and r <= q - k that of b.
+// Both are on the corridor or its ends in I = [max(s, r), min(p, q)]. I is not empty, because s <=
+// p - k <= q and r <= q - k <= p. Number the places 0 .. k in a's direction. At the beginning of I,
+// a is at 0 or b at k; at its end, a is at k or b at 0. So a's place is at most b's at the
+// beginning and at least b's at the end. Per step the difference grows by at most 2. So it is 0 at
+// some time (a vertex conflict), or jumps from -1 to 1 (an edge conflict).
 //
-// So of all pairs of times p' in [p, q + k], q' in [q, p + k] none is free of collision: p' - q' <=
-// k and q' - p' <= k. Every conflict-free plan therefore obeys one of
+// *Consequence.* No pair of times p' in [p, q + k], q' in [q, p + k] is free of collision, because
+// p' - q' <= k and q' - p' <= k. So every conflict-free plan satisfies one of
 //
 //   a does not arrive by traversal in [p, q + k]    |    b does not in [q, p + k].
 //
-// Turning round inside, and starting inside, are no traversals and stay allowed; nothing is said
-// about the order of visits or about other passages. Both paths of the conflict break their side.
-// "Who passes first" as a statement about time alone, without labels.
+// Turning round inside and starting inside are no traversals and stay allowed. Nothing is said
+// about the order of visits or about other passages. Each path of the conflict violates its branch.
+// The split states "which agent passes first" by times only, without labels.
 #include <algorithm>
 #include <array>
 
@@ -32,19 +35,19 @@
 namespace grove::detail {
 namespace {
 
-// An agent's way through a chain.
+// An agent's passage through a corridor.
 struct Traversal {
   bool forward;  // from the front to the back
-  Time arrival;  // at the end
-  Place end;     // where it leaves
-  Place last;    // the inner place before
+  Time arrival;  // at the far end
+  Place end;     // the end where it leaves
+  Place last;    // the inner place before `end`
 };
 
 bool is_inner(const Corridors& corridors, int chain, Place place) {
   return corridors.corridor_of(place) == chain;
 }
 
-// The traversal of `chain` during which the path is inside at `time`.
+// The traversal of corridor `chain` during which the path is inside at `time`.
 std::optional<Traversal> traversal_at(const World& world, const Corridors& corridors, int chain,
                                       const Path& path, Time time) {
   const auto place = [&](Time t) { return world.place(path[t]); };
@@ -67,7 +70,7 @@ std::optional<Traversal> traversal_at(const World& world, const Corridors& corri
   return Traversal{from_front, arrival, place(arrival), place(arrival - 1)};
 }
 
-// The traversal that the path is in at `time`, or ends or begins then.
+// The traversal that contains `time`, or ends or begins then.
 std::optional<Traversal> traversal_near(const World& world, const Corridors& corridors, int chain,
                                         const Path& path, Time time) {
   for (const Time t : {time, time - 1, time + 1})
@@ -96,7 +99,7 @@ std::optional<Split> split_on(const Conflict& conflict, std::span<const Path> pa
 std::optional<Split> corridor_split(const Conflict& conflict, std::span<const Path> paths,
                                     const World& world, const Corridors& corridors) {
   if (conflict.is_following()) return std::nullopt;
-  // Where both are, or - when they meet on an end - where one of them comes from.
+  // The places of both agents or, if they meet on an end, the places they came from.
   const std::array<Place, 4> places{
       conflict.cell, conflict.is_swap() ? conflict.from : conflict.cell,
       place_at(world, paths[conflict.first], std::max(0, conflict.time - 1)),

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Splitting a sequence class (Lawler 1972, as in the paper's K-best sequences, but on a node of the
-// constraint tree and where a conflict asks for it).
+// Splits a sequence class at a node of the constraint tree (Lawler 1972; the paper's K-best
+// sequences use the same partition, but not at nodes and not in response to a conflict).
 //
-//   kStopIs:    the next stop counted is the one that the agent now goes to;
-//   kStopIsNot: it is another.
+//   kStopIs:    the next stop counted is the one to which the agent goes now;
+//   kStopIsNot: it is another one.
 //
-// *No plan is lost*: a path that realizes a sequence of the class realizes one of the first kind or
-// one of the second (or both: the sides share no sequence, but may share paths).
+// *Claim: no plan is lost.* *Proof.* A path that realizes a sequence of the class realizes one of
+// the first branch or one of the second. (Or of both: the branches share no sequence, but may share
+// paths.)
 //
-// The path at hand obeys the first side, so no split on sequences raises the cost of both sides.
-// What it does is to take away ties: with the order settled, the conflicts left are dearer.
+// The current path satisfies the first branch, so no split on sequences raises the cost of both
+// branches. Its benefit is to remove ties: with the order fixed, the remaining conflicts cost more.
 #include "conflicts/sequence_split.h"
 
 #include <bit>

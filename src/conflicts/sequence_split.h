@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Splitting a sequence class.
+// Splits of a sequence class.
 #pragma once
 
 #include "conflicts/conflict.h"
@@ -7,13 +7,13 @@
 
 namespace grove::detail {
 
-// The split "the agent's next stop is the one that `sequence` has there | it is another", where
-// `work`, the class that the agent is in, leaves it open: `sequence` must be of that class, and
-// longer than its prefix. The essay is at the head of sequence_split.cpp.
+// The split "the agent's next stop is the one that `sequence` has there | it is another". `work` is
+// the agent's class and must leave the stop open: `sequence` must be in the class and longer than
+// its prefix. The argument is at the head of sequence_split.cpp.
 Split sequence_split(AgentIndex agent, const AgentStops& stops, const SequenceClass& work,
                      const Sequence& sequence);
 
-// Does the class leave a choice of the next stop?
+// True if the class leaves a choice of the next stop.
 bool leaves_choice(const AgentStops& stops, const SequenceClass& work);
 
 }  // namespace grove::detail

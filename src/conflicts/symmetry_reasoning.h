@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Splits that say more than "not here, not now": one function for each kind of conflict that is
-// reasoned about. The argument why no plan is lost is at the head of the file that is named.
+// Splits by symmetry reasoning, one function per kind of conflict. The proof that no plan is lost
+// is at the head of the named file.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,15 @@
 
 namespace grove::detail {
 
-// If one agent of the conflict has come to rest where the other passes: the split "it does not come
-// to rest there by then | it does, and nobody else is there from then on". target.cpp.
+// Target reasoning, if one agent of the conflict has come to rest where the other passes: the split
+// "it does not come to rest there by then | it does, and no other agent is there from then on". See
+// target.cpp.
 std::optional<Split> target_split(const Conflict& conflict, std::span<const Path> paths,
                                   const World& world, const Corridors& corridors);
 
-// If the two agents of the conflict meet while they pass a chain in opposite directions: the split
-// "the one does not leave it at its end at these times | the other does not at its own".
-// traversal.cpp.
+// Corridor reasoning, if the two agents of the conflict meet while they traverse a corridor in
+// opposite directions: the split "one agent does not leave it at its far end at these times | the
+// other does not at its own". See corridor.cpp.
 std::optional<Split> corridor_split(const Conflict& conflict, std::span<const Path> paths,
                                     const World& world, const Corridors& corridors);
 

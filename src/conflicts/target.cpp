@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Target reasoning (Li, Harabor, Stuckey, Ma, Gange and Koenig, AIJ 2021), without its labels.
+// Target reasoning (Li, Harabor, Stuckey, Ma, Gange and Koenig, AIJ 2021), without its
+// labels, for agents with several goals.
 //
-// Agent a is on place v from time f on for ever, and b passes v at t >= f. The standard split bars
-// a from v at t, which makes it come later or step aside and back, or b; and the same again for t +
-// 1, for t + 2, ... Splitting on the fact that matters settles all of them at once:
+// *Problem.* Agent a stays on place v for ever from time f on, and b passes v at t >= f. The
+// standard split bars a from v at t, so that a arrives later or steps aside and returns, or it bars
+// b; the same repeats for t + 1, t + 2, ... The following split resolves all of these conflicts at
+// once:
 //
-//   kNoRestBy: a does not come to v for good at t or earlier;
-//   kRestBy:   a comes to v for good at t or earlier. Then a is on v at every time from t on, so no
-//              other agent is: they all are barred from v from t on.
+//   kNoRestBy: a does not arrive at v for good at t or earlier;
+//   kRestBy:   a arrives at v for good at t or earlier. Then a is on v at every time from t on, so
+//              no other agent is: all others are barred from v from t on.
 //
-// *No plan is lost*: the two are each other's negation, whatever the agents' orders of visits and
-// whether a has a destination or may end on any of its tasks. *Both children differ from the
-// parent*: a's path breaks the first, b's what follows from the second.
+// *Claim: no plan is lost.* The two constraints are each other's negation, whatever the agents'
+// orders of visits, and whether a has a destination or may end on any of its tasks. *Claim: both
+// children differ from the parent.* The path of a violates the first constraint, and the path of b
+// violates what follows from the second.
 #include "conflicts/symmetry_reasoning.h"
 
 namespace grove::detail {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a few agents cost more together under the demands of a node, by joint search.
+// Excess of a small group of agents under the constraints of a node, by joint A*.
 #pragma once
 
 #include <cstdint>
@@ -13,23 +13,24 @@
 
 namespace grove::detail {
 
-// A* over the joint states of a group, where splitting its conflicts does not end. The essay is at
-// the head of joint_groups.cpp. Of one thread.
+// A* over the joint states of a group, for groups whose conflicts splitting does not resolve. The
+// argument is at the head of joint_groups.cpp. One thread at a time.
 class JointGroups {
  public:
   using Known = DependencyTable::Known;
 
-  // All must outlive this; `planner` may be shared with others of the same thread.
+  // All arguments must outlive this. `planner` may be shared with others of the same thread.
   JointGroups(const Instance& instance, const Tuning& tuning, PathPlanner& planner)
       : instance_(instance), tuning_(tuning), planner_(planner) {}
 
-  // Raises what is known of agents in the scope of `view`, in ascending order: by how much they
-  // cost more together, under what its node demands of them, than their paths there. Plans in which
-  // that is more than `slack` are of no interest. False: a limit struck.
+  // Raises `known`, the excess of the agents `group`: by how much they cost more together, under
+  // the constraints of the node of `view`, than their paths there. The agents are in the scope of
+  // `view` and in ascending order. Stops at an excess above `slack`. Returns false if a limit was
+  // reached.
   bool settle(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
               const Limits& limits, Known& known);
 
-  // Joint states looked at so far; and what all has cost, in the unit of search/work.h.
+  // Joint states expanded so far, and the effort of all calls in the unit of search/work.h.
   std::int64_t states() const { return states_; }
   std::int64_t work() const;
 
@@ -43,7 +44,7 @@ class JointGroups {
   PathPlanner& planner_;
   std::int64_t states_ = 0;
   std::int64_t joint_work_ = 0;
-  std::int64_t give_up_at_ = 0;  // of work()
+  std::int64_t give_up_at_ = 0;  // a value of work()
 };
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What was found out about agents, as values that mean the same in every process of a run.
+// Learned bounds on agents and groups, as values that mean the same in every process of a run.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace grove::detail {
 
-// An agent with the order of visits that it has in a tree, under constraints.
+// A subproblem as a value: an agent, the tree that fixes its sequence class, and constraints.
 struct SubproblemRecord {
   std::uint32_t tree = 0;
   AgentIndex agent = -1;
@@ -24,23 +24,25 @@ struct SubproblemRecord {
   friend bool operator==(const SubproblemRecord&, const SubproblemRecord&) = default;
 };
 
-// What one agent costs, or by how much several cost more together than each alone.
+// A lower bound on the cost of one agent, or on the excess of several agents together over the sum
+// of their individual costs.
 struct LearnedBound {
-  std::vector<SubproblemRecord> agents;  // one or more, in ascending order of agents
-  SubproblemTable::Known cost;           // of one agent,
-  DependencyTable::Known excess;         // of several
+  std::vector<SubproblemRecord> agents;  // one or more, in ascending order of `agent`
+  SubproblemTable::Known cost;           // if there is one agent
+  DependencyTable::Known excess;         // if there are several
 
-  // How much there is to gain by telling it: what took long to find out, raises a bound, and comes
-  // up again, as few constraints do more often than many.
+  // Expected benefit of sending this bound. It rises with the expansions that the bound took, is
+  // higher if the excess is positive, and falls with the size of the constraints, because
+  // subproblems with few constraints recur more often.
   double utility() const;
 };
 
-// The trees that facts are about. Of one thread.
+// Index of the trees that learned bounds refer to. One thread at a time.
 class TreeIndex {
  public:
   // `tree` must outlive this.
   void add(const Tree& tree);
-  // Null: none here.
+  // Return nullptr if there is no such tree here.
   const Tree* of(const AgentSequencing& order) const;
   const Tree* numbered(std::uint32_t number) const;
 
@@ -49,13 +51,14 @@ class TreeIndex {
   std::map<std::uint32_t, const Tree*> by_number_;
 };
 
-// News of `memory`, as facts; but for what is of no tree in `trees`.
+// Converts new entries of `memory` to learned bounds. Leaves out those of trees that are not in
+// `trees`.
 std::vector<LearnedBound> facts_of(const NewEntries& news, const SharedCache& memory,
                                    const TreeIndex& trees);
 
-// Adds a fact to what `memory` knows, unless it is of a tree that is not known here. Throws
-// std::invalid_argument, and learns nothing, for what cannot be: no agent, one that is not there,
-// or agents in another order.
+// Merges a learned bound into `memory`, or ignores it if its tree is not in `trees`. Throws
+// std::invalid_argument, and changes nothing, if the bound is impossible: no agent, an agent that
+// does not exist, or agents that are not in ascending order.
 void merge(LearnedBound fact, const TreeIndex& trees, SharedCache& memory);
 
 }  // namespace grove::detail

@@ -6,7 +6,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kBytesPerEntry = 80;  // about: of the table, and of a set's owners
+constexpr std::size_t kBytesPerEntry = 80;  // approximate: hash table entry and shared_ptr
 
 std::size_t bytes_of(const MddCache::Set& set) {
   return kBytesPerEntry + set->bytes();

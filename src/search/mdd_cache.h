@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sets of optimal paths of agents in situations, kept for whoever asks next.
+// Cache of MDDs by subproblem.
 #pragma once
 
 #include <atomic>
@@ -14,34 +14,36 @@
 
 namespace grove::detail {
 
-// All optimal paths by situation: those that were asked for lately. The *young* were since the last
-// time that there were too many, the *old* between then and the time before. All methods may be
-// called from any thread.
+// MDDs of the subproblems that were requested recently, in two generations. An MDD is *young* if it
+// was requested since the last trim() that took effect, *old* if it was requested only between that
+// one and the one before. Thread-safe.
 class MddCache {
  public:
   using Set = std::shared_ptr<const Mdd>;
 
-  // More than this of young ones are too many. (Simulated, room-32-32-4 with 40 agents, scenario 4:
-  // three times as many save 2 % of the work, and take 1.6 times the memory.)
+  // Size of the young generation at which trim() takes effect, in bytes. Measured by simulation on
+  // room-32-32-4 with 40 agents, scenario 4: three times as much saves 2 % of the work and takes
+  // 1.6 times the memory.
   static constexpr std::size_t kMostYoungBytes = std::size_t{16} << 20;
   explicit MddCache(std::size_t most_young_bytes = kMostYoungBytes)
       : most_young_bytes_(most_young_bytes) {}
 
-  // Null: not known.
+  // Returns nullptr if it is not cached.
   Set find(SubproblemTable::Id id) const;
-  // The set of a situation, which was asked for: from now on it is young.
+  // Adds the MDD of a requested subproblem, or marks it as young.
   void add(SubproblemTable::Id id, const Set& set);
 
-  // Makes the set of the situation that the arguments are, of least cost `cost`. Empty if it takes
-  // more than `most_nodes`; null if a limit struck. `planner` is the calling thread's.
+  // Builds the MDD of the subproblem (`agent`, `order`, `constraints`), whose least cost is `cost`.
+  // The MDD is empty if it has more than `most_nodes` nodes. Returns nullptr if a limit was
+  // reached. `planner` belongs to the calling thread.
   static Set make(PathPlanner& planner, AgentIndex agent, const AgentSequencing& order,
                   std::span<const Constraint> constraints, Time cost, std::size_t most_nodes,
                   const Limits& limits);
 
-  // If there are too many young ones they are old from now on, and the old ones forgotten.
+  // If the young generation is too large, drops the old one and makes the young one old.
   void trim();
 
-  // Memory held, in bytes (about).
+  // Memory in use, in bytes (approximate).
   std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
 
  private:

@@ -22,25 +22,25 @@
 
 namespace grove::detail {
 
-// What a tree fixes about one agent's order of visits, and the agent's best path when nobody else
-// is there. Immutable; shared by all trees that fix the same.
+// What a tree fixes about one agent: its sequence class, and its shortest path without other
+// agents. Immutable; shared by all trees that fix the same.
 struct AgentSequencing {
-  SequenceClass sequences;            // the paper's forest: a complete prefix
-  std::optional<GoalSequence> goals;  // of a complete prefix; else the low level chooses the order
-  PackedPath path;                    // shortest for `sequences`, no constraints
+  SequenceClass sequences;            // in the paper's forest a complete prefix
+  std::optional<GoalSequence> goals;  // of a complete prefix; nullopt: the low level chooses
+  PackedPath path;                    // shortest for `sequences` without constraints
 };
 
-// One tree of the forest: a class of joint task sequences. Immutable; outlives its nodes.
+// One tree of the forest: a class of joint task sequences. Immutable; must outlive its nodes.
 struct Tree {
-  const World* world = nullptr;  // in which its agents move
-  NodePool* pool = nullptr;      // where its nodes live
+  const World* world = nullptr;  // of its agents
+  NodePool* pool = nullptr;      // owns the memory of its nodes
   std::uint32_t number = 0;      // from 0, in the order of instantiation
   std::vector<std::shared_ptr<const AgentSequencing>> orders;  // by AgentIndex
 };
 
 class Node;
 
-// Shared ownership of a node. Copies may be made and dropped by different threads.
+// Shared ownership of a node. Different threads may copy and destroy their own NodePtr of one node.
 class NodePtr {
  public:
   NodePtr() = default;
@@ -63,14 +63,14 @@ class NodePtr {
   explicit operator bool() const { return node_ != nullptr; }
   friend bool operator==(const NodePtr& a, const NodePtr& b) { return a.node_ == b.node_; }
 
-  // Forgets the node without giving it up: its memory is freed with its pool.
+  // Drops the pointer without releasing the node, whose memory is freed with its pool.
   void abandon() { node_ = nullptr; }
 
  private:
   const Node* node_ = nullptr;
 };
 
-// An agent and the path it takes.
+// An agent and its new path.
 struct NewPath {
   AgentIndex agent = -1;
   const Path* path = nullptr;
@@ -79,42 +79,43 @@ struct NewPath {
 // What a child adds to its parent.
 struct NodeDelta {
   AgentConstraint added;           // agent -1: no constraint
-  std::span<const NewPath> paths;  // of the agents that do not go on as they did
-  Cost cost = 0;                   // the sum of all agents' costs then
-  Cost bound = 0;                  // proven for all plans that obey the child's constraints
-  std::uint32_t conflicts = 0;     // among its paths: a measure of how far from a plan it is
-  bool bounded = false;            // the bound has been raised as far as its kind of node is worth
+  std::span<const NewPath> paths;  // of the agents whose path changes
+  Cost cost = 0;                   // sum of the costs of all paths at the child
+  Cost bound = 0;                  // proven for all plans that satisfy the child's constraints
+  std::uint32_t conflicts = 0;     // among its paths: how far it is from a plan
+  bool bounded = false;            // its bound was raised by the WDG heuristic: do not run it again
 };
 
-// A node of a constraint tree (CBS; Sharon et al. 2015): its parent's constraints and at most one
-// more, and the paths that changed, packed behind the object. A constraint kRestBy of one agent
-// bars all others from the cell from its `end` on. Immutable once made, so threads may share it.
-// Lives in its tree's pool, about 150 bytes at 150 steps a path.
+// A node of a constraint tree (CBS; Sharon et al. 2015): its parent's constraints, at most one
+// additional constraint, and the paths that changed, which are packed behind the object. A
+// constraint kRestBy of one agent bars all others from the cell from its `end` on. Immutable: any
+// thread may read it. Allocated in its tree's pool; about 150 bytes if paths have 150 steps.
 class Node {
  public:
-  // The root of `tree`, no constraints.
+  // The root of `tree`, without constraints.
   static NodePtr root(const Tree& tree);
-  // Its bound is the greatest of its parent's, its cost and the one given.
+  // A child of `parent`. Its bound is the maximum of its parent's bound, change.cost and
+  // change.bound.
   static NodePtr child(const NodePtr& parent, const NodeDelta& change);
 
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
 
-  // Proven: every plan of the tree that obeys this node's constraints costs at least this.
+  // Proven lower bound on every plan of the tree that satisfies this node's constraints.
   Cost bound() const { return bound_; }
   // Sum of the costs of the paths at this node.
   Cost cost() const { return cost_; }
-  // See Change.
+  // See NodeDelta.
   std::uint32_t conflicts() const { return conflicts_; }
   bool is_bounded() const { return bounded_; }
   const Tree& tree() const { return *tree_; }
   bool is_root() const { return !parent_; }
-  // Null at a root.
+  // nullptr at the root.
   const Node* parent() const { return parent_.get(); }
-  // What it demands beyond its parent; agent -1: nothing.
+  // The constraint that it adds to its parent's; agent -1: none.
   const AgentConstraint& added() const { return added_; }
-  // Calls visit(agent, packed steps) for each path that is not its parent's. The steps are valid as
-  // long as the node is.
+  // Calls visit(agent, packed steps) for each path that differs from the parent's. The steps are
+  // valid as long as the node exists.
   template <class Visit>
   void for_each_path(Visit visit) const {
     const auto* word = reinterpret_cast<const std::uint64_t*>(this + 1);
@@ -125,14 +126,14 @@ class Node {
     }
   }
 
-  // The paths at this node of all agents, or of some (the others' are left empty); `paths` is
-  // resized to the number of agents. O(depth + total length).
+  // Unpacks the paths at this node of all agents or of `agents`; the other entries are empty.
+  // Resizes `paths` to the number of agents. O(depth + total length).
   void paths(const Problem& problem, std::vector<Path>& paths) const;
   void paths(const Problem& problem, std::span<const AgentIndex> agents,
              std::vector<Path>& paths) const;
-  // The constraints on `agent` at this node, appended. O(depth).
+  // Appends the constraints on `agent` at this node. O(depth).
   void constraints(AgentIndex agent, std::vector<Constraint>& constraints) const;
-  // The same for all agents at once: `constraints` is resized to their number.
+  // The same for all agents. Resizes `constraints` to the number of agents and overwrites it.
   void constraints(std::vector<std::vector<Constraint>>& constraints) const;
 
  private:
@@ -160,7 +161,7 @@ class Node {
 
   mutable std::atomic<std::uint32_t> references_{0};
   std::uint32_t path_count_;
-  mutable NodePtr parent_;  // null at a root
+  mutable NodePtr parent_;  // null at the root
   const Tree* tree_;
   Cost bound_;
   Cost cost_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where constraint-tree nodes live.
+// Memory pool of constraint-tree nodes.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace grove::detail {
 
-// Memory for nodes: given back node by node while the search runs, and all at once when it ends,
-// which spares millions of destructors between a limit and the answer. Must outlive every use of
-// its nodes. Any thread may allocate and release.
+// Allocator of nodes. Memory is released node by node during the search, and all at once when it
+// ends. This avoids millions of destructor calls between a limit and the answer. Must outlive every
+// use of its nodes. Thread-safe.
 //
-// Blocks are cut from chunks in steps of 8 bytes, without a header, and what is given back serves
-// the next node of its size: the sizes of nodes are few and do not drift. Nothing returns to the
-// system before the end, so after an eviction the resident set stays what it was while bytes()
-// falls: steer by bytes().
+// Blocks are cut from chunks in steps of 8 bytes, without headers. A released block is reused for
+// the next node of its size, because nodes have few different sizes and these do not change over
+// time. No memory returns to the system before the pool is destroyed. So after an eviction the
+// resident set stays the same while bytes() falls: control memory by bytes().
 class NodePool {
  public:
   NodePool() = default;
@@ -30,9 +30,9 @@ class NodePool {
   void* allocate(std::size_t bytes);
   void release(void* memory, std::size_t bytes);
 
-  // In nodes alive.
+  // Bytes of live nodes.
   std::size_t bytes() const;
-  // Of all nodes ever made; 0 before the first.
+  // Mean size in bytes of all nodes ever allocated; 0 before the first.
   double mean_bytes() const;
 
  private:

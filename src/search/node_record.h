@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A constraint-tree node without its ancestors, to be kept or sent elsewhere.
+// Serializable constraint-tree node without its ancestors.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace grove::detail {
 
-// All that a node demands and is, and which tree it belongs to. A value.
+// All constraints, paths and bounds of a node, and the number of its tree. A value.
 struct NodeRecord {
   struct Walk {
     AgentIndex agent = -1;
@@ -18,9 +18,9 @@ struct NodeRecord {
     friend bool operator==(const Walk&, const Walk&) = default;
   };
 
-  std::uint32_t tree = 0;                    // its number
-  std::vector<AgentConstraint> constraints;  // in the order in which they were made
-  std::vector<Walk> paths;                   // those that are not the tree's, by agent
+  std::uint32_t tree = 0;                    // number of its tree
+  std::vector<AgentConstraint> constraints;  // from the root downwards
+  std::vector<Walk> paths;                   // those that differ from the root's, by agent
   Cost cost = 0;
   Cost bound = 0;
   std::uint32_t conflicts = 0;
@@ -31,12 +31,12 @@ struct NodeRecord {
 // O(depth + length of the paths).
 NodeRecord record_of(const Node& node);
 
-// Throws std::invalid_argument for a record that cannot be of this instance: an agent that is not
-// there, a path that is none, a bound below the root's.
+// Throws std::invalid_argument if the record cannot be one of this instance: an agent or place that
+// does not exist, a path that is no walk, a bound below the root's or below its cost.
 void check(const NodeRecord& record, const Node& root, const Instance& instance);
 
-// The node again, below the root of its tree, or of one that fixes the same. Ancestors are made for
-// it that have its constraints and nothing else. Throws as check() does.
+// Recreates the node below the root of its tree, or below the root of a tree that fixes the same.
+// Its new ancestors hold only its constraints. Throws as check() does.
 NodePtr node_of(const NodeRecord& record, const NodePtr& root, const Instance& instance);
 
 }  // namespace grove::detail

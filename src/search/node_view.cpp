@@ -25,7 +25,7 @@ void NodeView::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
   find_conflicts();
 }
 
-// What is demanded of most agents is what was demanded at the last node.
+// Updates only agents whose constraints differ from those at the last node; most have the same.
 void NodeView::look_at_constraints() {
   node_->constraints(demands_);
   for (auto* by_agent : {&kept_.demands, &kept_.constraints}) by_agent->resize(demands_.size());
@@ -35,7 +35,7 @@ void NodeView::look_at_constraints() {
     kept_.constraints[agent] = demands_[agent];
     canonical(kept_.constraints[agent]);
     kept_.situations[agent] = {};
-    std::swap(demands_[agent], kept_.demands[agent]);  // last, for there may be no memory
+    std::swap(demands_[agent], kept_.demands[agent]);  // last: the rest may throw
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A constraint-tree node as some of its agents see it.
+// View of a constraint-tree node that is restricted to some of its agents.
 #pragma once
 
 #include <algorithm>
@@ -15,69 +15,73 @@
 
 namespace grove::detail {
 
-// Looks at a node through the eyes of some of its agents, the *scope*: only their paths are there,
-// and only conflicts among them. With all agents in scope that is CBS; with a few it is CBS on what
-// the node demands of them. Workspace of one thread.
+// The paths, constraints and conflicts of a node, restricted to some agents, the *scope*. Only
+// their paths and the conflicts among them exist in the view. With all agents in scope this is CBS;
+// with a few agents it is CBS on these, under the node's constraints. One thread at a time.
 class NodeView {
  public:
-  // What it keeps of agents from one node to the next, where most are asked for the same.
+  // Per-agent data kept from one node to the next, because most agents have the same constraints at
+  // both.
   class Kept {
     friend class NodeView;
 
     struct KnownSituation {
-      const AgentSequencing* order = nullptr;  // null: not known
-      std::int64_t numbering = 0;              // of the memory
+      const AgentSequencing* order = nullptr;  // nullptr: unknown
+      std::int64_t numbering = 0;              // WorkerCache::numbering()
       SubproblemTable::Id id = 0;
     };
-    // By AgentIndex. Those of agents in scope are of this node, those of others of an earlier one.
-    std::vector<std::vector<Constraint>> constraints;  // canonical
-    std::vector<std::vector<Constraint>> demands;      // as the node lists them
+    // By AgentIndex. Entries of agents in scope belong to the current node, others to an earlier
+    // node.
+    std::vector<std::vector<Constraint>> constraints;  // in canonical order
+    std::vector<std::vector<Constraint>> demands;      // in the order of the node
     std::vector<KnownSituation> situations;
   };
 
-  // All must outlive this; `memory` may be shared with others of the same thread.
+  // All arguments must outlive this. `memory` may be shared with others of the same thread.
   NodeView(const Problem& problem, const SearchOptions& options, WorkerCache& memory);
 
-  // Turns to a node and to the agents in scope, which are in ascending order.
+  // Loads a node. `scope` lists the agents in scope in ascending order.
   void enter(const NodePtr& node, std::span<const AgentIndex> scope);
-  // Lets the node go.
+  // Drops the reference to the node.
   void leave() { node_ = nullptr; }
-  // Between two nodes: one view can serve several workers as if each had its own, if it is given
-  // what it kept for each in turn.
+  // Swaps the per-agent data between two nodes. So one view can serve several workers as if each
+  // had its own view: the caller keeps the data of each and swaps them in.
   void exchange(Kept& kept) { std::swap(kept, kept_); }
 
   const NodePtr& node() const { return node_; }
   std::span<const AgentIndex> scope() const { return scope_; }
 
-  // Of an agent in scope: its order of visits, and what the node demands of it, in canonical order.
+  // Of an agent in scope: what the tree fixes about it, and its constraints in canonical order.
   const AgentSequencing& order(AgentIndex agent) const { return *node_->tree().orders[agent]; }
   std::span<const Constraint> constraints(AgentIndex agent) const {
     GROVE_ASSERT(is_in_scope(agent), "of others nothing is kept up to date");
     return kept_.constraints[agent];
   }
   SubproblemTable::Id situation(AgentIndex agent);
-  // The same with one constraint more, in canonical order; until the next call.
+  // Its constraints and `more`, in canonical order. Valid until the next call.
   std::span<const Constraint> constraints_with(AgentIndex agent, const Constraint& more);
 
-  // The paths in scope, by AgentIndex, as they are at the node or after reroute(), and every
-  // conflict among them, in order of time.
+  // The paths in scope, by AgentIndex, as they are at the node or after reroute(), and all
+  // conflicts among them in order of time.
   std::span<const Path> paths() const { return paths_; }
   const Path& path(AgentIndex agent) const { return paths_[agent]; }
   Time cost_of(AgentIndex agent) const { return static_cast<Time>(paths_[agent].size()) - 1; }
   std::span<const Conflict> conflicts() const { return conflicts_; }
   bool conflict_free() const { return conflicts_.empty(); }
-  // The first of these two; null: there is none.
+  // The first conflict of these two agents. Returns nullptr if there is none.
   const Conflict* conflict_between(AgentIndex a, AgentIndex b) const;
-  // Who in scope must go another way if `demand` is made: whose path does not obey what it asks,
-  // or, if that is about the sequence, who is asked. Replaces `agents`.
+  // Replaces `agents` by the agents in scope that must be re-planned under `demand`: agents whose
+  // path violates an implied constraint, and every agent with an implied constraint on its
+  // sequence.
   void affected_agents(const AgentConstraint& demand, std::vector<AgentIndex>& agents) const;
 
-  // Sends agents ways that cost as much and obey the node's constraints.
+  // Replaces the paths of these agents by paths of the same cost that satisfy the node's
+  // constraints.
   void reroute(std::span<const AgentIndex> agents, std::span<const Path> paths);
-  // The node, or below it one that demands the same and has the paths that are here now.
+  // The node, or, after reroute(), a child of it with the same constraints and the current paths.
   NodePtr node_with_current_paths() const;
 
-  // Steps of paths looked through for conflicts, so far.
+  // Path steps searched for conflicts so far.
   std::int64_t steps() const { return steps_; }
 
  private:

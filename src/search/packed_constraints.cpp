@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Four numbers for each constraint, of 7 bits to a byte, the last of which has its high bit clear:
-// kind and cell, place of departure, begin, end.
+// Encodes each constraint as four numbers: kind and cell, place of departure, begin, end. Each
+// number takes 7 bits per byte; its last byte has the high bit clear.
 //
-// *Claim: different lists have different bytes.* Each number says where it ends, and with those
-// before it which value it stands for; so the list can be told from its bytes, which the test does.
+// *Claim: different lists have different bytes.* *Proof.* Each number determines where it ends and,
+// together with the numbers before it, the value that it encodes. So the list can be decoded from
+// its bytes; the test does so.
 #include "search/packed_constraints.h"
 
 #include <array>
@@ -16,12 +17,12 @@ namespace {
 constexpr std::uint64_t kKinds = 8;
 static_assert(kConstraintKinds <= kKinds);
 
-// Small for what is near 0, on either side.
+// Maps numbers near 0 of either sign to small numbers (zigzag encoding).
 std::uint64_t unsigned_of(std::int64_t number) {
   return static_cast<std::uint64_t>(number) << 1 ^ static_cast<std::uint64_t>(number >> 63);
 }
 
-constexpr std::size_t kMostBytes = 10;  // of a number
+constexpr std::size_t kMostBytes = 10;  // per number
 
 char* put(std::uint64_t number, char* to) {
   for (; number >= 0x80; number >>= 7) *to++ = static_cast<char>(number | 0x80);
@@ -29,7 +30,8 @@ char* put(std::uint64_t number, char* to) {
   return to;
 }
 
-// The difference from what it is near to, or 0 for one value that is often there and far from all.
+// Encodes `value` as its difference from `near`, or as 0 if it is `far`, a frequent value that is
+// far from all others.
 std::uint64_t near_or(std::int32_t value, std::int32_t near, std::int32_t far) {
   return value == far ? 0 : 1 + unsigned_of(std::int64_t{value} - near);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sets of constraints as memories keep them: about 6 bytes for each instead of 20.
+// Compressed constraint sets, for cache keys and messages: about 6 bytes per constraint instead of
+// 20.
 #pragma once
 
 #include <span>
@@ -9,12 +10,12 @@
 
 namespace grove::detail {
 
-// Appends `constraints` to `bytes`, each as what it differs in from the one before: short where
-// they are in canonical order (situations.h). Two lists are the same if and only if their bytes
-// are.
+// Appends `constraints` to `bytes`. Each constraint is encoded as the difference from the one
+// before, which is short in canonical order (subproblem_table.h). Two lists are equal if and only
+// if their bytes are equal.
 void pack(std::span<const Constraint> constraints, std::string& bytes);
 
-// What pack() makes of a list: to be compared, kept and told, never to be taken apart.
+// Result of pack(), to be compared, stored and sent. It cannot be unpacked here.
 struct PackedConstraints {
   PackedConstraints() = default;  // none
   explicit PackedConstraints(std::span<const Constraint> constraints) { pack(constraints, bytes); }

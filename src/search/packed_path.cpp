@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Code 0 is a wait. On a plain grid the others say by how much the cell's number changes, which
-// costs no look at the map; elsewhere code k + 1 is move k of the state.
+// Encoding of steps. Code 0 is a wait. On a plain grid the other codes are offsets of the cell
+// number, so that the map need not be read. Elsewhere code k + 1 is move k of the state.
 #include "search/packed_path.h"
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 namespace grove::detail {
 namespace {
 
-// By code. On a grid one column wide left and up are the same offset; either code gives back the
-// same cell.
+// Codes of a plain grid. On a grid of one column, left and up are the same offset; both codes
+// decode to the same cell.
 class Offsets {
  public:
   static constexpr std::uint32_t kBits = 3;
@@ -55,7 +55,7 @@ class Numbers {
   const World& world_;
 };
 
-// Calls work(codes, bits) with what says the world's steps, and the bits that each takes.
+// Calls work(codes, bits) with the encoding of this world and its number of bits per step.
 template <class Work>
 auto with_codes(const World& world, Work work) {
   if (world.is_plain() && world.row_width() > 0) return work(Offsets(world), Offsets::kBits);

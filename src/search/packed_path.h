@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Paths as constraint-tree nodes keep them: 3 bits a step where no state has more than 7 moves,
-// else as many as it takes, without the start, which the agent knows.
+// Compressed paths, as constraint-tree nodes store them: 3 bits per step if no state has more than
+// 7 moves, otherwise as many as needed. The start is not stored; it is that of the agent.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace grove::detail {
 
-// A path of `steps` steps packed somewhere else: 21 steps of 3 bits to a word, or fewer longer
-// ones, the first in the lowest bits. A view; valid as long as the words are.
+// View of a packed path of `steps` steps. A word holds 21 steps of 3 bits, or fewer steps of more
+// bits, the first step in the lowest bits. Valid as long as the words are.
 struct PackedSteps {
   std::uint32_t steps = 0;
   const std::uint64_t* words = nullptr;
@@ -21,12 +21,12 @@ struct PackedSteps {
   Time cost() const { return static_cast<Time>(steps); }
   // Overwrites `path`, which keeps its capacity.
   void unpack(const World& world, State start, Path& path) const;
-  // Is it one: a walk in this world? What was packed by pack() is; what came from elsewhere must be
-  // asked before it is unpacked.
+  // Tests whether the steps are a walk in this world. Steps packed by pack() are; test all others
+  // before unpack().
   bool is_walk(const World& world, State start) const;
 };
 
-// How many words a path of so many steps takes.
+// Number of words of a packed path of `steps` steps.
 std::size_t packed_words(const World& world, std::uint32_t steps);
 // Packs `path` (not empty, at most one move per step) into packed_words(path.size() - 1) words.
 void pack(const World& world, const Path& path, std::uint64_t* words);

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Boards without room: rings; boards on which all nodes are taken, or all but one where agents may
-// not follow each other.
+// Reachable configurations on graphs without room: a single cycle ("ring"), a graph whose nodes are
+// all occupied, or one with a single free node where agents may not follow each other.
 //
-// On a ring nobody passes anybody. If all nodes are taken, the only steps are those of whole
-// circles, which cross no bridge: the regions between bridges are boards of their own. If one node
-// is free and nobody follows, that node wanders, and what its way round changes lies in single
-// blocks; with the free node at the root, the agents on a block's other nodes than the one nearest
-// to the root stay there.
+// On a ring no agent passes another. If all nodes are occupied, the only steps are rotations of
+// whole cycles. These cross no bridge, so each region between bridges is a graph of its own. If one
+// node is free and agents may not follow, the free node moves, and the change that its closed walk
+// makes lies in single blocks. With the free node at the root, the agents of a block stay on its
+// nodes other than the one nearest to the root.
 //
-// In these parts:
-// - Circles keep the order.
-// - Where every way round is of odd length, or with a free node of even length, each changes
-//   arrangements by an even permutation: half of them are not reached.
-// - Parts of up to seven nodes are searched.
-// - All others: everything that is not excluded so far. (Wilson 1974 for one free node, with no
-//   other exception than one on seven nodes; Yu and Rus 2014, Yang 2011 for circles. No answer of
-//   ours rests on it.)
+// In such a part:
+// - On a ring the cyclic order of the agents is invariant.
+// - Where every cycle has odd length, or, with a free node, even length, each rotation is an even
+//   permutation of the configuration. So half of the configurations are not reachable.
+// - Parts of up to seven nodes are searched exhaustively.
+// - In all others every configuration that is not excluded so far counts as reachable. (Wilson 1974
+//   for one free node, with a single exception, on seven nodes; Yu and Rus 2014 and Yang 2011 for
+//   rotations. No answer of Grove depends on it.)
 #include <algorithm>
 #include <cstdint>
 #include <map>
@@ -27,7 +27,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kMostSearched = 7;  // nodes: 5,040 arrangements
+constexpr std::size_t kMostSearched = 7;  // nodes: 5,040 configurations
 
 std::vector<AgentIndex> those_on(const std::vector<PebbleNode>& nodes,
                                  const PebbleConfiguration& arrangement) {
@@ -42,7 +42,7 @@ bool are_the_same(std::vector<AgentIndex> a, std::vector<AgentIndex> b) {
   return a == b;
 }
 
-// Round a circle, somewhere begun.
+// Tests whether both are the same cyclic order.
 bool are_in_the_same_order(std::vector<AgentIndex> a, std::vector<AgentIndex> b) {
   std::erase(a, kNobody);
   std::erase(b, kNobody);
@@ -53,7 +53,7 @@ bool are_in_the_same_order(std::vector<AgentIndex> a, std::vector<AgentIndex> b)
   return a == b;
 }
 
-// Of the same agents.
+// Tests whether the permutation from a to b is even. Both must hold the same agents.
 bool is_even(const std::vector<AgentIndex>& a, const std::vector<AgentIndex>& b) {
   std::map<AgentIndex, std::size_t> index;
   for (std::size_t i = 0; i < b.size(); ++i) index[b[i]] = i;
@@ -67,7 +67,7 @@ bool is_even(const std::vector<AgentIndex>& a, const std::vector<AgentIndex>& b)
   return even;
 }
 
-// A few nodes, all of which are taken or all but one: everything that comes of an arrangement.
+// A few nodes, all or all but one occupied: searches all reachable configurations.
 class SmallPart {
  public:
   SmallPart(const PebbleGraph& board, std::vector<PebbleNode> nodes) : nodes_(std::move(nodes)) {
@@ -98,7 +98,7 @@ class SmallPart {
   }
 
  private:
-  // Those on which no node comes before the first.
+  // Finds the cycles whose first node is their least.
   void find_circles(std::vector<std::size_t>& way) {
     for (const std::size_t next : neighbors_[way.back()]) {
       if (next == way.front() && way.size() > 2) circles_.push_back(way);
@@ -155,7 +155,7 @@ class FixedReach : public ReachableConfigurations {
   const PebbleConfiguration start_;
 };
 
-// The root is free, and nobody follows.
+// The root is free, and agents may not follow each other.
 class OneFreeReach : public ReachableConfigurations {
  public:
   OneFreeReach(const PebbleGraph& board, const PebbleConfiguration& start)
@@ -178,7 +178,7 @@ class OneFreeReach : public ReachableConfigurations {
       std::swap(arrangement[free], arrangement[board_.parent(free)]);
     return arrangement;
   }
-  // The free node comes in by the first.
+  // The free node enters the block by the block's first node.
   bool has(const PebbleGraph::Block& block, const PebbleConfiguration& then) const {
     const std::vector<PebbleNode> others(block.nodes.begin() + 1, block.nodes.end());
     const auto a = those_on(others, start_);
@@ -224,7 +224,7 @@ class FullReach : public ReachableConfigurations {
 
  private:
   struct Region {
-    std::vector<PebbleNode> nodes;  // rising: of a ring, in order
+    std::vector<PebbleNode> nodes;  // ascending; on a ring this is the cyclic order
     int blocks = 0;
     bool is_ring = false;
     bool has_odd_rings_only = true;

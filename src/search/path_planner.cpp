@@ -12,7 +12,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kMostClassesKept = 4;  // of an agent, with their states
+constexpr std::size_t kMostClassesKept = 4;  // per agent, with their states
 
 }  // namespace
 
@@ -66,7 +66,7 @@ std::optional<Split> PathPlanner::sequence_split(AgentIndex agent, const AgentSe
   return grove::detail::sequence_split(agent, goals.stops(), work, realized_sequence(goals, path));
 }
 
-// Those that are not about the sequence; until the next call.
+// The constraints that are not about the sequence. Valid until the next call.
 PathPlanner::Constraints PathPlanner::on_path(Constraints constraints) {
   if (std::ranges::none_of(constraints, is_about_sequence)) return constraints;
   on_path_.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The low level, whatever a tree leaves open.
+// Low level of CBS for fixed and free sequences.
 #pragma once
 
 #include <cstdint>
@@ -18,49 +18,49 @@
 
 namespace grove::detail {
 
-// Plans one agent under an AgentSequencing: through its goals where the order is fixed, else
-// choosing the order. Workspace of one thread: reuse it, do not share it.
+// Plans one agent under an AgentSequencing. If the sequence is fixed, the path visits its goals in
+// order; otherwise the low level chooses the sequence. One thread at a time; reuse it.
 class PathPlanner {
  public:
-  // `problem` and `stops` must outlive this; `stops` may be shared with others of the same thread.
-  // `free` plans where the order is open; null: Grove's own low level. `repeatable`: the labels
-  // that a call expands do not depend on the calls before.
+  // `problem` and `stops` must outlive this. `stops` may be shared with others of the same thread.
+  // `free` plans where the sequence is free; nullptr: Grove's own low level. `repeatable`: the
+  // number of labels that a call expands does not depend on earlier calls.
   PathPlanner(const Problem& problem, AgentStopsCache& stops,
               std::unique_ptr<AgentPlanner> free = nullptr, bool repeatable = false);
 
-  // As AgentPlanner::find, with the agent's constraints of all kinds in the query.
+  // As AgentPlanner::find(). The query holds the agent's constraints of all kinds.
   PathOutcome find(AgentIndex agent, const AgentSequencing& order, PathQuery query,
                    const Limits& limits, Path& path);
 
-  // As MddBuilder::build.
+  // As MddBuilder::build().
   MddBuilder::Outcome optimal_paths(AgentIndex agent, const AgentSequencing& order,
                                     std::span<const Constraint> constraints, Time cost,
                                     std::size_t most_nodes, const Limits& limits, Mdd& paths);
 
-  // As TimeExpandedGraphs::make.
+  // As TimeExpandedGraphs::make().
   TimeExpandedGraphs::Outcome timed_graph(AgentIndex agent, const AgentSequencing& order,
                                           std::span<const Constraint> constraints, Time most_cost,
                                           std::size_t most_nodes, const Limits& limits,
                                           AgentGraph& graph);
 
-  // A sequence that `path`, which must realize one that the order and the constraints leave, visits
-  // its stops in.
+  // Returns a sequence in which `path` visits the stops. `path` must realize a sequence that
+  // `order` and `constraints` allow.
   Sequence sequence(AgentIndex agent, const AgentSequencing& order,
                     std::span<const Constraint> constraints, const Path& path);
 
-  // A split of the class that the order and the constraints leave, on the next stop of `path`,
-  // which must obey both; none if they leave no choice.
+  // Returns a split of the sequence class that `order` and `constraints` leave, on the next stop of
+  // `path`. `path` must satisfy both. Returns nullopt if they leave no choice.
   std::optional<Split> sequence_split(AgentIndex agent, const AgentSequencing& order,
                                       std::span<const Constraint> constraints, const Path& path);
 
-  // Calls of find(), and labels expanded by them, so far.
+  // Calls of find() so far, and labels that they expanded.
   std::int64_t calls() const { return calls_; }
   std::int64_t expanded() const { return fixed_.expanded() + free_->expanded(); }
-  // Nodes of sets of optimal paths, so far.
+  // MDD nodes built so far.
   std::int64_t optimal_nodes() const { return optimal_.nodes(); }
-  // Nodes of timed graphs, so far.
+  // Nodes of time-expanded graphs built so far.
   std::int64_t timed_nodes() const { return timed_.nodes(); }
-  // Calls and labels; see work.h.
+  // Effort of calls and labels; see work.h.
   std::int64_t work() const { return expanded() + work::kPerCall * calls_; }
 
  private:
@@ -79,7 +79,7 @@ class PathPlanner {
   AgentStopsCache& stops_;
   bool repeatable_;
   std::vector<std::vector<std::unique_ptr<SequenceStages>>>
-      free_goals_;  // by AgentIndex: of the classes asked for last, the last of all in front
+      free_goals_;  // by AgentIndex, then recently used classes, latest first
   std::vector<Constraint> on_path_;
 };
 

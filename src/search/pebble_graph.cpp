@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Blocks by depth-first search (Hopcroft and Tarjan 1973). An edge that is no edge of the tree
-// joins a node with one above it; it lies in the block that leads from the lower one to the root,
-// as does the edge to its parent. So does every edge: each counts for the block of its lower end.
-// The tree's edges of a block join all of it, so it is bipartite if its other edges join nodes of
-// even and odd depth.
+// Computes blocks by depth-first search (Hopcroft and Tarjan 1973). An edge outside the depth-first
+// tree joins a node with one of its ancestors. It lies in the block of the edge from the lower node
+// to its parent. So does the tree edge itself: each edge counts for the block of its lower end. The
+// tree edges of a block connect all of it, so the block is bipartite if each of its other edges
+// joins a node of even depth and one of odd depth.
 #include "search/pebble_graph.h"
 
 #include <algorithm>
@@ -71,9 +71,9 @@ void PebbleGraph::number(const World& world, Place root) {
   }
 }
 
-// Backwards, so that all below a node comes before it.
+// Runs backwards, so that a node is complete before its parent.
 void PebbleGraph::find_blocks() {
-  std::vector<PebbleNode> highest(size());  // that an edge leads to from a node or below it
+  std::vector<PebbleNode> highest(size());  // least node adjacent to the subtree
   for (PebbleNode node = 0; node < size(); ++node) {
     highest[node] = node;
     for (const PebbleNode other : neighbors(node))

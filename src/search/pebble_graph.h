@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A connected part of a world, as a graph.
+// Undirected graph of one connected component of a world, with its blocks and bridges.
 #pragma once
 
 #include <cstdint>
@@ -12,47 +12,49 @@ namespace grove::detail {
 
 using PebbleNode = std::int32_t;
 
-// Places that a way leads between, whatever its direction, numbered from 0 in the order of a
-// depth-first search: a node's parent is less than the node. Immutable.
+// Nodes are the places of the component; an edge joins two places if a move leads from either to
+// the other. Nodes are numbered from 0 in the order of a depth-first search, so a node's parent is
+// less than the node. Immutable: any thread may read it.
 class PebbleGraph {
  public:
   static constexpr PebbleNode kNone = -1;
 
-  // `part`: all the places of one connected part. Its `root` gets number 0.
+  // `part`: all places of one connected component. Its place `root` gets number 0.
   PebbleGraph(const World& world, std::vector<Place> part, Place root);
 
   PebbleNode size() const { return static_cast<PebbleNode>(places_.size()); }
   Place place(PebbleNode node) const { return places_[node]; }
-  // kNone of other parts.
+  // kNone if the place is in another component.
   PebbleNode node(Place place) const;
   std::span<const PebbleNode> neighbors(PebbleNode node) const { return neighbors_[node]; }
   PebbleNode parent(PebbleNode node) const { return parents_[node]; }
-  // A single circle.
+  // True if the graph is a single cycle.
   bool is_ring() const { return blocks_.size() == 1 && blocks_.front().is_ring(); }
 
-  // Without a bridge its ends are in different parts.
+  // True if removing the edge between a and b disconnects them.
   bool is_bridge(PebbleNode a, PebbleNode b) const {
     return a == parent(b) ? hangs(b) : b == parent(a) && hangs(a);
   }
-  // Of two nodes with the same one a circle passes through both, without using a way twice.
+  // The 2-edge-connected component of a node. Two nodes are in the same one if and only if a closed
+  // walk that uses no edge twice passes through both.
   PebbleNode region(PebbleNode node) const { return regions_[node]; }
-  // And there are others of its region.
+  // True if its region has other nodes.
   bool is_on_ring(PebbleNode node) const { return is_on_ring_[node] != 0; }
 
-  // What no single node cuts in parts; a bridge is one.
+  // A block (biconnected component): no single node disconnects it. A bridge is one.
   struct Block {
-    std::vector<PebbleNode> nodes;  // rising; the first is the one nearest to the root
+    std::vector<PebbleNode> nodes;  // ascending; the first is the nearest to the root
     int ways = 0;
     bool is_bipartite = true;
 
     bool is_ring() const { return nodes.size() > 2 && std::size_t(ways) == nodes.size(); }
   };
   const std::vector<Block>& blocks() const { return blocks_; }
-  // The block that leads to the root.
+  // The block of the edge from a node to its parent.
   const Block& block(PebbleNode node) const { return blocks_[block_of_[node]]; }
 
-  // By node: the sum of `values` over it and all below it. And what lies beyond the bridge from a
-  // to b, by these sums.
+  // sums(): for each node, the sum of `values` over its subtree in the depth-first tree. beyond():
+  // the sum over all nodes beyond the bridge from a to b, from these sums.
   std::vector<int> sums(std::vector<int> values) const;
   int beyond(PebbleNode a, PebbleNode b, const std::vector<int>& sums) const {
     return a == parent(b) ? sums[b] : sums.front() - sums[a];
@@ -64,22 +66,22 @@ class PebbleGraph {
   void find_blocks();
   void count_ways();
   void find_regions();
-  // By a bridge, from its parent.
+  // True if the edge to its parent is a bridge.
   bool hangs(PebbleNode node) const { return block(node).nodes.size() == 2; }
 
-  std::vector<Place> part_;        // rising
+  std::vector<Place> part_;        // ascending
   std::vector<PebbleNode> nodes_;  // by position in part_
   std::vector<Place> places_;
-  std::vector<PebbleNode> parents_;  // kNone of the root
+  std::vector<PebbleNode> parents_;  // kNone at the root
   std::vector<int> depths_;
   CsrArray neighbors_;
   std::vector<Block> blocks_;
-  std::vector<std::int32_t> block_of_;  // -1 of the root
+  std::vector<std::int32_t> block_of_;  // -1 at the root
   std::vector<PebbleNode> regions_;
   std::vector<std::uint8_t> is_on_ring_;
 };
 
-// The places next to one, each once and never itself.
+// The places adjacent to a place, each once and without the place itself, in ascending order.
 std::vector<Place> places_around(const World& world, Place place);
 
 }  // namespace grove::detail

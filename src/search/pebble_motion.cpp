@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT
-// An *arrangement* says who is where. Every step of a plan makes one out of another, by moves that
-// the world allows at least in one direction; here they count as allowed in both. What can come of
-// an arrangement does not depend on headings, work, or what was before. So there is no plan if of
-// the arrangement of the starts (reach.h)
-// - none comes in which an agent is on a place that it must visit, or its goal; or
-// - where all have goals, that of the goals does not come.
-// Where every step can be undone and all have goals, there is one otherwise: arrangements in which
-// the agents are on their tasks can be visited one after the other, and that of the goals at last.
-// Meanwhile whoever has to turn does so, or works, before anybody goes on.
+// A *configuration* ("arrangement" in names) states which agent is on which place. Every step of a
+// plan transforms one configuration into another, by moves that the world allows in at least one
+// direction; here a move counts as allowed in both. The configurations reachable from a
+// configuration do not depend on headings, task execution or earlier steps. *Claim: there is no
+// plan if, from the configuration of the starts (reach.h),*
+// - some agent must visit a place, or has a goal, on which it is in no reachable configuration; or
+// - all agents have goals and the configuration of the goals is not reachable.
 //
-// That takes a look at all places, and is spared where there is plenty of room: if at least k + 3
-// places of a connected part have three neighbours or more, k being the number of agents. For with
-// m free places there are k + m; ways between crossings on which somebody may be stuck, or that may
-// part crowds (reachable_with_room.cpp), have m - 2 places or more with two neighbours, which
-// leaves k + 2 others.
+// *Converse.* If every step can be undone and all agents have goals, a plan exists otherwise.
+// Configurations in which the agents are on their tasks can be visited one after the other, and the
+// configuration of the goals last. In between, each agent turns or executes its task as needed
+// before any other agent continues.
+//
+// *Shortcut.* The test examines all places, so it is skipped where there is room: if at least k + 3
+// places of a connected component have three neighbours or more, where k is the number of agents.
+// *Proof.* With m free places the component has at most k + m places. A path between crossings on
+// which an agent may be stuck, or which may separate crowds (crowd_reach.cpp), has at least m - 2
+// places with two neighbours. That leaves at most k + 2 others.
 #include "search/pebble_motion.h"
 
 #include <fmt/format.h>
@@ -30,7 +33,7 @@
 namespace grove::detail {
 namespace {
 
-// Connected parts of the world, as far as they must be looked at.
+// Connected components of the world, explored only as far as necessary.
 class Parts {
  public:
   explicit Parts(const Instance& instance)
@@ -38,7 +41,8 @@ class Parts {
         enough_(instance.agent_count() + 3),
         known_(static_cast<std::size_t>(world_.place_count()), Room::kUnknown) {}
 
-  // Is this the first place of a part without plenty of room? All its places are in `part` then.
+  // Returns true if `place` is the first place seen of a component without enough room. Then `part`
+  // holds all places of the component.
   bool is_tight(Place place, std::vector<Place>& part) {
     part.clear();
     if (known(place) != Room::kUnknown) return false;
@@ -51,7 +55,7 @@ class Parts {
   enum class Room : std::uint8_t { kUnknown, kSeen, kPlenty, kTight };
 
   Room& known(Place place) { return known_[place]; }
-  // True as soon as there is plenty.
+  // Returns true as soon as there is enough room.
   bool flood(Place from, std::vector<Place>& part) {
     int crossings = 0;
     part.push_back(from);
@@ -76,7 +80,7 @@ class Parts {
   std::vector<Room> known_;  // by place
 };
 
-// The agents of one part.
+// The agents of one component.
 class Crowd {
  public:
   Crowd(const Instance& instance, std::vector<AgentIndex> agents, std::vector<Place> part,
@@ -159,7 +163,7 @@ Crowd crowd_on(const std::vector<Place>& part, const Instance& instance,
 std::optional<std::string> pebble_motion_infeasibility(const Instance& instance) {
   Parts parts(instance);
   std::vector<Place> part;
-  std::vector<AgentIndex> on;  // made when it is needed
+  std::vector<AgentIndex> on;  // computed on first use
   for (const Agent& agent : instance.agents()) {
     if (!parts.is_tight(instance.world().place(agent.start), part)) continue;
     if (on.empty()) on = agents_by_place(instance);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Crowds that cannot get to where they must: too few places are free for who is in whose way.
+// Presolve test by pebble motion: detects that too few places are free for agents to pass each
+// other.
 #pragma once
 
 #include <optional>
@@ -9,9 +10,9 @@
 
 namespace grove::detail {
 
-// Why the instance has no plan, as a sentence for a person; none if that cannot be seen here. Where
-// every step can be undone and every agent has a goal none means that it has one, if each place is
-// connected with the starts of those who must visit it.
+// Returns a sentence that explains why the instance has no plan, or nullopt if this test cannot
+// prove it. If every step can be undone, every agent has a goal, and each place is connected with
+// the starts of the agents that must visit it, nullopt means that a plan exists.
 std::optional<std::string> pebble_motion_infeasibility(const Instance& instance);
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every part of the search reads and none changes.
+// Read-only data that all parts of the search share.
 #pragma once
 
 #include "model/distance_field.h"
@@ -9,11 +9,12 @@
 
 namespace grove::detail {
 
-// An instance with its distance fields and its corridors. Immutable, shared by all threads;
-// outlives the search. Use it only if distances.complete().
+// An instance with its distance fields and its corridors. Immutable: any thread may read it. It
+// must outlive the search. Use it only if distances.complete().
 struct Problem {
-  // `threads`: to make it on. `known`: distances of an earlier one, to share; null: none. `arrays`:
-  // of array_layout(), in memory shared with other processes; null: none. They must outlive this.
+  // `threads`: number of threads that compute the distances. `known`: distances of an earlier
+  // problem to share, or nullptr. `arrays`: arrays of array_layout() in memory shared with other
+  // processes, or nullptr. All must outlive this.
   Problem(const Instance& the_instance, const Limits& limits, int threads = 1,
           const DistanceFields* known = nullptr, const SharedArrays* arrays = nullptr)
       : instance(the_instance),
@@ -25,8 +26,8 @@ struct Problem {
   const Corridors corridors;
 };
 
-// The arrays that processes which search the same instance can share: distances, and what agents
-// are told of their stops and orders.
+// Layout of the arrays that processes with the same instance can share: distances, stops by state,
+// and sequence tables.
 ArrayLayout array_layout(const Instance& instance);
 
 }  // namespace grove::detail

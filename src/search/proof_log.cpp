@@ -8,7 +8,7 @@
 namespace grove::detail {
 namespace {
 
-// What a tree fixes of an agent's order, as demands.
+// Appends the sequence class that a tree fixes for an agent, as constraints.
 void add_order(AgentIndex agent, const AgentSequencing& order,
                std::vector<AgentConstraint>& demands) {
   const SequenceClass& sequences = order.sequences;

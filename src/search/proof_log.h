@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a search writes down of why its bounds hold, for a certificate (docs/proof.md).
+// Interface for proof logging: the statements of a search that prove its bounds, for a certificate
+// (docs/proof.md).
 #pragma once
 
 #include <algorithm>
@@ -14,59 +15,62 @@
 
 namespace grove::detail {
 
-// Names what a node demands: its tree, and its constraints in the order in which they were made.
-// The same in every process, so what several wrote down can be put together. Two that are not the
-// same have one name with a chance of 2^-64; then the certificate is refused, and nothing worse.
+// Key of the constraints of a node: hash of its tree and of its constraints in the order in which
+// they were added. It is the same in every process, so the logs of several processes can be merged.
+// Two different nodes have the same key with probability 2^-64; the certificate is then refused,
+// with no other effect.
 using ProofKey = std::uint64_t;
 inline constexpr ProofKey kNoProof = 0;
 
 ProofKey proof_key(const Tree& tree);
 // O(depth).
 ProofKey proof_key(const Node& node);
-// Of a node of that name with one constraint more.
+// The key of a child of the node with key `parent`.
 ProofKey proof_key(ProofKey parent, const AgentConstraint& added);
 
-// "The one comes to rest later, or the other does": holds if these two cannot both be in time.
+// True for the split "one agent comes to rest later, or the other does". It is valid if these two
+// cannot both arrive in time.
 inline bool splits_on_costs(const Split& split) {
   return std::ranges::all_of(split, [](const AgentConstraint& demand) {
     return demand.constraint.kind == ConstraintKind::kNoRestBy;
   });
 }
 
-// There is a tree, of the joint sequences that begin so.
+// A tree of the forest, by its sequences.
 struct ProofTree {
   ProofKey root = kNoProof;
-  Cost cost = 0;                    // of its root
-  std::vector<Sequence> sequences;  // by AgentIndex: of their stops
+  Cost cost = 0;                    // of the root
+  std::vector<Sequence> sequences;  // by AgentIndex
 };
 
-// A node was split in two.
+// The split of a node.
 struct ProofSplit {
   ProofKey node = kNoProof;
   Split split;
-  std::array<Cost, 2> costs{};  // on either side the agents' least costs add up to that, or more
-  ProofKey lemma = kNoProof;    // if it splits on costs: why
+  std::array<Cost, 2> costs{};  // lower bound on the sum of the agents' costs, by branch
+  ProofKey lemma = kNoProof;    // proves a split on costs; else kNoProof
 };
 
-// These agents under these demands, in canonical order for each, cost together so much or more.
+// Statement: these agents under these constraints, in canonical order for each agent, cost together
+// at least `bound`.
 struct ProofLemma {
-  std::vector<AgentIndex> agents;  // ascending
+  std::vector<AgentIndex> agents;  // in ascending order
   std::vector<AgentConstraint> demands;
   Cost bound = 0;
 
-  // Of the statement; what proves it does not matter.
+  // Key of the statement, whatever its proof.
   ProofKey key() const;
 };
 
-// What a lemma says of the bound of a node.
+// Use of a lemma for the bound of a node.
 struct ProofExcess {
   ProofKey lemma = kNoProof;
   std::vector<AgentIndex> agents;
-  Cost excess = 0;  // these cost together so much more than each of them alone
+  Cost excess = 0;  // of these agents together, at least
 };
 
-// Methods may be called from any thread. What is written down need not be of use in the end, and
-// may be written down again.
+// Sink of the statements. Thread-safe. A statement may be useless in the end, and may be logged
+// repeatedly.
 class ProofLog {
  public:
   ProofLog() = default;
@@ -74,25 +78,27 @@ class ProofLog {
   ProofLog& operator=(const ProofLog&) = delete;
   virtual ~ProofLog() = default;
 
-  // Joint sequences of no such tree cost as much as the bound that the run ends with.
+  // Joint sequences that are in no logged tree cost at least the bound with which the run ends.
   virtual void tree(const ProofTree& tree) = 0;
   virtual void split(const ProofSplit& split) = 0;
-  // The plans of a node cost `bound` or more, as its agents cost `cost` at least, and by what the
-  // lemmas say.
+  // The plans of a node cost at least `bound`: its agents cost at least `cost`, and the lemmas in
+  // `excesses` prove the rest.
   virtual void bound(ProofKey node, Cost cost, Cost bound,
                      std::span<const ProofExcess> excesses) = 0;
-  // Proven by a tree of splits of which `splits` has all below `root` that are of use; or, if there
-  // is none, by looking at all joint paths. The costs in them are those of the lemma's agents.
+  // A lemma proven by a tree of splits; `splits` holds all needed ones below `root`, with the costs
+  // of the lemma's agents. If `splits` is empty, the lemma is proven by enumeration of all joint
+  // paths.
   virtual void lemma(const ProofLemma& lemma, ProofKey root,
                      std::span<const ProofSplit> splits) = 0;
-  // With these rows the prices of all agents say that no plan costs less (docs/proof.md, "prices").
+  // With the multipliers `rows`, the subproblem values of all agents prove that no plan costs less
+  // than `bound` (docs/proof.md, "prices").
   virtual void prices(Cost bound, std::span<const RowMultiplier> rows) = 0;
-  // Joint search of all agents says so.
+  // Joint search of all agents proves that no plan costs less than `bound`.
   virtual void joint(Cost bound) = 0;
 };
 
-// What `group` costs together at the node that `view` has entered, when that is `excess` more than
-// each of them alone.
+// The lemma that the agents `group` have an excess of at least `excess` at the node that `view` has
+// entered.
 ProofLemma lemma_at(const NodeView& view, std::span<const AgentIndex> group, Cost excess);
 
 }  // namespace grove::detail

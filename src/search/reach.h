@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where agents on a board can come to, if nothing matters but who is in whose way.
+// Reachable configurations of agents on a pebble graph, ignoring costs, headings and tasks.
 #pragma once
 
 #include <memory>
@@ -10,26 +10,28 @@
 
 namespace grove::detail {
 
-// By node of a board: who is there.
+// By node of a graph: the agent there, or kNobody.
 using PebbleConfiguration = std::vector<AgentIndex>;
 inline constexpr AgentIndex kNobody = -1;
 
-// Of one arrangement: all that come of it, at whatever cost, each agent going where it likes.
+// The configurations reachable from one configuration, at any cost and by any moves of the agents.
 class ReachableConfigurations {
  public:
   virtual ~ReachableConfigurations() = default;
-  // Is there one in which who is on `from` now is on `to`?
+  // Is there one in which the agent that is on `from` now is on `to`?
   virtual bool has(PebbleNode from, PebbleNode to) const = 0;
-  // Is this one of them? Of the same agents.
+  // Is this configuration reachable? It must have the same agents.
   virtual bool has(const PebbleConfiguration& arrangement) const = 0;
 };
 
-// `board` must outlive it. If a node is free, the board's root must be.
+// Computes what is reachable from `start`. `board` must outlive the result. If a node is free, the
+// board's root must be free.
 std::unique_ptr<ReachableConfigurations> reach_of(const PebbleGraph& board,
                                                   const PebbleConfiguration& start,
                                                   bool may_follow);
 
-// Of these boards the argument stands at the head of the .cpp of the same name.
+// The two cases of reach_of(). The arguments are at the heads of crowd_reach.cpp (with room) and
+// packed_reach.cpp (without).
 std::unique_ptr<ReachableConfigurations> reachable_with_room(const PebbleGraph& board,
                                                              const PebbleConfiguration& start,
                                                              bool may_follow);

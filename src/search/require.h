@@ -5,7 +5,8 @@
 
 namespace grove::detail {
 
-// What a record from elsewhere must be to be believed.
+// Throws std::invalid_argument(what) unless `holds`. Validates records from files and other
+// processes.
 inline void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
 }

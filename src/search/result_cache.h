@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What was found out about agents, pairs and groups in the course of a search.
+// Caches of proven results on agents, pairs and groups: one shared by all workers, one per worker.
 #pragma once
 
 #include <atomic>
@@ -18,8 +18,8 @@
 
 namespace grove::detail {
 
-// What one worker found out, until it is common. Values; the numbers are those of one common
-// memory.
+// Results of one worker that are not in the shared cache yet. A value; the subproblem numbers are
+// those of one SharedCache.
 struct CacheDelta {
   using Id = SubproblemTable::Id;
   struct Pair {
@@ -29,41 +29,45 @@ struct CacheDelta {
     DependencyTable::Known known;
   };
   std::unordered_map<Id, SubproblemTable::Known> costs;
-  std::unordered_map<Id, MddCache::Set> sets;  // all that were asked for
-  // Few at a time.
+  std::unordered_map<Id, MddCache::Set> sets;  // all that were requested
+  // Searched linearly, because there are few at a time.
   std::vector<Pair> pairs;
   std::vector<DependencyTable::Group> groups;
 };
 
-// What workers found out lately that nobody here knew before; see CacheDelta. Values.
+// Entries added to a SharedCache since the last call of take_new_entries(); see CacheDelta. A
+// value.
 struct NewEntries {
   std::vector<std::pair<SubproblemTable::Id, SubproblemTable::Known>> costs;
   std::vector<CacheDelta::Pair> pairs;
   std::vector<DependencyTable::Group> groups;
 };
 
-// What all workers know. Thread-safe; nothing is ever taken back, so whoever wants it forgotten
-// starts another one.
+// Cache of all workers in this process. Thread-safe. Entries of subproblems and excesses are never
+// removed: to drop them, the caller replaces the whole cache by a new one.
 struct SharedCache {
   SharedCache() = default;
-  // Takes the place of one that was full.
+  // Tag: the new cache replaces one that was full.
   struct Successor {};
   explicit SharedCache(Successor /*successor*/) : follows_another(true) {}
 
   SubproblemTable situations;
   MddCache path_sets;
   DependencyTable excesses{situations};
-  // What is found out may have to be forgotten again before it is of use.
+  // If true, an earlier cache was full, so results in this one may be dropped before they are of
+  // use.
   const bool follows_another = false;
-  // Of this one alone among all that there were in this process.
+  // Unique among all caches of this process.
   const std::int64_t number = next_number();
 
-  // Adds this. Workers may do so at the same time: it does not matter who is first.
+  // Merges the results of one worker. The result does not depend on the order in which workers do
+  // so.
   void merge(const CacheDelta& found);
-  // What was news of that, from the first call on, since the last call.
+  // Returns the entries that merge() added or improved since the last call. Recording begins with
+  // the first call.
   NewEntries take_new_entries();
 
-  // Forgets what there is too much of, and can be found again.
+  // Drops MDDs if there are too many; they can be computed again.
   void trim() { path_sets.trim(); }
   std::size_t bytes() const { return situations.bytes() + path_sets.bytes() + excesses.bytes(); }
 
@@ -75,48 +79,50 @@ struct SharedCache {
   NewEntries news_;
 };
 
-// What one worker knows: the common memory, and what it has found out that is not common yet. So
-// what others find out at the same time does not reach it before it asks, and a worker that is
-// given the same common memory does the same again, whatever the others do meanwhile. Of one
-// thread.
+// Cache of one worker: the shared cache, and the worker's own results that are not shared yet.
+// Results of other workers do not reach it before they are merged into the shared cache. So a
+// worker that is given the same shared cache again does the same work, whatever the others do
+// concurrently. One thread at a time.
 class WorkerCache {
  public:
   using Id = SubproblemTable::Id;
 
-  // `planner` must outlive this. Sets of optimal paths have `most_set_nodes` or are not made.
+  // `planner` must outlive this. An MDD of more than `most_set_nodes` nodes is not built.
   WorkerCache(PathPlanner& planner, std::shared_ptr<SharedCache> common,
               std::int64_t most_set_nodes)
       : planner_(planner), common_(std::move(common)), most_set_nodes_(most_set_nodes) {}
 
-  // Hands over what was found out since the last time; it is not known here any more until it is
-  // common.
+  // Removes and returns the results since the last call. This worker sees them again once they are
+  // in the shared cache.
   CacheDelta take_delta() { return std::exchange(found_, {}); }
-  // Turns to this common memory. If it is another one, what was not handed over is forgotten, and
-  // so are all numbers.
+  // Uses this shared cache from now on. If it is a different one, results that were not taken are
+  // dropped, and all subproblem numbers become invalid.
   void turn_to(std::shared_ptr<SharedCache> common);
   const std::shared_ptr<SharedCache>& common() const { return common_; }
-  // Changes with the common memory: numbers of situations are good as long as this is the same.
+  // Number of the shared cache: subproblem numbers stay valid as long as it is the same.
   std::int64_t numbering() const { return common_->number; }
 
-  // As those of Situations.
+  // As the methods of SubproblemTable.
   Id id(AgentIndex agent, const AgentSequencing& order, std::span<const Constraint> constraints) {
     ++asked_;
     return common_->situations.id(agent, order, constraints);
   }
-  // Situations that were asked about so far, and groups that were looked at for an answer.
+  // Subproblem queries so far, and groups that were examined for an answer.
   std::int64_t asked() const { return asked_; }
   std::int64_t groups_asked() const { return groups_asked_; }
-  // Sets of optimal paths that were asked for so far, and those of them that had been made.
+  // MDD queries so far, and those of them that the cache could answer.
   std::int64_t sets_asked() const { return sets_asked_; }
   std::int64_t sets_known() const { return sets_known_; }
   SubproblemTable::Known known(Id id) const;
   void merge(Id id, SubproblemTable::Known known) { found_.costs[id] = known; }
 
-  // As MddCache::find; valid until take_found().
+  // MDD of a subproblem, built if it is not cached; empty if it would be too large. Returns nullptr
+  // if a limit was reached. Valid until take_delta().
   const Mdd* paths(Id id, AgentIndex agent, const AgentSequencing& order,
                    std::span<const Constraint> constraints, Time cost, const Limits& limits);
 
-  // As those of Excesses. Partners and groups come in any order, perhaps more than once.
+  // As the methods of DependencyTable. Partners and groups come in any order and possibly
+  // repeatedly.
   DependencyTable::Known of_pair(Id first, Id second) const;
   void merge_pair(Id first, Id second, AgentIndex agent, DependencyTable::Known known);
   void partners(Id first, std::vector<DependencyTable::Partner>& partners) const;

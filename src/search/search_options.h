@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How constraint trees are searched.
+// Options of the constraint-tree search.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@ class ProofLog;  // grove/search/proof_log.h
 struct SearchOptions {
   Techniques techniques;
   std::uint64_t seed = 0;  // breaks ties among conflicts
-  // Checks every node that is looked at, and the tables kept from node to node, against what they
-  // stand for (audit.h). Costs several times what the search does.
+  // Checks every expanded node, and the tables kept from node to node, against recomputed values
+  // (audit.h). Takes several times the time of the search.
   bool audit = false;
   Tuning tuning = {};
-  ProofLog* proof = nullptr;  // where to write down why bounds hold; null: nowhere
-  // The work for a node, and its counts, do not depend on the nodes before. Slower with many tasks.
+  ProofLog* proof = nullptr;  // sink of the certificate; nullptr: none
+  // The work for a node and its counters do not depend on earlier nodes. Slower with many tasks.
   bool repeatable = false;
 };
 

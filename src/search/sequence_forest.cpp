@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A root's paths are shortest for its sequences and independent of the constraints, so they are
-// planned once per (agent, rank) and shared by all trees that use them; the first to use one plans
-// it around the other agents' paths known then, which spares the tree conflicts that are mere ties.
+// A root's paths are shortest for its sequences and independent of constraints. So they are planned
+// once per (agent, rank) and shared by all trees that use them. The first tree that uses a path
+// plans it around the paths of the other agents known by then; this avoids conflicts that mere ties
+// cause.
 #include "search/sequence_forest.h"
 
 #include <algorithm>
@@ -58,7 +59,7 @@ NodePtr SequenceForest::next_root() {
     tree.orders.push_back(slot(agent, pending_->ranks[agent]));
   NodePtr root = Node::root(tree);
   ++count_;
-  pending_.reset();  // only now: what throws before this point loses no tree
+  pending_.reset();  // last: an exception before this line loses no tree
   return root;
 }
 
@@ -68,7 +69,7 @@ std::shared_ptr<const AgentSequencing>& SequenceForest::slot(AgentIndex agent, s
   return ranks[rank];
 }
 
-// Plans the orders that no earlier tree used. False when a limit struck.
+// Plans the paths that no earlier tree used. Returns false if a limit was reached.
 bool SequenceForest::plan_missing_orders(const JointSequence& joint) {
   std::vector<AgentIndex> missing;
   for (AgentIndex agent = 0; agent < problem_.instance.agent_count(); ++agent)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The trees of the forest, in the order of their joint sequences' costs (paper, Algorithms 1 and
-// 4).
+// Forest of the fixed policy: one tree per joint task sequence, in order of cost (paper, Algorithms
+// 1 and 4).
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,11 @@
 
 namespace grove::detail {
 
-// The fixed policy: instantiates one tree per joint task sequence, best first.
+// Instantiates one tree per joint task sequence, least cost first.
 class SequenceForest : public Forest {
  public:
-  // `problem`, `pool` - where the nodes of its trees will live - and `limits` must outlive the
-  // forest. Builds the cost matrices; tables and sequences come with the first questions.
+  // `problem`, `limits` and `pool`, which holds the nodes of its trees, must outlive the forest.
+  // The constructor computes the cost matrices; tables and sequences are computed on first use.
   SequenceForest(const Problem& problem, NodePool& pool, RtspBackend backend, const Limits& limits);
 
   Cost next_bound() const override;
@@ -40,13 +40,13 @@ class SequenceForest : public Forest {
   const Limits& limits_;
   std::vector<CostMatrix> matrices_;
   KBestJointSequences sequences_;
-  std::optional<JointSequence> pending_;  // taken from sequences_, not yet a tree
+  std::optional<JointSequence> pending_;  // taken from sequences_, not yet instantiated
   std::vector<std::vector<std::shared_ptr<const AgentSequencing>>> orders_;  // by agent, then rank
   FixedOrderSipp low_level_;
   ConflictAvoidanceTable others_;
   Path path_;
   std::deque<Tree> trees_;
-  std::uint32_t count_ = 0;  // of those instantiated
+  std::uint32_t count_ = 0;  // instantiated trees
 };
 
 }  // namespace grove::detail

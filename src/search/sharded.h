@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A table in parts with a lock each.
+// Table in parts with one lock per part.
 #pragma once
 
 #include <array>
@@ -12,21 +12,21 @@
 
 namespace grove::detail {
 
-// Parts of one kind that threads use side by side; what belongs to one key is in one part, and so
-// many threads rarely meet. A part is held for as long as it takes to look something up.
+// Parts of one type that threads use concurrently. All data of one key is in one part, so threads
+// rarely contend. A lock is held for one lookup or update. Thread-safe.
 template <class Part>
 class Sharded {
  public:
   static constexpr unsigned kBits = 5;
   static constexpr std::size_t kParts = std::size_t{1} << kBits;
 
-  // Of a key that is not negative.
+  // Number of the part of a key, which must not be negative.
   static constexpr std::size_t part_of(std::integral auto key) {
     GROVE_ASSERT(key >= 0, "keys are not negative");
     return static_cast<std::size_t>(key) % kParts;
   }
 
-  // Calls use(part) under the lock of the part `number` < kParts and returns what it returns.
+  // Calls use(part) under the lock of part `number` < kParts and returns its result.
   template <class Use>
   decltype(auto) with(std::size_t number, Use use) const {
     const Locked& locked = parts_[number];
@@ -41,7 +41,7 @@ class Sharded {
   }
 
  private:
-  struct alignas(64) Locked {  // a cache line: neighbours do not disturb each other
+  struct alignas(64) Locked {  // a cache line: avoids false sharing
     mutable std::mutex mutex;
     Part part;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every way to split a node on a conflict.
+// All splits of a node on a conflict.
 #pragma once
 
 #include <span>
@@ -11,8 +11,9 @@
 
 namespace grove::detail {
 
-// Appends the splits that the conflict, which is one of `paths` (by AgentIndex), allows with these
-// techniques: the plain one of CBS, then those that reason further, the best to take unseen first.
+// Appends the splits that these techniques allow for a conflict of `paths` (by AgentIndex): the
+// standard split of CBS, then those of symmetry reasoning, the one to prefer without evaluation
+// first.
 void splits_of(const Conflict& conflict, std::span<const Path> paths, const Problem& problem,
                Techniques techniques, std::vector<Split>& splits);
 

@@ -11,7 +11,7 @@
 namespace grove::detail {
 namespace {
 
-// Of a key: see key_begun().
+// Layout of a key: address of the AgentSequencing, agent, packed constraints. See key_begun().
 constexpr std::size_t kBytesBeforeConstraints = sizeof(const AgentSequencing*) + sizeof(AgentIndex);
 
 std::size_t place_of(SubproblemTable::Id id) {
@@ -31,7 +31,8 @@ Value taken_from(std::string_view& bytes) {
   return value;
 }
 
-// The beginning of a key: its constraints are to follow. The calling thread's, until it asks again.
+// Returns a key without its constraints, which the caller appends. The buffer belongs to the
+// calling thread and is valid until its next call.
 std::string& key_begun(AgentIndex agent, const AgentSequencing& order) {
   thread_local std::string key;
   key.clear();
@@ -48,7 +49,7 @@ AgentSubproblem situation_of(std::string_view key) {
   return situation;
 }
 
-// Of values, not of addresses: the same in every run, so that tables are of the same size.
+// Hashes values, not addresses, so that the tables have the same sizes in every run.
 std::uint64_t hash_of(const AgentSequencing& order, std::string_view key) {
   std::uint64_t hash = order.sequences.forbidden_next;
   for (const Stop stop : order.sequences.prefix) hash = hash_combine(hash, stop);

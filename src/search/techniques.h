@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the search may use beyond plain CBS, each of which can be switched off.
+// Search techniques beyond plain CBS; each can be switched off.
 #pragma once
 
 #include <array>
@@ -11,26 +11,26 @@
 
 namespace grove::detail {
 
-// One technique. None changes what is proven, only how fast; the policy `fixed` uses none. Each is
-// explained at the head of the file that does it.
+// One technique. None changes what is proven, only the running time. The policy `fixed` uses none.
+// Each is explained at the head of the file that implements it.
 enum class Technique : std::uint8_t {
   kPrimal,           // prioritised planning and large neighbourhood search for incumbents
-  kConfigurations,   // LaCAM for first plans on crowded maps
-  kStrongBranching,  // of several conflicts, split the one that raises the bounds most
-  kBypass,           // take an equally cheap path with fewer conflicts instead of splitting
-  kFewestConflicts,  // of equally cheap paths take one with the fewest conflicts
-  kTarget,           // split on when an agent comes to rest
-  kTraversal,        // split on which of two agents passes a corridor
-  kSequenceSplits,  // split on an agent's next stop, where no conflict raises both sides; not usual
-  kDependencies,    // bound from pairs of agents that cannot both have their best paths
-  kJointPaths,      // see such pairs in their optimal paths, without a search
-  kCostSplits,      // split on which of two such agents costs more
-  kClusters,        // the same for groups that conflict though no pair of them must cost more
-  kEstimates,       // with w > 0, while there is no plan: every other node by what it promises
-  kJointSearch,     // beside the tree A* over joint states, where there are few agents and places
-  kLagrangian,      // beside the tree a bound from prices, where there are many agents
-  kJointGroups,     // A* over joint states of pairs and groups that splits do not settle
-  kPricedPlans,     // what is dear by that bound says which paths to plan anew, and where to
+  kConfigurations,   // LaCAM for first plans on dense instances
+  kStrongBranching,  // split on the conflict that raises the bounds most
+  kBypass,           // instead of splitting, take a path of equal cost with fewer conflicts
+  kFewestConflicts,  // low level: among paths of equal cost, the fewest conflicts
+  kTarget,           // split on the time from which an agent rests
+  kTraversal,        // split on which of two agents passes a corridor first
+  kSequenceSplits,   // split on the next stop if no conflict raises both branches; not a default
+  kDependencies,     // WDG: bound from pairs of agents that cannot both have their best paths
+  kJointPaths,       // find such pairs by their MDDs, without a search
+  kCostSplits,       // split on which of two such agents costs more
+  kClusters,         // the same for groups that conflict although no pair of them must cost more
+  kEstimates,        // w > 0 and no plan yet: every second node by estimated cost
+  kJointSearch,      // A* over joint states, if there are few agents and places
+  kLagrangian,       // Lagrangian bound, if there are many agents
+  kJointGroups,      // A* over joint states of pairs and groups that splits do not solve
+  kPricedPlans,      // LNS: the Lagrangian multipliers choose which paths to re-plan, and where to
 };
 
 struct NamedTechnique {
@@ -38,7 +38,7 @@ struct NamedTechnique {
   std::string_view name;  // on the command line: lower case, words joined by '-'
 };
 
-// All of them.
+// All techniques.
 inline constexpr std::array kTechniques = {
     NamedTechnique{Technique::kPrimal, "primal"},
     NamedTechnique{Technique::kConfigurations, "configurations"},
@@ -67,7 +67,7 @@ class Techniques {
     for (Technique t : techniques) bits_ |= bit(t);
   }
   static Techniques all();
-  // What a run uses unless told otherwise: all that paid when it was measured.
+  // Default of a run: all techniques that improved results when measured.
   static Techniques defaults();
 
   bool has(Technique t) const { return (bits_ & bit(t)) != 0; }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A root's cost is the first bound of its tree, so what comes from elsewhere is checked: a path
-// that takes the least time for the order in which it visits its stops. For a fixed order that
-// proves the bound again. Mostly the distances settle it at once; where agents turn, they may be
-// too small.
+// A root's cost is the first bound of its tree. So a record from outside is checked: its path must
+// take the least time for the order in which it visits its stops. For a fixed order this proves the
+// bound again. Mostly the distances decide this at once; where agents turn, they may be too small.
 #include "search/tree_record.h"
 
 #include <algorithm>
@@ -81,7 +80,7 @@ Trees::Order Trees::order_of(AgentIndex agent, const TreeRecord::Order& record) 
   return known.emplace_back(std::make_shared<const AgentSequencing>(made(agent, record)));
 }
 
-// Of a path through the goals, which takes `known` steps at most.
+// Least cost of a path through the goals, given a path of `known` steps.
 Time Trees::least_cost(const GoalSequence& goals, std::uint32_t known) {
   const Time distance = goals.distance(goals.start(), 0);
   if (distance == static_cast<Time>(known)) return distance;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A tree as a value, to be kept or sent elsewhere, and the trees made again from such.
+// Serializable trees, and the container that recreates trees from them.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@
 
 namespace grove::detail {
 
-// All that a tree fixes, and its root's paths. A value.
+// The sequence classes that a tree fixes, and its root's paths. A value.
 struct TreeRecord {
   // See AgentSequencing.
   struct Order {
     SequenceClass sequences;
-    bool fixed = false;                // the goals follow from the complete prefix
+    bool fixed = false;                // the prefix is complete and determines the goals
     std::uint32_t steps = 0;           // of the path
     std::vector<std::uint64_t> words;  // see packed_path.h
     friend bool operator==(const Order&, const Order&) = default;
@@ -31,19 +31,19 @@ struct TreeRecord {
 // O(length of the paths).
 TreeRecord record_of(const Tree& tree);
 
-// Trees that another forest of the same instance instantiated. Trees share the orders that they
-// have in common. Not for two threads at once; outlives the nodes of its trees.
+// Trees that another forest of the same instance instantiated. Trees share equal orders. One thread
+// at a time. Must outlive the nodes of its trees.
 class Trees {
  public:
-  // All must outlive this; `stops` may be shared with others of the same thread, and is asked for
-  // agents whose order is not fixed. Nodes of these trees will live in `pool`.
+  // All arguments must outlive this. `stops` may be shared with others of the same thread; it is
+  // queried for agents whose order is not fixed. `pool` holds the nodes of these trees.
   Trees(const Problem& problem, AgentStopsCache& stops, NodePool& pool);
 
-  // The root of the tree of this number again. Throws std::invalid_argument, and adds nothing, for
-  // a record that cannot be of this instance: a number of agents or stops that is not its own, a
-  // path that is no walk from the agent's start to where it may rest, visits other stops or visits
-  // them in another order, or that is not the shortest in its order. That a class left open holds
-  // no better order is believed.
+  // Recreates the tree with this number and returns its root. Throws std::invalid_argument, and
+  // adds nothing, if the record cannot be one of this instance: a wrong number of agents or stops,
+  // or a path that is no walk from the agent's start to a place where it may rest, that visits
+  // other stops or another order, or that is not the shortest in its order. Not checked: that a
+  // class with open stops has no better order.
   NodePtr add(const TreeRecord& record, std::uint32_t number);
 
   std::size_t size() const { return trees_.size(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bounds from pairs of agents that cannot both have their best paths.
+// WDG heuristic of CBS: lower bounds from pairs and groups of agents that must cost more together.
 #pragma once
 
 #include <cstdint>
@@ -16,55 +16,57 @@
 
 namespace grove::detail {
 
-// How much to find out about a node before it is split.
+// How much effort the bound of a node may take before the node is split.
 enum class BoundingEffort : std::uint8_t {
   kFull,
-  kCachedOnly,  // for its children: nothing new; what is known counts
+  kCachedOnly,  // to get its children sooner: only cached results, no new search
 };
 
-// The pairwise-dependency heuristic of CBS (WDG: Li et al., IJCAI 2019), with a memory that serves
-// all nodes; also for larger groups that conflict though no pair of them must cost more. The essay
-// is at the head of dependencies.cpp. Of one thread.
+// Weighted pairwise-dependency heuristic of CBS (WDG: Li et al., IJCAI 2019), with a cache that
+// serves all nodes. It also bounds larger groups that conflict although no pair of them must cost
+// more. The argument is at the head of wdg_heuristic.cpp. One thread at a time.
 class WdgHeuristic {
  public:
-  // All must outlive this.
+  // All arguments must outlive this.
   WdgHeuristic(const Problem& problem, const SearchOptions& options, PathPlanner& planner,
                WorkerCache& memory);
 
   enum class Outcome : std::uint8_t {
     kDone,
-    kUnfinished,  // so much work was done that others should have their turn; asked again about the
-                  // same node, it goes on
-    kStopped,     // a limit struck
+    kUnfinished,  // Tuning::bound_work was reached, so that other work can run; the next call for
+                  // the same node continues
+    kStopped,     // a limit was reached
   };
 
-  // Helps others that bound the same node with the same common memory: solves pairs, beginning at
-  // this `share` in [0, 1) of them. False: nothing was left to do.
+  // Helps other workers that bound the same node with the same shared cache: solves pairs, starting
+  // at the fraction `share` in [0, 1) of the list of pairs. Returns false if there was no work left
+  // to do.
   bool help(const NodePtr& node, NodeView& view, Cost cutoff, double share, const Limits& limits);
 
-  // A proven lower bound on every plan that obeys the constraints of `node`, which `view` has
-  // entered with all agents; or `cutoff`, if none of them is cheaper. Sets `bound` only on kDone.
+  // Sets `bound` to a proven lower bound on every plan that satisfies the constraints of `node`, or
+  // to `cutoff` if none of these plans costs less than that. `view` must have entered `node` with
+  // all agents. `bound` is valid only on kDone.
   Outcome find_bound(const NodePtr& node, NodeView& view, Cost cutoff,
                      BoundingEffort bounding_effort, const Limits& limits, Cost& bound);
 
-  // Splits on the costs of two agents that conflict at the node that `view` has entered and are
-  // known not to be able to keep both their costs: "the one comes to rest later | the other does".
-  // Appended.
+  // Appends the splits on the costs of two agents that conflict at the node that `view` has entered
+  // and are known to be unable to both keep their costs: one comes to rest later, or the other
+  // does.
   void splits(NodeView& view, std::vector<Split>& splits);
-  // Names the lemma by which such a split, at the node that `view` has entered, loses no plan.
+  // Key of the lemma which proves that such a split loses no plan. `view` has entered the node.
   ProofKey why(NodeView& view, const Split& split);
 
-  // Lets all nodes go.
+  // Drops all references to nodes.
   void leave();
 
-  // So far: expansions in pairs; pairs of places compared in sets of optimal paths; and what their
-  // view and brancher counted.
+  // Counters since construction: expansions for pairs and groups, pairs of places compared in joint
+  // MDDs, and below, the counters of the view and the brancher of pairs and groups.
   std::int64_t expansions() const { return expansions_; }
   std::int64_t joint_pairs() const { return pair_dependency_.pairs(); }
   std::int64_t steps() const { return pair_view_.steps(); }
-  // As NodeView::exchange, of the view of pairs and groups.
+  // As NodeView::exchange(), for the view of pairs and groups.
   void exchange(NodeView::Kept& kept) { pair_view_.exchange(kept); }
-  // By joint search.
+  // Solver of groups by joint search.
   const JointGroups& joint_groups() const { return joint_groups_; }
   std::int64_t optimal_nodes() const { return pair_brancher_.optimal_nodes(); }
 
@@ -112,12 +114,12 @@ class WdgHeuristic {
   JointMddSearch pair_dependency_;
   JointGroups joint_groups_;
   std::vector<SubproblemTable::Id> situation_;  // by AgentIndex, at the node
-  std::vector<Open> open_;                      // a heap: least cost first
+  std::vector<Open> open_;                      // unsorted; the search takes the node of least cost
   std::vector<NodePtr> children_;
-  std::vector<ProofSplit> written_;  // of the group under way, if there is a proof to be written
+  std::vector<ProofSplit> written_;  // of the current group, if a certificate is written
   std::vector<DependencyTable::Partner> partners_;
   std::int64_t expansions_ = 0;
-  std::int64_t give_up_at_ = 0;  // of work()
+  std::int64_t give_up_at_ = 0;  // a value of work()
 };
 
 }  // namespace grove::detail
