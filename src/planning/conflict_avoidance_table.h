@@ -130,7 +130,7 @@ class ConflictAvoidanceTable {
   // array answers most queries. Bits of removed paths may stay set for a while.
   struct Visited {
     std::uint32_t generation = 0;
-    std::uint32_t times = 0;  // one bit per kTimesPerBit times, modulo 32 bits
+    std::uint32_t times = 0;  // one bit per kTimesPerBit times, cyclic
   };
   static constexpr int kTimesPerBit = 8;
   static std::uint32_t time_bit(Time time) {
@@ -152,7 +152,8 @@ class ConflictAvoidanceTable {
   std::vector<Counts> counts_;    // a power of two
   std::vector<Visited> visited_;  // by place
   std::size_t mask_;              // counts_.size() - 1
-  std::uint64_t stride_;  // of time; odd, so that different times rarely fold onto each other
+  std::uint64_t stride_;  // of time; odd: on a place only times that differ by a multiple of the
+                          // size coincide
   std::uint64_t generation_ = 1;
   std::size_t keys_ = 0;          // of this generation, including those of removed paths
   Time horizon_ = 0;              // no path added since the last clear() moves after this time

@@ -41,7 +41,7 @@ enum class ConstraintKind : std::uint8_t {
 
 inline constexpr std::size_t kConstraintKinds = 6;
 
-// For messages: "bar", "no-rest-by" ...
+// Name in messages: "bar", "no-rest-by", ...
 std::string_view name_of(ConstraintKind kind);
 // Returns nullopt if no kind has this number.
 std::optional<ConstraintKind> constraint_kind(std::uint8_t number);

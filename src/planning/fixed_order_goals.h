@@ -98,7 +98,7 @@ class FixedOrderGoals {
     Time after_goal;
     TaskIndex work;  // the task whose work is next; -1: none
     Time latest;     // labels of greater f miss a deadline
-    // A label of f >= gate_from is postponed to layer gate_until.
+    // A label of f >= gate_from is postponed to layer gate_until; kNever: it is dropped.
     Time gate_from;
     Time gate_until;
   };

@@ -112,8 +112,7 @@ class FreeOrderGoals {
   int greed_percent_ = 0;
   std::vector<Deadline> deadlines_;
   Time first_rest_ = 0;
-  int only_rest_ = AgentStops::kNoStop;  // without a destination: the only stop to rest on, if
-                                         // kRestBy leaves one
+  int only_rest_ = AgentStops::kNoStop;  // without a destination: the stop of kRestBy
   StopDominance gates_;
   Time cap_ = 0;
   bool over_ = false;     // a label was dropped by the cap

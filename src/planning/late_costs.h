@@ -12,7 +12,7 @@ namespace grove::detail {
 
 // Lower bounds on the legs of every path under these intervals that visits the stops in the order
 // of a sequence of plain cost `least_cost` or more. Returns nullopt if no entry exceeds the plain
-// matrix. O(stops * places).
+// matrix. O(stops * states).
 std::optional<CostMatrix> late_cost_matrix(const World& world, SafeIntervals& intervals,
                                            const AgentStops& stops, Time least_cost);
 

@@ -14,8 +14,8 @@ class LateGoals {
   // Both must outlive this.
   LateGoals(const World& world, SafeIntervals& intervals) : world_(world), intervals_(intervals) {}
 
-  // The stages of the same class over late costs (late_costs.h). Returns nullptr if the best
-  // sequence does not cost more by these, or if a limit was reached. Valid until the next call.
+  // The stages of the same class over late costs (late_costs.h). Returns nullptr unless these prove
+  // a higher cost of the best sequence; a limit may prevent that. Valid until the next call.
   SequenceStages* over(SequenceStages& plain, const Limits& limits);
 
  private:

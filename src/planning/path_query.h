@@ -16,7 +16,8 @@ enum class PathOutcome : std::uint8_t {
   kFound,
   kAboveCutoff,  // proven: no path costs `cutoff` or less (there may be none at all)
   kInfeasible,   // proven: there is no path
-  kStopped,      // a limit or label_limit was reached, or see known_sequences: nothing is proven
+  kStopped,  // nothing is proven: a limit or label_limit was reached, the costs to go would be too
+             // large, or see known_sequences
 };
 
 // Constraints and preferences for the path of one agent. All pointers and spans must stay valid
@@ -29,8 +30,7 @@ struct PathQuery {
   // null: no preference.
   const ConflictAvoidanceTable* others = nullptr;
   Time cutoff = kNever;  // paths of higher cost are of no use; kNever: any cost is accepted
-  std::int64_t label_limit =
-      kUnlimited;  // about this many labels are expanded at most, then kStopped
+  std::int64_t label_limit = kUnlimited;  // about this many labels, then kStopped
 
   // Paths that must be avoided, in place of constraints; null: none.
   const ReservationTable* reservations = nullptr;

@@ -30,7 +30,7 @@ void SafeIntervals::assign(std::span<const Constraint> constraints) {
 void SafeIntervals::assign(const ReservationTable& reservations) {
   forget();
   reservations_ = &reservations;
-  // k stays leave at most k + 1 intervals.
+  // k >= 1 stays on a place leave at most k + 1 <= 2 k intervals of each state.
   slot_limit_ =
       states_ + static_cast<int>(2 * reservations.count()) * world_.most_states_on_a_place();
 }

@@ -33,9 +33,9 @@ struct SafeInterval {
 // The safe intervals of all states under one list of constraints. Most places have no constraint
 // and take no memory except one number: the only interval of a state there, all of time, is the
 // *slot* with the number of the state. The intervals of states on other places are the slots from
-// state_count() on; those of one state are contiguous and in order of time. The object is reused
-// for many lists. Each list takes O(constraints), plus sorting and the length of the corridors that
-// may not be traversed.
+// state_count() on; those of one state are contiguous and, within a copy (see below), in order of
+// time. The object is reused for many lists. Each list takes O(constraints), plus sorting and the
+// length of the corridors that may not be traversed.
 //
 // With reservations instead of constraints, the intervals of a place are made when the place is
 // first seen: see() must be called before any other query about it. With constraints see() does
@@ -189,9 +189,8 @@ class SafeIntervals {
     std::int32_t first_bar = 0;
     std::int32_t first_move = 0;  // the barred moves to the place come last
     std::int32_t end_move = 0;
-    std::int32_t chain =
-        kNoCopies;           // index in chains_used_ of the corridor of which it is an inner place
-    Place front = kNoPlace;  // the front of that corridor, if adjacent
+    std::int32_t chain = kNoCopies;  // of an inner place: in chains_used_
+    Place front = kNoPlace;          // the front of that corridor, if adjacent
   };
 
   template <class PlaceOf, class Arrive>

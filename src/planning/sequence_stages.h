@@ -229,8 +229,7 @@ class SequenceStages {
   void add_onward(Stage& stage);
 
   AgentStops& stops_;
-  std::optional<CostToGo>
-      own_;  // costs to go of the class, if they differ from those of all sequences
+  std::optional<CostToGo> own_;  // of the class, unless those of all sequences serve it
   CostToGo* completions_;
   SequenceClass class_;
   StopSet free_;            // stops that are not in the prefix

@@ -14,7 +14,7 @@
 // *Soundness* is that of the gates in fixed_order_goals.h: if L is postponed beyond the optimal
 // cost, an optimal path changes over to a G with fewer stops left, so this ends. With a fixed
 // sequence a gate holds for all earlier stages. Here it holds for one stage, because earlier stages
-// may count other stops on the way to u. They have gates of their own.
+// may count other stops on the way to u. The earlier stages are cut off by gates of their own.
 //
 // *Turning agents.* If agents turn, L may count u in another state than G. Then G turns, too, on
 // its place and in its interval, for a bounded number of steps. So the gate of a port dominates

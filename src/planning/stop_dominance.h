@@ -21,8 +21,8 @@ class StopDominance {
   void begin_search();
 
   // Records that a label in the stage after `from` was expanded in `state`, on a stop just counted
-  // at `time`. It dominates a label of `from` that comes to that stop before `until`; kNever: at
-  // any time.
+  // at `time`. It dominates a label of `from` that comes to that stop at `time` or later (plus the
+  // time to turn) and before `until`; kNever: no upper limit.
   void close(const SequenceStages& goals, StageId from, State state, Time time, Time until);
 
   // Is there a gate at any onward port of this stage?
