@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Constraints of a constraint-tree node on one agent. This file and constraint.cpp are the only
-// place that defines which agents a constraint concerns and when a path obeys it.
+// Constraints of a constraint-tree node on one agent. Only this file and constraint.cpp define
+// which agents a constraint concerns and when a path obeys it.
 #pragma once
 
 #include <cstddef>

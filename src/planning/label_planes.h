@@ -32,8 +32,8 @@ class LabelPlanes {
     if (touched_groups_ > kGroupsKept) reinsert();
     if (static_cast<std::size_t>(slots) > capacity_) {
       reinsert();
-      // Little spare capacity at first, because memory may be short. But reservations grow path by
-      // path.
+      // Little spare capacity at first, because memory may be short. Later it grows by half,
+      // because with reservations the number of slots grows path by path.
       const std::size_t tight =
           static_cast<std::size_t>(slots) + static_cast<std::size_t>(slots) / 8 + kSpare;
       capacity_ = std::max(tight, capacity_ + capacity_ / 2);

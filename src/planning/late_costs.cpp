@@ -13,7 +13,8 @@
 // *How late a leg begins.* No path counts stop i before dist(start, i). Consider a path that counts
 // i last, with a sequence s. Up to i it visits all of s, so this part takes at least cost(s) -
 // to_end(i), and cost(s) is at least the least cost of all sequences considered. So the leg from i
-// to the end begins at least_cost - to_end(i) or later. Both costs are those without constraints.
+// to the end begins at least_cost - to_end(i) or later. cost(s) and to_end(i) are costs without
+// constraints.
 //
 // *Consequence.* Each leg of a path costs at least its entry, whatever comes before and after. So
 // this matrix can replace the plain one: it bounds the whole sequence, and the remainder of the

@@ -153,7 +153,8 @@ std::shared_ptr<const std::int8_t[]> AgentStops::stops_of_states(const Instance&
 }
 
 // Once an agent is there for good, and no constraint bars the place any more, it turns and works
-// without waiting: at most all of its work there, with a turn before and a turn after.
+// without waiting: at most all of its work there, plus max_turn_time() for the turns before and
+// after.
 Time AgentStops::longest_finish(Place place) const {
   Time longest = world_->max_turn_time(kind_);
   for (std::size_t stop = 0; stop < places_.size(); ++stop)
