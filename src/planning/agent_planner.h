@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What plans one agent at a time and chooses the order of its tasks: the low level of CBS.
+// Interface of a low level of CBS that chooses the order of the tasks itself.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,9 @@
 
 namespace grove::detail {
 
-// Grove's own is FreeOrderSipp; those of other methods are in the layer `baselines`. Exact,
-// whichever it is. Workspace of one thread: reuse it, do not share it.
+// Interface of an exact single-agent planner. Grove's own is FreeOrderSipp; those of other methods
+// are in the layer `baselines`. One thread at a time. An implementation keeps its workspace between
+// calls, so reuse it.
 class AgentPlanner {
  public:
   AgentPlanner() = default;
@@ -23,8 +24,8 @@ class AgentPlanner {
   // Finds a path of least cost from the start at time 0 that realizes some sequence of the class
   // and obeys the constraints of `query`, if that cost is at most the cutoff. The path ends when
   // the agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound. May widen
-  // the completions of `goals`. Throws std::invalid_argument for a query that is none, or not one
-  // for this planner.
+  // the costs to go of `goals`. Throws std::invalid_argument for a query that is invalid or that
+  // this planner does not support.
   virtual PathOutcome find(SequenceStages& goals, const PathQuery& query, const Limits& limits,
                            Path& path) = 0;
 

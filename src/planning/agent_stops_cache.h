@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The stops of all agents, for those who plan one after the other.
+// Cache of the AgentStops of all agents, for planning the agents one after the other.
 #pragma once
 
 #include <memory>
@@ -9,16 +9,15 @@
 
 namespace grove::detail {
 
-// Each agent's AgentStops, made when first asked for and kept, with their completions: the tables
-// of many tasks are large, so that the searches of one thread had better share them. For one
-// thread.
+// Each agent's AgentStops with their costs to go, made at the first request and kept. The tables of
+// many tasks are large, so the searches of one thread should share them. One thread at a time.
 class AgentStopsCache {
  public:
   // `instance` and `distances` must outlive this.
   AgentStopsCache(const Instance& instance, const DistanceFields& distances)
       : instance_(instance), distances_(distances), stops_(instance.agent_count()) {}
 
-  // The same for another thread: shares what `other` knows by now.
+  // Copy for another thread. Shares the data that `other` has computed so far.
   AgentStopsCache(const AgentStopsCache& other)
       : instance_(other.instance_), distances_(other.distances_), stops_(other.stops_.size()) {
     for (std::size_t agent = 0; agent < stops_.size(); ++agent)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The open list of the low level.
+// Open list of the low level: a bucket queue.
 #pragma once
 
 #include <algorithm>
@@ -12,15 +12,15 @@
 
 namespace grove::detail {
 
-// A priority queue for small integers that never grow smaller: entries come out by *layer* (an f
-// value), then by conflicts, then last in, first out, which dives along a path and so prefers the
-// larger time. All operations are O(1) but for skipping empty layers.
+// A monotone priority queue for small integers. Entries are popped by *layer* (an f value), then by
+// conflicts, then last in, first out. LIFO dives along a path and so prefers the larger time. All
+// operations are O(1), except for skipping empty layers.
 //
 // Entries live in one pool and are chained into lists: one per conflict count for the layer being
 // emptied, one per layer for the next kWindow layers, one for all layers beyond. Nothing is
 // allocated once the pool has grown to the size of the largest search so far.
 //
-// `Progress` numbers what has been visited: a byte where goals come in a fixed order.
+// `Progress` is a number for the set of visited goals: a byte if goals come in a fixed order.
 template <class Progress>
 class BasicBucketQueue {
  public:
@@ -37,13 +37,13 @@ class BasicBucketQueue {
     window_.fill(kNone);
   }
 
-  // Empties the queue. Layers before `first` will not be used.
+  // Empties the queue. Layers before `first` must not be used.
   void reset(Time first);
   // `layer` must not be before layer().
   void push(Time layer, const Entry& entry);
-  // Takes out the next entry; false when there is none.
+  // Removes the next entry. Returns false if the queue is empty.
   bool pop(Entry& entry);
-  // The layer of the entry that came out last.
+  // The layer of the entry popped last.
   Time layer() const { return layer_; }
 
  private:
@@ -149,7 +149,7 @@ inline bool BasicBucketQueue<Progress>::next_layer() {
   return move_window();
 }
 
-// The window is empty: let it begin at the first layer beyond it.
+// The window is empty: moves its begin to the first layer beyond it.
 template <class Progress>
 inline bool BasicBucketQueue<Progress>::move_window() {
   if (beyond_ == kNone) return false;

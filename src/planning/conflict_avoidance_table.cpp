@@ -29,8 +29,8 @@ int ConflictAvoidanceTable::direction_on_roads(const World& world, Place from, P
   return std::min(static_cast<int>(std::ranges::find(neighbors, from) - neighbors.begin()), 3);
 }
 
-// For so many keys more. What is in use goes over into a new generation, in the same memory if that
-// will do; left-overs stay behind.
+// Makes room for `steps` more keys. Moves the counts in use into a new generation, in the same
+// memory if that suffices. Counts of removed paths are dropped.
 void ConflictAvoidanceTable::make_room(std::size_t steps) {
   if (kSparsity * (keys_ + steps) <= counts_.size()) return;
   in_use_.clear();

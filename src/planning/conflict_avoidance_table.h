@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the other agents are: the tie-breaker of the low level, never a constraint.
+// Conflict avoidance table: the paths of the other agents, as a tie-breaker of the low level, never
+// as a constraint.
 #pragma once
 
 #include <array>
@@ -11,9 +12,10 @@
 
 namespace grove::detail {
 
-// Counts, per place and time and per move and time, the paths that use it (fewer than 65,536). One
-// per thread. A hash table of what the paths touch, whatever the size of the map: about 100 bytes
-// per step of a path, which stays in the cache where a full table would not.
+// Counts the paths that use each (place, time) and each (move, time); fewer than 65,536 paths. A
+// hash table of the places and times on the paths, whatever the size of the map. It takes about 100
+// bytes per step of a path, so it stays in the processor cache where a full table would not. One
+// thread at a time.
 class ConflictAvoidanceTable {
  public:
   // `world` must outlive this.
@@ -26,21 +28,21 @@ class ConflictAvoidanceTable {
   // Removes every path. O(size of what was added).
   void clear();
 
-  // Vertex and edge conflicts of arriving on `to` at time `time` coming from `from` (equal: a
-  // wait).
+  // Vertex and edge conflicts of arriving on `to` at time `time`, coming from `from` (a wait if
+  // they are equal).
   int conflicts(Place from, Place to, Time time) const {
     const int count = vertex_conflicts(to, time);
     return from == to ? count : count + comers(from, time).from(to);
   }
-  // The vertex conflicts alone.
+  // Only the vertex conflicts.
   int vertex_conflicts(Place place, Time time) const {
     const int count = visits(place, time);
     return time > first_rest_[place] ? count + rests_before(place, time) : count;
   }
-  // The paths that come to a place at a time; until the table is changed.
+  // The moves of paths to a place that arrive at a given time. Valid until the table is changed.
   class Arrivals {
    public:
-    // How many come from this neighbor: the edge conflicts of a move there.
+    // Number of paths that come from this neighbor: the edge conflicts of a move to the neighbor.
     int from(Place neighbor) const {
       return moves_ == nullptr ? 0 : (*moves_)[direction(*world_, neighbor, place_)];
     }
@@ -59,29 +61,30 @@ class ConflictAvoidanceTable {
     if (const Counts* counts = counts_of(place, time)) comers.moves_ = &counts->moves;
     return comers;
   }
-  // The vertex conflicts of waiting on `place` from time `first` to time `last`, summed up.
+  // Sum of the vertex conflicts of waiting on `place` from time `first` to time `last`.
   int conflicts_of_waiting(Place place, Time first, Time last) const;
-  // How many times a path passes `place` after `time`, or rests there (which counts once): what
-  // resting there from `time` on would run into.
+  // Conflicts of resting on `place` from `time` on: the number of times that a path is there after
+  // `time`, where resting there counts once.
   int conflicts_of_resting(Place place, Time time) const;
-  // The conflicts of a whole path (not empty), step by step, and of the rest after it.
+  // Sum of the conflicts of all steps of a path (not empty) and of its rest at the end.
   int conflicts_of(const Path& path) const;
 
  private:
-  // The paths on a place at a time, and those of them that just came from a neighbor, by direction.
+  // The number of paths on a place at a time, and of those that just came from a neighbor, by
+  // direction.
   struct Counts {
     std::uint64_t key = 0;     // 0: never used
-    std::uint16_t visits = 0;  // 0: left over from paths that were removed
+    std::uint16_t visits = 0;  // 0: only removed paths were here
     std::array<std::uint16_t, 4> moves{};
   };
-  // An agent that rests is not counted step by step: it would never end.
+  // The rest of a path. It is not counted step by step, because it is infinite.
   struct Rest {
     Place place;
     Time since;
   };
 
-  // A key is of one generation: entries of older ones count as free.
-  // Later times than kLastTime are not counted.
+  // A key contains its generation. Entries of older generations count as free. Times later than
+  // kLastTime are not counted.
   static constexpr int kPlaceBits = 27;
   static constexpr int kTimeBits = 21;
   static constexpr std::uint64_t kLastGeneration = 0xFFFF;
@@ -94,7 +97,8 @@ class ConflictAvoidanceTable {
   bool is_current(std::uint64_t key) const {
     return key >> (kTimeBits + kPlaceBits) == generation_;
   }
-  // One of four for each neighbor; where there are more, several share the last.
+  // Index of the direction of a move, 0 to 3: a different one for each neighbor. If there are more
+  // than four neighbors, several share the last index.
   static int direction(const World& world, Place from, Place to) {
     if (world.row_width() == 0) return direction_on_roads(world, from, to);
     const Place delta = to - from;
@@ -102,8 +106,9 @@ class ConflictAvoidanceTable {
     return 2 * static_cast<int>(along_row) + static_cast<int>(delta > 0);
   }
   static int direction_on_roads(const World& world, Place from, Place to);
-  // Where the counts of a key are, or would go: open addressing, at most a quarter full. The place
-  // is a full table's, folded, so that neighbors at one time share a cache line.
+  // Index of the counts of a key, or of the free entry for it. Open addressing, at most a quarter
+  // full. The hash is the index into a full table, folded, so that neighbors at one time share a
+  // cache line.
   std::size_t slot(std::uint64_t key) const {
     const std::uint64_t place = key & ((std::uint64_t{1} << kPlaceBits) - 1);
     const std::uint64_t time = key >> kPlaceBits & kLastTime;
@@ -111,7 +116,7 @@ class ConflictAvoidanceTable {
     while (counts_[at].key != key && is_current(counts_[at].key)) at = (at + 1) & mask_;
     return at;
   }
-  // Null: no path was there.
+  // Returns nullptr if no path is there.
   const Counts* counts_of(Place place, Time time) const {
     if (!perhaps(place, time)) return nullptr;
     const Counts& counts = counts_[slot(key(place, time))];
@@ -121,17 +126,17 @@ class ConflictAvoidanceTable {
     const Counts* counts = counts_of(place, time);
     return counts ? counts->visits : 0;
   }
-  // Few places are visited at a given time: one small array settles most questions. Bits of paths
-  // that were removed may stay on for a while.
+  // A filter in front of the hash table. Few places are visited at a given time, so this small
+  // array answers most queries. Bits of removed paths may stay set for a while.
   struct Visited {
     std::uint32_t generation = 0;
-    std::uint32_t times = 0;  // a bit for kTimesPerBit times, over and over
+    std::uint32_t times = 0;  // one bit per kTimesPerBit times, cyclic
   };
   static constexpr int kTimesPerBit = 8;
   static std::uint32_t time_bit(Time time) {
     return std::uint32_t{1} << (static_cast<std::uint32_t>(time) / kTimesPerBit % 32);
   }
-  // False: no path is on this place at this time, unless it rests there.
+  // Returns false if no path is on this place at this time, except for paths that rest there.
   bool perhaps(Place place, Time time) const {
     const Visited& visited = visited_[place];
     return (visited.times & time_bit(time)) != 0 && visited.generation == generation_;
@@ -147,9 +152,10 @@ class ConflictAvoidanceTable {
   std::vector<Counts> counts_;    // a power of two
   std::vector<Visited> visited_;  // by place
   std::size_t mask_;              // counts_.size() - 1
-  std::uint64_t stride_;          // of time: odd, so that no two times fold onto each other early
+  std::uint64_t stride_;  // of time; odd: on a place only times that differ by a multiple of the
+                          // size coincide
   std::uint64_t generation_ = 1;
-  std::size_t keys_ = 0;          // of this generation, left-overs included
+  std::size_t keys_ = 0;          // of this generation, including those of removed paths
   Time horizon_ = 0;              // no path added since the last clear() moves after this time
   std::vector<Time> first_rest_;  // by place: when the first path comes to rest there
   std::vector<Rest> rests_;

@@ -25,7 +25,7 @@ constexpr std::array<Named, kConstraintKinds> kNames = {{
     {ConstraintKind::kStopIsNot, "stop-is-not"},
 }};
 
-// One step of rest stands for all: after it the path changes no more.
+// One time step of rest represents all later ones, because the path does not change any more.
 bool keeps_off(const World& world, const Path& path, const Constraint& bar) {
   const Time last = std::min(bar.end, std::max(static_cast<Time>(path.size()), bar.begin));
   for (Time t = std::max(bar.begin, 0); t <= last; ++t) {
@@ -39,7 +39,7 @@ bool rests_by(const World& world, const Path& path, const Constraint& c) {
   return world.place(path.back()) == c.cell && last_arrival(world, path) <= c.end;
 }
 
-// Is the move to path[arrival], out of a chain, the end of a traversal?
+// Is the move to path[arrival], out of a corridor, the end of a traversal?
 bool ends_traversal(const World& world, const Path& path, Time arrival,
                     const Corridors& corridors) {
   const auto place = [&](Time t) { return world.place(path[t]); };

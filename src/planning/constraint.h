@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a constraint-tree node demands of one agent: whom a constraint concerns, and what a path
-// must do to obey it, are said here and in constraint.cpp once for all.
+// Constraints of a constraint-tree node on one agent. Only this file and constraint.cpp define
+// which agents a constraint concerns and when a path obeys it.
 #pragma once
 
 #include <cstddef>
@@ -15,36 +15,39 @@ namespace grove::detail {
 
 class Corridors;
 
-// The numbers are those of files and messages: a new kind takes the next one and a row in
+// The numbers are written to files and messages. A new kind takes the next number and a row in
 // constraint.cpp.
 enum class ConstraintKind : std::uint8_t {
-  // Not on the place `cell` (resting on it after the finish counts as being there), or, with `from`
-  // given, not moving from -> cell, at any time in [begin, end]; for a move the time of arrival.
+  // The agent is not on the place `cell` (resting on it after the finish counts as being there) or,
+  // with `from` given, does not move from -> cell, at any time in [begin, end]. For a move this is
+  // the time of arrival.
   kVertexOrEdge = 0,
-  // Does not come to rest for ever on `cell` at `end` or earlier: if the agent ends there, it
+  // The agent does not come to rest for ever on `cell` at `end` or earlier: if it ends there, it
   // arrives there for the last time, by a move, later than `end`. (Target reasoning: Li et al.
   // 2021.) `from` and `begin` are not used.
   kNoRestBy = 1,
-  // Comes to rest for ever on `cell`, at `end` or earlier. `from` and `begin` are not used.
+  // The agent comes to rest for ever on `cell`, at `end` or earlier. `from` and `begin` are not
+  // used.
   kRestBy = 2,
-  // Does not leave a chain (chains.h) for its end `cell` by way of the inner cell `from`, arriving
-  // at a time in [begin, end], after having entered it from its other end and stayed inside since.
-  // Turning round inside, and starting inside, are no traversals.
+  // The agent does not leave a corridor (corridors.h) for its end `cell` by way of the inner place
+  // `from`, arriving at a time in [begin, end], after it entered the corridor from the other end
+  // and stayed inside since. Turning round inside and starting inside are not traversals.
   kNoTraversal = 3,
-  // Of the stops in the order in which they are counted, number `begin` (from 0) is stop `from`, on
-  // `cell`, or is not. Such constraints make a sequence class (sequence_constraints.h).
+  // In the order in which the stops are counted, stop number `begin` (from 0) is stop `from`, on
+  // `cell`, or is not. Such constraints define a sequence class (sequence_constraints.h).
   kStopIs = 4,
   kStopIsNot = 5,
 };
 
 inline constexpr std::size_t kConstraintKinds = 6;
 
-// For messages: "bar", "no-rest-by" ...
+// Name in messages: "bar", "no-rest-by", ...
 std::string_view name_of(ConstraintKind kind);
-// None: no kind has this number.
+// Returns nullopt if no kind has this number.
 std::optional<ConstraintKind> constraint_kind(std::uint8_t number);
 
-// Bars are those of CBS (Sharon et al. 2015), ranges as in Atzmon et al. 2020. Times are inclusive.
+// Vertex and edge constraints are those of CBS (Sharon et al. 2015), with time ranges as in Atzmon
+// et al. 2020. Times are inclusive.
 struct Constraint {
   Cell cell = kNoCell;
   Cell from = kNoCell;
@@ -56,34 +59,35 @@ struct Constraint {
   friend bool operator==(const Constraint&, const Constraint&) = default;
 };
 
-// Such constraints speak of the order of visits, of which a path alone may realize several.
+// Is the constraint on the order of visits? One path may realize several orders.
 inline bool is_about_sequence(const Constraint& c) {
   return c.kind == ConstraintKind::kStopIs || c.kind == ConstraintKind::kStopIsNot;
 }
 
-// Does `path` (not empty), its rest for ever included, do what `c`, which is not about the
-// sequence, demands? O(length).
+// Does `path` (not empty), including its rest for ever, obey `c`? `c` must not be about the
+// sequence. O(length).
 bool satisfies(const World& world, const Path& path, const Constraint& c,
                const Corridors& corridors);
 
-// One agent and what it is forbidden.
+// A constraint and its agent.
 struct AgentConstraint {
-  AgentIndex agent = -1;  // -1: nobody is forbidden anything
+  AgentIndex agent = -1;  // -1: no agent is constrained
   Constraint constraint;
   friend bool operator==(const AgentConstraint&, const AgentConstraint&) = default;
 };
 
-// Does it demand something of every agent? A kRestBy of one bars all others from the cell from its
-// end on: that is where the one rests.
+// Does the constraint of one agent imply constraints on all others? A kRestBy bars all other agents
+// from the cell from its end on, because its agent rests there.
 inline bool constrains_all_agents(const Constraint& c) {
   return c.kind == ConstraintKind::kRestBy;
 }
 
-// What `added`, a constraint of a constraint-tree node, demands of `agent`; none if nothing.
+// The constraint that `added`, a constraint of a constraint-tree node, implies for `agent`. Returns
+// nullopt if there is none.
 std::optional<Constraint> constraint_on(AgentIndex agent, const AgentConstraint& added);
 
-// Calls visit(agent, demand) for each of `agents`, which hold added.agent, of whom `added` demands
-// something.
+// Calls visit(agent, constraint) for each of `agents` for which `added` implies a constraint.
+// `agents` must contain added.agent.
 template <class Agents, class Visit>
 void for_each_implied_constraint(const AgentConstraint& added, const Agents& agents, Visit visit) {
   if (added.agent < 0) return;

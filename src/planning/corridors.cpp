@@ -10,8 +10,8 @@ bool is_inner(const World& world, Place place) {
   return world.neighbors(place).size() == 2;
 }
 
-// Appends the places from `next` to the end of the row, the neighbor `before` being behind. False,
-// and nothing of worth appended, if that leads back to where it began.
+// Appends the places from `next` to the end of the row; the neighbor `before` lies behind. Returns
+// false if the row leads back to its origin; then the places appended are meaningless.
 bool walk_to_end(const World& world, Place before, Place next, std::vector<Place>& places) {
   const Place origin = before;
   while (next != origin) {
@@ -37,7 +37,7 @@ void Corridors::add_chain_through(const World& world, Place inner) {
   const auto begin = static_cast<std::ptrdiff_t>(places_.size());
   const auto ways = world.neighbors(inner);
   const bool ends = walk_to_end(world, inner, ways[0], places_);
-  if (!ends) {  // a ring: its places are in places_, but for this one
+  if (!ends) {  // a ring: places_ holds all its places except this one
     for (auto ring = places_.begin() + begin; ring != places_.end(); ++ring)
       position_[*ring] = kSeen;
     position_[inner] = kSeen;

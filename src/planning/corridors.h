@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Corridors and doors: rows of places in which an agent can only go on or turn round.
+// Corridors of a world, doors included: rows of places in which an agent can only continue or turn
+// round.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +11,10 @@
 
 namespace grove::detail {
 
-// The chains of a world: maximal rows of places with exactly two neighbors, the *inner* places,
-// with the two *ends* they join, which have fewer or more neighbors. A door between two rooms is a
-// chain of two moves. The two ends may be one place. A ring has no end and is no chain. Immutable
-// after construction, so any number of threads may read one.
+// The corridors of a world. A corridor is a maximal row of places with exactly two neighbors, the
+// *inner* places, together with the two *ends* that they join, which have fewer or more neighbors.
+// A door between two rooms is a corridor of two moves. The two ends may be one place. A ring has no
+// end and is not a corridor. Immutable: any thread may read it.
 class Corridors {
  public:
   static constexpr int kNoCorridor = -1;
@@ -22,13 +23,14 @@ class Corridors {
   explicit Corridors(const World& world);
 
   int count() const { return static_cast<int>(first_.size()) - 1; }
-  // Whose inner place this is; kNoCorridor if of none.
+  // The corridor of which `place` is an inner place; kNoCorridor if there is none.
   int corridor_of(Place place) const { return corridor_of_[place]; }
-  // An end, the inner places in order, the other end: the *front* and the *back*.
+  // The places of a corridor: one end (the *front*), the inner places in order, the other end (the
+  // *back*).
   std::span<const Place> places(int chain) const {
     return {places_.data() + first_[chain], places_.data() + first_[chain + 1]};
   }
-  // Where an inner place is in places(): 1 is next to the front.
+  // Index of an inner place in places(); 1 is next to the front.
   int position(Place inner) const { return position_[inner]; }
 
  private:
@@ -39,8 +41,8 @@ class Corridors {
 
   std::vector<std::int32_t> corridor_of_;  // by place
   std::vector<std::int32_t> position_;     // by place
-  std::vector<Place> places_;              // chain after chain
-  std::vector<std::int32_t> first_{0};     // by chain; one more for the end of the last
+  std::vector<Place> places_;              // corridor after corridor
+  std::vector<std::int32_t> first_{0};     // by corridor; one more for the end of the last
 };
 
 }  // namespace grove::detail

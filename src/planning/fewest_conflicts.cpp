@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The low level prefers few conflicts among the ways it meets, but it keeps one label per safe
-// interval and state, the earliest: where a delay could be spent elsewhere, it does not see that.
-// The layered graph has every way, and a step's conflicts depend on its two places and its time
-// alone: so the fewest from each node to the end come from the layer after it, last layer first.
-// What is asked of the table once for a node - who else is there, who comes there next - serves all
-// its steps.
+// Problem: the low level prefers few conflicts among the paths that it generates, but it keeps one
+// label per safe interval and stage, the earliest. So it does not see where else a delay could be
+// spent.
+//
+// Method: dynamic programming over the MDD, which has every path. The conflicts of a step depend
+// only on its two places and its time. So the fewest conflicts from each node to the end follow
+// from the layer after it, last layer first. The table is queried once per node (who else is there,
+// who arrives there next); all steps from the node use the answers.
 #include "planning/fewest_conflicts.h"
 
 #include <limits>

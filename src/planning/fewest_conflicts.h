@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Of all paths of one cost, one that is least in the others' way.
+// Selects, among all paths of one cost, one with the fewest conflicts with other agents.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,15 @@
 
 namespace grove::detail {
 
-// Breaks ties among equally cheap paths. Holds the workspace of one thread.
+// Breaks ties among paths of equal cost. One thread at a time. It keeps its workspace between
+// calls, so reuse it.
 class FewestConflicts {
  public:
   // Writes the path of `paths` (not empty) that has the fewest conflicts with `others`, as
   // ConflictAvoidanceTable::conflicts_of counts them. O(edges of `paths`).
   void find(const Mdd& paths, const ConflictAvoidanceTable& others, Path& path);
 
-  // Nodes of the paths looked at so far.
+  // MDD nodes processed by all calls so far.
   std::int64_t nodes() const { return nodes_; }
 
  private:

@@ -1,37 +1,38 @@
 // SPDX-License-Identifier: MIT
 // Goals in a fixed order, for safe_interval_search.h.
 //
-// Progress is the number of goals visited, the last one not counted. Standing on the next goal
+// *Progress* is the number of goals visited, the last one not counted. Standing on the next goal
 // counts as visiting it whenever it happens (at time 0 too, and again if the goal after it is the
-// same place): visits are free and having made one takes away no continuation. A goal that takes
-// time is visited when its work is completed, and work is begun on the next goal alone: else it
-// would be a wait. One path through all
-// goals is planned as one path. Planning leg after leg with the earliest arrival of each is neither
-// optimal nor complete.
+// same place): visits are free, and a visit made removes no continuation. A goal that takes time is
+// visited when its work is completed. Work is begun only on the next goal; otherwise it would be
+// equivalent to waiting. One path through all goals is planned as one path, because planning leg by
+// leg with the earliest arrival of each is neither optimal nor complete.
 //
-// f = t + h, where h = GoalSequence::distance is consistent, and exact without constraints where
-// agents turn freely. Two
-// prunes, both by the order of goals that every path must keep:
+// *Heuristic.* f = t + h, where h = GoalSequence::distance is consistent, and exact without
+// constraints if agents turn freely.
 //
-// - *Deadlines.* If goal k is barred for ever after time d, a label of progress p <= k is of use
-//   only if t + (distance on through goal k) <= d, that is f <= d + after_goal(k). The smallest
-//   right side over all k >= p is latest_[p]. That the agent must rest by t (kRestBy) is such a
-//   deadline of the last goal: a path of least cost finishes longest_finish() later at most.
+// Two pruning rules follow from the order of goals that every path must keep:
 //
-// - *Gates.* (Agents that turn: g is max_turn_time() later here, see gates.cpp.) Let G be a label
-// of
-//   goal k just visited, in interval [a, b], reached at time g, and L
-//   a label that has yet to visit goal k and cannot do so before g: f(L) >= g + after_goal(k). A
-//   path P through L that visits goal k at some time <= b does so at a time in [g, b], where G
-//   could stand as well, waiting: from there on P is open to G. Only paths that visit goal k in a
-//   later interval, which begins at n, need L, and they cost n + after_goal(k) or more. So L is
-//   postponed to that f, and dropped when there is no later interval. Soundness: as long as the
-//   finish has not been taken out, some optimal path has an open label that is no later than it
-//   on one of its states and has a key (the f it is queued under) of at most the optimal cost. If
-//   L is that label and is postponed beyond the optimal cost, then P changes over to G as above:
-//   the path through G costs the same, and the first label on it that is not yet expanded has more
-//   progress than L had, so this ends. With unconstrained goals (b = kNever) the search thus
-//   falls into legs by itself, and it is still exact when it must not.
+// *Deadlines.* If goal k is barred for ever after time d, a label of progress p <= k is of use only
+// if t + (distance on through goal k) <= d, that is f <= d + after_goal(k). Stage::latest of
+// progress p is the smallest right side over all k >= p. The constraint that the agent must rest by
+// t (kRestBy) is such a deadline of the last goal: a path of least cost finishes at most
+// longest_finish() later.
+//
+// *Gates.* Let G be a label of goal k just visited, in interval [a, b], reached at time g. (If
+// agents turn, g is max_turn_time() later here; see stop_dominance.cpp.) Let L be a label that has
+// yet to visit goal k and cannot do so before g: f(L) >= g + after_goal(k). A path P through L that
+// visits goal k at some time <= b does so at a time in [g, b]. G could stand there then as well,
+// waiting, and from there on P is open to G. So L is needed only for paths that visit goal k in a
+// later interval, which begins at n, and they cost n + after_goal(k) or more. So L is postponed to
+// that f, and dropped if there is no later interval.
+// *Claim: the rule loses no optimal path.* *Proof.* As long as the finish has not been popped, some
+// optimal path has an open label that is no later than the path on one of its states and has a key
+// (the f under which it is queued) of at most the optimal cost. If L is that label and is postponed
+// beyond the optimal cost, then P changes over to G as above. The path through G costs the same,
+// and the first label on it that is not yet expanded has more progress than L had, so this ends.
+// *Consequence.* With unconstrained goals (b = kNever) the search decomposes into legs by itself.
+// It remains exact if the goals are constrained.
 #pragma once
 
 #include <cstdint>
@@ -47,11 +48,12 @@ class FixedOrderGoals {
   using Progress = std::uint8_t;
   static constexpr int kMostGoals = 255;
 
-  // `goals`, 255 at most, must outlive the search. False when there is plainly no path.
+  // `goals` must outlive the search and have at most 255 goals. Returns false if a quick test
+  // proves that there is no path.
   bool assign(const World& world, const GoalSequence& goals, const SafeIntervals& intervals);
 
   Time first_rest() const { return first_rest_; }
-  // What a path costs at least that is in the state at that time.
+  // Lower bound on the cost of a path that is in the state at `time` with this progress.
   Time least_cost(Progress progress, State state, Time time) const {
     return time + stages_[progress].to_goal[state] + stages_[progress].after_goal;
   }
@@ -80,23 +82,23 @@ class FixedOrderGoals {
   void close_gate(State state, Progress before, Progress progress, Time time, Time until);
 
  private:
-  // Is the goal after so much progress visited in this state? Most states are no base states on its
-  // place, which is known without a look at the distances.
+  // Is the next goal after `progress` visited in this state? Most states are not base states on the
+  // goal's place, which is tested without access to the distances.
   bool is_at_goal(Progress progress, State state) const {
     const Stage& stage = stages_[progress];
     const auto rank = static_cast<std::uint32_t>(state) - static_cast<std::uint32_t>(stage.first);
     return (rank < stage.states || world_->is_working(state)) && stage.to_goal[state] == 0;
   }
 
-  // What there is to know of one progress.
+  // Data of one progress.
   struct Stage {
-    DistanceView to_goal;  // to the next goal
-    State first;           // of the base states on its place
-    std::uint32_t states;  // and how many there are
+    DistanceView to_goal;  // distances to the next goal
+    State first;           // the first of the base states on its place
+    std::uint32_t states;  // and their number
     Time after_goal;
-    TaskIndex work;  // the work to be done next; -1: none
+    TaskIndex work;  // the task whose work is next; -1: none
     Time latest;     // labels of greater f miss a deadline
-    // A label of f >= gate_from need not be looked at before gate_until.
+    // A label of f >= gate_from is postponed to layer gate_until; kNever: it is dropped.
     Time gate_from;
     Time gate_until;
   };

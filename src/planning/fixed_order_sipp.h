@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The low level of CBS with goals in a fixed order: a shortest path of one agent through them under
-// constraints.
+// Low level of CBS with goals in a fixed order: a shortest path of one agent through its goals
+// under constraints.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@
 
 namespace grove::detail {
 
-// Safe-interval path planning (Phillips and Likhachev 2011) with one label per (cell, safe
-// interval, progress). The proofs are at the heads of safe_interval_search.h and goals_in_turn.h.
-// Holds the workspace of one thread: reuse it, do not share it.
+// Safe-interval path planning (Phillips and Likhachev 2011) with one label per (state, safe
+// interval, progress). The proofs are at the heads of safe_interval_search.h and
+// fixed_order_goals.h. One thread at a time. It keeps its workspace between calls, so reuse it.
 class FixedOrderSipp {
  public:
   // `world` must outlive this.
@@ -25,8 +25,8 @@ class FixedOrderSipp {
   // Finds a path of least cost from goals.start() at time 0 that visits the goals in order and
   // obeys the constraints of `query`, if that cost is at most the cutoff. The path ends when the
   // agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound. Throws
-  // std::invalid_argument for more than 255 goals, constraints that are none on a path of this
-  // world, and reservations.
+  // std::invalid_argument for more than 255 goals, for constraints that do not apply to a path of
+  // this world, and for reservations.
   PathOutcome find(const GoalSequence& goals, const PathQuery& query, const Limits& limits,
                    Path& path);
 

@@ -25,8 +25,9 @@ void FreeOrderGoals::find_deadlines(const SafeIntervals& intervals) {
   }
 }
 
-// When the agent may first come to rest anywhere for ever, and if it must do so on one stop, where.
-// (With a destination the heuristic knows where.)
+// Computes the first time at which the agent may come to rest for ever on any of its places of
+// rest, and the stop on which it must rest, if there is only one. (With a destination the heuristic
+// already leads there.)
 void FreeOrderGoals::find_rests(const SafeIntervals& intervals) {
   const AgentStops& stops = goals_->stops();
   only_rest_ = AgentStops::kNoStop;

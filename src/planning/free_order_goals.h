@@ -1,31 +1,33 @@
 // SPDX-License-Identifier: MIT
-// All sequences of a class at once, for safe_interval_search.h: progress is a state, what is left
-// to visit (free_goals.cpp: touching a stop that may be counted counts it). So the search solves at
-// once what the low levels of multi-goal CBS split into orders and paths (MGCBS: Tang et al., IJCAI
-// 2024), with the exact cost of completing as heuristic, from the sequence graph.
+// All sequences of a class at once, for safe_interval_search.h. Progress is a stage: what is left
+// to visit (sequence_stages.cpp: visiting a stop that may be counted counts it). So one search
+// solves what the low levels of multi-goal CBS split into orders and paths (MGCBS: Tang et al.,
+// IJCAI 2024). The heuristic is the exact cost to go from the sequence graph.
 //
-// Heuristic. h(cell, state) = min over the stops u next of dist(cell, u) + completion of the rest
-// from u: exact without constraints if the completions know all sequences. Nothing left: the
-// distance to the destination, or without one to the nearest stop that may be rested on.
+// *Heuristic.* h(state) = minimum over the stops u that may be next of dist(state, u) + cost to go
+// from u. It is exact without constraints if the costs to go cover all sequences. If nothing is
+// left, h is the distance to the destination, or without one to the nearest stop where the agent
+// may rest.
 //
-// Target reasoning. "Rests on v by t" (kRestBy) leaves one place to rest, and the heuristic is at
-// least the distance to it; that it leaves a cutoff of t is the affair of who runs the search.
+// *Target reasoning.* "Rests on v by t" (kRestBy) leaves one place to rest, and the heuristic is at
+// least the distance to it. The cutoff of t that it implies is applied by the caller of the search.
 //
-// The cap. Labels of f > cap are dropped, and so are labels in states that the completions do not
-// know; is_complete() tells whether there was none. What that proves: free_low_level_search.cpp.
+// *Cap.* Labels of f > cap are dropped, and also labels in stages that the costs to go do not
+// cover. is_complete() returns whether no such label was dropped. What that proves:
+// free_order_sipp.cpp.
 //
-// Deadlines. If a stop is barred for ever after time d, a label that has it left is of use only if
-// t + dist(cell, stop) <= d.
+// *Deadlines.* If a stop is barred for ever after time d, a label that has this stop left is of use
+// only if t + dist(state, stop) <= d.
 //
-// Gates. A label is put off, or dropped, if others that were expanded on stops stand for its ways
-// on (gates.cpp).
+// *Gates.* A label is postponed, or dropped, if labels that were expanded on stops dominate it for
+// all its continuations (stop_dominance.cpp).
 //
-// Greed. With a weight on the cost to go (Pohl 1970) labels come out in another order; what is
-// dropped is dropped by t + h and by gates as before, and neither argument speaks of the order. So
-// the first finish is a path within the cap, if perhaps not the cheapest, and what is proven by
-// there being none stays proven. No path costs less than the first rest, so f is not taken for less
-// here: who has long to wait at its destination is to go there first, not to look at all that can
-// be done in the meantime.
+// *Inflation.* With a weight on the cost to go (weighted A*: Pohl 1970) labels are popped in
+// another order. Labels are still dropped by t + h and by gates, and neither argument depends on
+// the order. So the first finish is a path within the cap, but perhaps not the cheapest, and a
+// proof that there is none remains valid. No path costs less than the first rest, so f is raised to
+// it here. Thus an agent that has to wait long at its destination goes there first, and the search
+// does not expand everything that can be done in the meantime.
 #pragma once
 
 #include <algorithm>
@@ -43,15 +45,15 @@ class FreeOrderGoals {
  public:
   using Progress = SequenceStages::StageId;
 
-  // `goals` must outlive the search. False when there is plainly no path.
+  // `goals` must outlive the search. Returns false if a quick test proves that there is no path.
   bool assign(SequenceStages& goals, SafeIntervals& intervals, int inflation_percent);
-  // Goes on with the same class over other completions.
+  // Continues with the same class over other costs to go.
   void turn_to(SequenceStages& goals) { goals_ = &goals; }
   SequenceStages& free_goals() const { return *goals_; }
 
-  // Forgets all that was dropped. Dearer labels will be.
+  // Starts a search that drops labels of f > cap. Resets is_complete() and the gates.
   void begin(Time cap);
-  // Was nothing dropped that could matter, so that no path found means that there is none?
+  // Was no label dropped that could matter? Then "no path found" proves that there is none.
   bool is_complete() const {
     return !over_ && (!outside_ || goals_->cost_to_go().beyond() == kNever);
   }
@@ -94,7 +96,7 @@ class FreeOrderGoals {
   void find_rests(const SafeIntervals& intervals);
   bool misses_deadline(Progress stage, State state, Time time) const;
   Time put_off_by_gates(Progress stage, State state, Time time, Time layer);
-  // At most what a path from here on costs.
+  // Lower bound on the cost of a path from here on.
   Time distance(Progress stage, State state) const {
     const Time distance = goals_->distance(stage, state);
     if (only_rest_ == AgentStops::kNoStop) return distance;
@@ -110,11 +112,11 @@ class FreeOrderGoals {
   int greed_percent_ = 0;
   std::vector<Deadline> deadlines_;
   Time first_rest_ = 0;
-  int only_rest_ = AgentStops::kNoStop;  // without a destination: the only stop to rest on, perhaps
+  int only_rest_ = AgentStops::kNoStop;  // without a destination: the stop of kRestBy
   StopDominance gates_;
   Time cap_ = 0;
-  bool over_ = false;     // a label was dropped for the cap
-  bool outside_ = false;  // one was whose state the completions do not know
+  bool over_ = false;     // a label was dropped by the cap
+  bool outside_ = false;  // a label was dropped because the costs to go do not cover its stage
 };
 
 }  // namespace grove::detail

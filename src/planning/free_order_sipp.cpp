@@ -1,55 +1,68 @@
 // SPDX-License-Identifier: MIT
-// The low level over all sequences of a class at once: one safe-interval search
-// (safe_interval_search.h, goals_in_class.h) within a cap, and what to do when that does not settle
-// the question.
+// Low level of CBS over all sequences of a class at once. It runs one safe-interval search
+// (safe_interval_search.h, free_order_goals.h) with a cap on f. If that is not conclusive, it
+// widens the costs to go and searches again.
 //
-// Exactness with a bounded graph. The completions know every sequence cheaper than beyond(). Labels
-// in states that they do not know are dropped, and so are labels of f > beyond().
-// *Claim: no path that costs less than beyond() is lost.* Take such a path P that realizes a
-// sequence of the class, and count as early as possible: that realizes a sequence s too. P visits
-// the stops of s in turn, so s costs at most what P costs, less than beyond(): all states of s are
-// known with their exact completions, which are at most what P still pays. So every label along P
-// has t + h <= cost(P). The search may hold, instead of P's label, an earlier one of the same cell,
-// interval and state; then the way there with the remainder of P after it, waiting in between, is
-// again a path of the class, no dearer than P, and the argument holds for it: what the graph misses
-// of other ways does not matter. With a deadline or gate it is the same path that goes on.
-// So: a path found that costs at most beyond() is optimal, since a cheaper one would not have been
-// lost. If none is found, every path costs at least beyond(); then the graph is widened and the
-// search begun again, unless the cutoff is below beyond(): kAboveCutoff. And if no label was
-// dropped for its f or for its state, the search has seen all there is: kInfeasible, whatever the
+// *Exactness with a bounded graph.* The costs to go cover every sequence of cost less than
+// beyond(). The search drops labels in stages that they do not cover, and labels of f > beyond().
+// *Claim: no path that costs less than beyond() is lost.* *Proof.* Let P be such a path that
+// realizes a sequence of the class. Counting as early as possible, P realizes a sequence s of the
+// class, too. P visits the stops of s in this order, so s costs at most cost(P) < beyond(). Hence
+// all stages of s are covered with their exact costs to go, and these are at most what P still
+// pays. So every label along P has t + h <= cost(P). Instead of P's label the search may hold an
+// earlier one of the same state, interval and stage. Then the path to that label, a wait, and the
+// remainder of P after it form again a path of the class that costs at most as much as P, and the
+// argument holds for this path. So it does not matter which other paths the graph misses. The
+// same holds for deadlines and for the dominance rule (free_order_goals.h, stop_dominance.cpp): P
+// continues from the label that is kept.
+//
+// *Consequence.* A path found that costs at most beyond() is optimal, because a cheaper one would
+// not have been lost. If none is found, every path costs at least beyond(). Then the graph is
+// widened and the search restarts, unless the cutoff is below beyond(): kAboveCutoff. If no label
+// was dropped for its f or for its stage, the search was exhaustive: kInfeasible, whatever the
 // graph.
 //
-// Graphs by direct legs (sequence_dag.cpp) know paths instead of sequences: all stages of a path of
-// the class that costs less than beyond(), counted as early as possible, with completions that are
-// at most what it still pays. So every label along P has t + h <= cost(P) there as well, and the
-// rest of the argument is the same.
+// *Graphs by direct legs* (sequence_dag.cpp) represent paths instead of sequences: all stages of
+// each path of the class that costs less than beyond(), with stops counted as early as possible,
+// and with costs to go that are at most what the path still pays. So every label along P has t + h
+// <= cost(P) there as well, and the rest of the argument is the same.
 //
-// Early ends. No path costs less than the first rest, so one that costs just that is optimal
-// whatever its sequence: where the first rest is later than beyond(), labels are kept up to there.
+// *Early termination.* No path costs less than the first rest, so a path of exactly that cost is
+// optimal whatever its sequence. If the first rest is later than beyond(), labels are kept up to
+// the first rest.
 //
-// Late costs. Under cells barred for ever the completions know nothing of the way around, and a
-// search that they mislead tries all orders. So once per hard call, and before the completions are
-// widened, legs are priced anew (late_costs.cpp). If the best sequence costs more by these, then
-// the search begins again with completions of its own over them. All of the above holds with these
-// costs in place of the plain ones: a path through the stops of s costs at least what s costs, and
-// what is left of it costs at least the completion from any of its states on.
+// *Late costs.* If places are barred for ever, the plain costs to go ignore the detour around them,
+// and a search that they mislead tries all orders. So once per hard call, and before the costs to
+// go are widened, the costs of the legs are recomputed (late_costs.cpp). If the best sequence costs
+// more with these legs, the search restarts with separate costs to go over them. All of the above
+// holds with these costs in place of the plain ones: a path through the stops of s costs at least
+// as much as s, and from any of its stages on at least the cost to go.
 //
-// Cutoff. Labels of f > cutoff are dropped. "Above" then says no more than that no path costs the
-// cutoff or less. That the agent must come to rest by t (kRestBy) is a cutoff of t and what it may
-// have to turn and work there afterwards, but what is above it is infeasible: a path that comes to
-// rest in time has one beside it that does the same up to then, and finishes without tarrying.
+// *Cutoff.* Labels of f > cutoff are dropped. Then kAboveCutoff proves only that no path costs the
+// cutoff or less. The constraint that the agent comes to rest by t (kRestBy) acts as a cutoff of t
+// plus the time that the agent may have to turn and work there afterwards. But then "above the
+// cutoff" means infeasible: for each path that comes to rest in time there is one that is equal up
+// to then and finishes without waiting.
 //
-// Known sequences. A heuristic that wants any good path may do without the others: then the cap is
-// the cutoff itself, a path found is one of a known sequence, and none found proves nothing, unless
-// all are known.
+// *Known sequences.* A heuristic that accepts any good path may restrict itself to the known
+// sequences. Then the cap is the cutoff itself. A path found realizes a known sequence. If none is
+// found, nothing is proven unless all sequences are known.
 //
-// Doubt. Infeasible cases can cost all 2^n sets: with time windows the question is NP-hard; and so
-// can cases far above the cutoff. Most are a door shut before or behind the agent, so once per hard
-// call each stop is asked for alone (visit_check.cpp): a bound on the cost.
+// *Feasibility check.* An infeasible call can visit all 2^n sets of stops: with time windows the
+// question is NP-hard. The same holds for calls whose cost is far above the cutoff. Most of them
+// are due to a door that is closed before or behind the agent. So once per hard call
+// single_stop_bound.cpp computes a lower bound on the cost from each stop separately.
 //
-// Measured on the benchmark's 32x32 maps with obstacles (nine other agents, one core, median of a
-// call in microseconds; n = 5, 10, 20): 6, 14, 24 without constraints; 17, 35, 57 with 20 of them
-// on the paths found; 34, 64, 138 with 60. A fixed sequence takes 5, 8, 15; 12, 14, 22; 21, 24, 31.
+// *Measured* on the benchmark's 32x32 maps with obstacles (nine other agents, one core, median of a
+// call in microseconds):
+//
+//                                          n = 5   n = 10   n = 20
+// no constraints                               6       14       24
+// 20 constraints on the paths found           17       35       57
+// 60 constraints on the paths found           34       64      138
+// fixed sequence, no constraints               5        8       15
+// fixed sequence, 20 constraints              12       14       22
+// fixed sequence, 60 constraints              21       24       31
 #include "planning/free_order_sipp.h"
 
 #include <algorithm>
@@ -63,10 +76,11 @@
 namespace grove::detail {
 namespace {
 
-// After so many in one call, or before the completions are widened a second time, it is worth
-// asking whether each stop can be visited at all, or in time.
+// After this many expansions in one call, or before the costs to go are widened a second time, it
+// pays to check whether each stop can be visited at all, or within the cutoff.
 constexpr std::int64_t kExpansionsBeforeDoubt = 1 << 12;
-// After so many in one call legs are priced anew: the work of some milliseconds, as pricing is.
+// After this many expansions in one call the costs of the legs are recomputed. Both the expansions
+// and the recomputation take some milliseconds.
 constexpr std::int64_t kExpansionsBeforePricing = 1 << 13;
 
 constexpr std::int64_t kNotAgain = PathQuery::kUnlimited;
@@ -98,13 +112,13 @@ class FreeOrderSipp::Workspace {
   SingleStopBound visit_check_;
   LateGoals late_goals_;
 
-  // Of the call under way.
+  // Of the current call.
   const ConflictAvoidanceTable* others_ = nullptr;
   const Limits* limits_ = nullptr;
   Path* path_ = nullptr;
-  Time latest_ = 0;                                // dearer paths are of no use,
-  PathOutcome above_ = PathOutcome::kAboveCutoff;  // and this is the answer if all are
-  // The counts of labels at which to do so.
+  Time latest_ = 0;                                // largest cost of a useful path,
+  PathOutcome above_ = PathOutcome::kAboveCutoff;  // and the outcome if every path costs more
+  // Values of expanded() at which to abort, to call doubt(), and to call price_anew().
   std::int64_t give_up_at_ = 0;
   std::int64_t doubt_at_ = 0;
   std::int64_t price_at_ = 0;
@@ -148,7 +162,7 @@ PathOutcome FreeOrderSipp::Workspace::find(SequenceStages& goals, const PathQuer
 }
 
 void FreeOrderSipp::Workspace::decide_when(const PathQuery& query) {
-  // Whoever gives up early around reservations wants no proof.
+  // With reservations and a label limit the caller does not need a proof of infeasibility.
   const bool doubts = !query.reservations || query.label_limit == PathQuery::kUnlimited;
   give_up_at_ = search_.expanded_after(query.label_limit);
   doubt_at_ = doubts ? search_.expanded_after(kExpansionsBeforeDoubt) : kNotAgain;
@@ -179,8 +193,8 @@ PathOutcome FreeOrderSipp::Workspace::find_any() {
   }
 }
 
-// A path of least cost, if the cost is at most `cap`; of least cost if that is at most beyond().
-// None: the goals changed meanwhile, begin again.
+// Searches for a path of cost at most `cap`. A path found has least cost if it costs at most
+// beyond(). Returns nullopt if the goals changed in the meantime and the search must restart.
 std::optional<PathOutcome> FreeOrderSipp::Workspace::find_within(Time cap) {
   const bool all_known = goals().cost_to_go().beyond() == kNever;
   const SequenceStages::StageId first = goals().first_stage();
@@ -207,7 +221,8 @@ std::optional<PathOutcome> FreeOrderSipp::Workspace::find_within(Time cap) {
   }
 }
 
-// Is there surely no path, or none in time, or no time to find out? Asks once a call.
+// Feasibility check, at most once per call. Returns the outcome if it is proven that there is no
+// path, or none of cost at most latest_, or if a limit was reached; otherwise nullopt.
 std::optional<PathOutcome> FreeOrderSipp::Workspace::doubt() {
   if (doubt_at_ == kNotAgain) return std::nullopt;
   doubt_at_ = kNotAgain;
@@ -218,7 +233,8 @@ std::optional<PathOutcome> FreeOrderSipp::Workspace::doubt() {
   return least_cost > latest_ ? std::optional(above_) : std::nullopt;
 }
 
-// True if the search should begin again, with completions that know better. Once a call.
+// Recomputes the costs of the legs, at most once per call. Returns true if the search must restart
+// with the new costs to go.
 bool FreeOrderSipp::Workspace::price_anew() {
   if (price_at_ == kNotAgain) return false;
   price_at_ = kNotAgain;

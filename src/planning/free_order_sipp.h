@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The low level of CBS when it chooses the order of the tasks itself.
+// Low level of CBS that chooses the order of the tasks itself.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace grove::detail {
 
-// Safe-interval path planning with one label per (cell, safe interval, state), a state being what
-// is left to visit. The essay with the proof is at the head of free_low_level_search.cpp. Heeds all
-// of a query.
+// Safe-interval path planning with one label per (state, safe interval, stage), where the stage is
+// the set of stops left to visit. The proof is at the head of free_order_sipp.cpp. Supports every
+// field of a PathQuery.
 class FreeOrderSipp : public AgentPlanner {
  public:
   // `world` must outlive this.

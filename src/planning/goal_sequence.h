@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The places one agent must visit in turn, with the distances that guide its search.
+// Goals of one agent in a fixed order, with the distances that guide its search.
 #pragma once
 
 #include <vector>
@@ -10,37 +10,37 @@
 
 namespace grove::detail {
 
-// The goals of one agent under a complete task sequence: its stops in that order, then where it is
-// to rest. An agent that rests on its last stop has that for its last goal. Never empty. The agent
-// finishes when it rests on the last goal having visited all before it, in order.
+// The goals of one agent under a complete task sequence: its stops in that order, then its place of
+// rest. If the agent rests on its last stop, that stop is the last goal. Never empty. The agent
+// finishes when it rests on the last goal after visiting all goals before it, in order.
 class GoalSequence {
  public:
-  // `stops`: all the agent's stops in the order to visit. `instance` and `distances` must outlive
+  // `stops`: all stops of the agent in the order of visits. `instance` and `distances` must outlive
   // this.
   GoalSequence(const Instance& instance, const DistanceFields& distances, AgentIndex agent,
                const std::vector<TaskIndex>& stops);
 
   State start() const { return start_; }
   int size() const { return static_cast<int>(goals_.size()); }
-  // kNoPlace: several places will do, to rest on one of them.
+  // Place of goal k; kNoPlace if the agent may rest on any of several places.
   Place goal(int k) const { return goals_[checked(k)]; }
   Place last() const { return goals_.back(); }
-  // The task that takes time there, -1: none.
+  // The task that takes time at goal k; -1 if there is none.
   TaskIndex work(int k) const { return work_[checked(k)]; }
   bool has_work() const { return has_work_; }
   // See AgentStops.
   Time longest_finish(Place place) const;
   Time max_turn_time() const { return turn_about_; }
 
-  // Steps from `state` through goals k, k+1, ... to the last one, ignoring everything else, at
-  // least: exact where agents turn freely. Admissible and consistent. kNever or more when there is
-  // no way.
+  // Lower bound on the steps from `state` through goals k, k+1, ... to the last one, without
+  // constraints. Exact if agents turn freely. Admissible and consistent. kNever or more if there is
+  // no path.
   Time distance(State state, int k) const {
     const Time to_goal = to_goal_[checked(k)][state];
     return to_goal == kNever ? kNever : to_goal + after_goal_[k];
   }
 
-  // The two parts of that: the distance field of goal k, and the steps from there on (at most
+  // The two parts of distance(): the distance field of goal k, and the steps from there on (at most
   // kNever).
   DistanceView to_goal(int k) const { return to_goal_[checked(k)]; }
   Time after_goal(int k) const { return after_goal_[checked(k)]; }

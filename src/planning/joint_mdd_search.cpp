@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Depth first over pairs of nodes of one layer. Both agents are where their nodes say, and what one
-// may do next depends on its own node alone: two ways to one pair have the same future, so each
-// pair is looked at once. After its last layer an agent stays on the node it ended on.
+// Depth-first search over pairs of nodes of the same layer. Each agent is where its node says, and
+// its next steps depend only on its own node. So two walks to the same pair have the same future,
+// and each pair is expanded once. After its last layer an agent stays on the node it ended on.
 //
-// A layer t is a *contact* if the agents could collide there: if both sets have paths on one place
-// at t, or the sets allow a swap from t - 1 to t. (So said of the places of whole layers it is said
-// too often, which does no harm.) Before the first contact f nothing can collide: any node of layer
-// f - 1 of the one goes with any of the other, and all these pairs, no more, are where the search
-// begins. From the last contact on nothing can collide any more: a pair that has come that far
-// proves that the agents are compatible, since every node leads to the end. And without such a pair
-// all are dead: dependent.
+// *Definition.* A layer t is a *contact* if the agents could collide there: both MDDs have a path
+// on the same place at t, or the MDDs allow a swap from t - 1 to t. (The test uses the places of
+// whole layers, so it also reports contacts that no pair of nodes has. That does no harm.)
+//
+// *Start.* Before the first contact f nothing can collide, so any node of layer f - 1 of one MDD
+// can be combined with any node of the other. The search starts from exactly these pairs.
+//
+// *End.* From the last contact on nothing can collide any more. A pair that reaches it proves that
+// the agents are independent, because every node leads to the end. If no pair reaches it, all pairs
+// are dead ends, and the agents are dependent.
 #include "planning/joint_mdd_search.h"
 
 #include <algorithm>
@@ -25,12 +28,12 @@ constexpr std::int64_t kPairsPerPoll = 1024;
 using NodeId = Mdd::NodeId;
 using Range = Mdd::Range;
 
-// The nodes at a time that may be after the end.
+// The nodes at `time`, which may be after the last layer.
 Range nodes_at(const Mdd& paths, Time time) {
   return paths.layer(std::min(time, paths.cost()));
 }
 
-// A set of pairs of nodes; forgetting all is O(1).
+// A set of pairs of nodes. clear() takes O(1).
 class PairSet {
  public:
   void clear() {
@@ -42,7 +45,7 @@ class PairSet {
   }
   std::size_t size() const { return size_; }
 
-  // False if it was there already.
+  // Returns false if the pair is in the set already.
   bool insert(NodeId a, NodeId b) {
     if (2 * size_ >= entries_.size()) grow();
     const std::uint64_t key = static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
@@ -177,7 +180,8 @@ bool JointMddSearch::Workspace::is_contact(Time time) const {
   return false;
 }
 
-// Dependent: no pair that can be reached from `first` and was not known gets through.
+// Returns kDependent if no pair that is reachable from `first` and was not known before reaches the
+// last contact.
 Dependence JointMddSearch::Workspace::search(Pair first, const Limits& limits) {
   open_.clear();
   if (!known_.insert(first.a, first.b)) return Dependence::kDependent;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Can two agents both have a path of their set without a collision between them?
+// Joint MDD search: do two agents have paths in their MDDs that do not collide?
 #pragma once
 
 #include <cstddef>
@@ -11,28 +11,29 @@
 
 namespace grove::detail {
 
-// Of two agents with the paths they may take: with all optimal ones under their constraints,
-// kDependent proves that any two paths that obey the constraints and do not collide cost at least
-// one more than the two optima together.
+// Result for two agents and their MDDs. If the MDDs hold all optimal paths under the agents'
+// constraints, kDependent proves that any two paths that obey the constraints and do not collide
+// cost at least 1 more than the two optima together.
 enum class Dependence : std::uint8_t {
-  kIndependent,  // some path of the one and some path of the other do not collide
+  kIndependent,  // some path of a and some path of b do not collide
   kDependent,    // proven: all pairs collide
-  kUnknown,      // a limit struck
+  kUnknown,      // `most_pairs` or a limit was reached
 };
 
-// The joint search of two MDDs of CBS with WDG heuristics (Li et al., IJCAI 2019). The proof is at
-// the head of pair_dependency.cpp. Holds the workspace of one thread: reuse it, do not share it.
+// The joint search of two MDDs from CBS with the WDG heuristic (Li et al., IJCAI 2019). The proof
+// is at the head of joint_mdd_search.cpp. One thread at a time. It keeps its workspace between
+// calls, so reuse it.
 class JointMddSearch {
  public:
   // `world` must outlive this.
   explicit JointMddSearch(const World& world);
   ~JointMddSearch();
 
-  // Neither may be empty; they may differ in length: an agent rests on its last place for ever.
-  // Looks at `most_pairs` pairs of nodes at most.
+  // `a` and `b` must not be empty. They may differ in length: an agent rests on its last place for
+  // ever. Returns kUnknown if the search generates more than `most_pairs` pairs of nodes.
   Dependence find(const Mdd& a, const Mdd& b, std::size_t most_pairs, const Limits& limits);
 
-  // Pairs of nodes looked at so far.
+  // Pairs of nodes expanded by all calls so far.
   std::int64_t pairs() const;
 
  private:

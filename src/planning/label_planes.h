@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The labels of a search over few of very many states.
+// Sparse storage for the labels of a search that reaches few of very many stages.
 #pragma once
 
 #include <sys/mman.h>
@@ -17,11 +17,12 @@
 
 namespace grove::detail {
 
-// One *plane* of labels, by slot, for each state that a search touches; planes are made when first
-// needed and reused from search to search. Nothing is cleared: what an earlier search wrote has an
-// earlier stamp. Memory that no label was written to is never touched, so on a large map a plane
-// costs what searches have seen of it; when that may be much it is given back. A label is what the
-// search makes of it, with a `stamp`, to be set when the others are.
+// One *plane* of labels, indexed by slot, for each state (here: progress or stage) that a search
+// reaches. Planes are made when first needed and reused from search to search. Nothing is cleared:
+// a label of an earlier search has an earlier stamp. Memory to which no label was written is never
+// touched, so on a large map a plane costs only the pages that searches have used; when that may be
+// much, the memory is released. `Label` is any trivial type with a `stamp`, which the search must
+// set when it sets the other members.
 template <class Label>
 requires std::is_trivial_v<Label> && std::same_as<decltype(Label::stamp), std::uint32_t>
 class LabelPlanes {
@@ -31,7 +32,8 @@ class LabelPlanes {
     if (touched_groups_ > kGroupsKept) reinsert();
     if (static_cast<std::size_t>(slots) > capacity_) {
       reinsert();
-      // Tight at first, since memory may be short; but reservations grow path by path.
+      // Little spare capacity at first, because memory may be short. Later it grows by half,
+      // because with reservations the number of slots grows path by path.
       const std::size_t tight =
           static_cast<std::size_t>(slots) + static_cast<std::size_t>(slots) / 8 + kSpare;
       capacity_ = std::max(tight, capacity_ + capacity_ / 2);
@@ -47,7 +49,8 @@ class LabelPlanes {
     exhausted_ = false;
   }
 
-  // Makes sure that the state has a plane. False, and exhausted(), when memory is refused.
+  // Makes sure that the state has a plane. Returns false, and exhausted() becomes true, if memory
+  // is refused.
   bool open(std::int32_t state, const Limits& limits) {
     if (static_cast<std::size_t>(state) < by_state_.size() && by_state_[state].stamp == stamp_)
       return true;
@@ -55,7 +58,7 @@ class LabelPlanes {
   }
   bool exhausted() const { return exhausted_; }
 
-  // The state must be open.
+  // The state must be open: see open().
   Label& label(std::int32_t slot, std::int32_t state) {
     const Use& use = by_state_[state];
     GROVE_ASSERT(use.stamp == stamp_, "labels are asked for of an open state");
@@ -72,15 +75,16 @@ class LabelPlanes {
 
  private:
   static constexpr std::size_t kSpare = 64;
-  // About a page of labels. A page is written to before it is read: one that is read first is
-  // mapped to a page of zeros, and the write after that faults again and interrupts all threads.
+  // Number of labels on about one page. A page is written before it is read: a page that is read
+  // first is mapped to a page of zeros, and the first write then faults again and interrupts all
+  // threads.
   static constexpr std::int32_t kGroup = 4096 / sizeof(Label);
-  // Memory is asked for by the piece, of one or more planes: from the system, for the allocator
-  // would clear what it has used before.
+  // Memory is allocated in pieces of one or more planes, with mmap, because the allocator would
+  // clear memory that it has used before.
   static constexpr std::size_t kPieceBytes = std::size_t{16} << 20;
   static constexpr std::size_t kMostPlanesPerPiece = 16;
-  // What many searches have touched here and there is given back, unless it is little. A label
-  // alone on its page costs two hundred times its size.
+  // If searches have touched more groups than this, the memory is released. A label that is the
+  // only one on its page costs two hundred times its size.
   static constexpr std::int64_t kGroupsKept = (std::int64_t{128} << 20) / 4096;
 
   struct Unmap {
@@ -89,7 +93,7 @@ class LabelPlanes {
   };
   struct Piece {
     std::unique_ptr<Label, Unmap> labels;
-    std::vector<std::uint8_t> touched;  // of each plane, its groups: is any of its labels known?
+    std::vector<std::uint8_t> touched;  // by plane, then group: was any of its labels accessed?
   };
   struct Use {
     Label* labels = nullptr;

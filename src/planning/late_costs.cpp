@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Target reasoning and long bans leave places barred for ever from some time on. Distances on the
-// bare map do not know of that, so a search under them sees no reason not to try every order whose
-// cost is below that of the way around. Here legs that surely begin late go around.
+// Problem: target reasoning and long constraints leave places barred for ever from some time on.
+// Distances on the bare map ignore that, so a search with them tries every order whose cost is
+// below that of the detour. Here, legs that are known to begin late take the detour.
 //
-// *Claim: a leg that leaves stop i at time e or later takes at least depth(j) steps to reach j*,
-// where depth is breadth-first search from all states on i that enters a place c only if e +
-// depth(c) <= last(c), the last time at which anybody may be on c. Let c_0 = i, c_1, .. be the
-// places of the leg, a step each, begun at t >= e. depth(c_k) <= k by induction: c_k is occupied at
-// t + k, so e + depth(c_{k-1}) + 1 <= e + k <= t + k <= last(c_k), and the search enters it by
-// depth k.
+// *Claim: a leg that leaves stop i at time e or later takes at least depth(j) steps to reach j.*
+// Here depth is breadth-first search from all states on i that enters a place c only if e +
+// depth(c) <= last(c), the last time at which an agent may be on c. *Proof.* Let c_0 = i, c_1, ...
+// be the places of the leg, one per time step, begun at t >= e. depth(c_k) <= k by induction: c_k
+// is occupied at t + k, so e + depth(c_{k-1}) + 1 <= e + k <= t + k <= last(c_k), and the search
+// enters c_k by depth k.
 //
-// How late: nobody counts stop i before dist(start, i). And of a path that counts i last, with a
-// sequence s, the way up to i visits all of s, so it takes at least cost(s) - to_end(i), and
-// cost(s) is at least the least cost of all sequences in question: the leg from i to the end begins
-// at least_cost - to_end(i) or later. Costs are those without constraints on both sides.
+// *How late a leg begins.* No path counts stop i before dist(start, i). Consider a path that counts
+// i last, with a sequence s. Up to i it visits all of s, so this part takes at least cost(s) -
+// to_end(i), and cost(s) is at least the least cost of all sequences considered. So the leg from i
+// to the end begins at least_cost - to_end(i) or later. cost(s) and to_end(i) are costs without
+// constraints.
 //
-// Since each leg of a path costs at least its entry, whatever comes before and after, the matrix
-// serves as the plain one does: it bounds the whole sequence, and what is left of it from any
-// state.
+// *Consequence.* Each leg of a path costs at least its entry, whatever comes before and after. So
+// this matrix can replace the plain one: it bounds the whole sequence, and the remainder of the
+// sequence from any state.
 #include "planning/late_costs.h"
 
 #include <algorithm>
@@ -53,7 +54,7 @@ class LateCosts {
   }
 
  private:
-  // The legs from a stop, or from the start, to the other stops.
+  // Raises the legs from a stop, or from the start, to the other stops.
   void raise_row(int row, Time begin) {
     if (row < stops_.count() && !is_late(row, begin)) return;
     walk_from(row, begin);
@@ -69,7 +70,7 @@ class LateCosts {
     const State first = world_.bases(world_.place(state), world_.kind(stops_.start())).first;
     return world_.base(state) == first + port;
   }
-  // Of all ports of a stop.
+  // Maximum over the ports of a stop.
   Time longest_end(int stop) const {
     Time longest = 0;
     for (int port = 0; port < stops_.ports(); ++port)
@@ -84,7 +85,7 @@ class LateCosts {
              [&](State state) { return stops_.to_rest(state) == 0; });
   }
 
-  // To those states on a place that count.
+  // Raises the entries of `column` to the depth of the nearest state on `place` for which counts().
   template <class Counts>
   void raise_to(int row, int column, Place place, Counts counts) {
     Time depth = kNever;
@@ -101,7 +102,7 @@ class LateCosts {
     }
   }
 
-  // Does a leg from a stop, begun then, come too late for a place?
+  // Does a leg from a stop that begins at `begin` reach some place too late?
   bool is_late(int stop, Time begin) const {
     return std::ranges::any_of(barred_, [&](State state) {
       const Time there = stops_.distance(state, stop);
@@ -109,8 +110,8 @@ class LateCosts {
     });
   }
 
-  // Depths from a row of the matrix, kNever where the agent does not come. It leaves a stop in any
-  // state on it.
+  // Computes the depths from a row of the matrix; kNever for unreachable states. The agent leaves a
+  // stop in any state on it.
   void walk_from(int row, Time begin) {
     depth_.assign(static_cast<std::size_t>(world_.state_count()), kNever);
     queue_.clear();

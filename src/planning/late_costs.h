@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What legs cost once cells are barred for ever.
+// Cost matrix that takes into account from when on places are barred for ever.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,9 @@
 
 namespace grove::detail {
 
-// Legs that every path under these intervals takes at least, if it is on the stops in the order of
-// a sequence that costs `least_cost` or more by the plain matrix. None: that is the plain matrix.
-// O(stops * cells).
+// Lower bounds on the legs of every path under these intervals that visits the stops in the order
+// of a sequence of plain cost `least_cost` or more. Returns nullopt if no entry exceeds the plain
+// matrix. O(stops * states).
 std::optional<CostMatrix> late_cost_matrix(const World& world, SafeIntervals& intervals,
                                            const AgentStops& stops, Time least_cost);
 

@@ -11,7 +11,7 @@
 namespace grove::detail {
 namespace {
 
-// At most what any sequence of the class costs, by the completions.
+// Lower bound on the cost of every sequence of the class, by the costs to go.
 Time least_cost(SequenceStages& goals) {
   const Time beyond = goals.cost_to_go().beyond();
   const SequenceStages::StageId stage = goals.first_stage();
@@ -19,8 +19,8 @@ Time least_cost(SequenceStages& goals) {
   return std::min(beyond, goals.distance(stage, goals.stops().start()));
 }
 
-// A direct leg costs at least what the late one by any way does. The last one is that of the plain
-// matrix, for the late one begins when all others are done (sequence_dag.cpp, Pairs).
+// A direct leg costs at least as much as the late leg by any path. The last leg is that of the
+// plain matrix, because the late one begins when all others are done (sequence_dag.cpp, Pairs).
 CostToGo late_completions(const AgentStops& stops, CostMatrix late) {
   const auto make_direct = [&instance = stops.instance(), agent = stops.agent(), late,
                             plain = stops.cost_to_go().matrix()] {
@@ -41,7 +41,7 @@ SequenceStages* LateGoals::over(SequenceStages& plain, const Limits& limits) {
   const bool known = completions_ && agent_ == plain.stops().agent() &&
                      class_ == plain.sequence_class() &&
                      completions_->matrix().cost == matrix->cost;
-  if (!known) {  // else those of a call before serve on
+  if (!known) {  // otherwise reuses the costs to go of an earlier call
     agent_ = plain.stops().agent();
     class_ = plain.sequence_class();
     completions_ = late_completions(plain.stops(), std::move(*matrix));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One agent's goals over legs priced anew, for a search that plain distances mislead.
+// Stages of one agent over late costs, for a search that plain distances mislead.
 #pragma once
 
 #include <optional>
@@ -14,17 +14,17 @@ class LateGoals {
   // Both must outlive this.
   LateGoals(const World& world, SafeIntervals& intervals) : world_(world), intervals_(intervals) {}
 
-  // The same class over completions by late costs (late_costs.h), if its best sequence costs more
-  // by these; null: it does not, or a limit struck. Until the next call.
+  // The stages of the same class over late costs (late_costs.h). Returns nullptr unless these prove
+  // a higher cost of the best sequence; a limit may prevent that. Valid until the next call.
   SequenceStages* over(SequenceStages& plain, const Limits& limits);
 
  private:
   const World& world_;
   SafeIntervals& intervals_;
   std::optional<CostToGo> completions_;
-  AgentIndex agent_ = 0;                 // whose they are,
-  SequenceClass class_;                  // and of which class
-  std::optional<SequenceStages> goals_;  // over these
+  AgentIndex agent_ = 0;                 // their agent,
+  SequenceClass class_;                  // and their class
+  std::optional<SequenceStages> goals_;  // over completions_
 };
 
 }  // namespace grove::detail

@@ -1,30 +1,36 @@
 // SPDX-License-Identifier: MIT
-// A *label* is a slot of safe_intervals.h, which says the state and all that constraints ask of the
-// past, and a stage of free_goals.h. Who is in a slot may wait there until it ends, and what can be
-// done from a label at a time depends on nothing else. So a path of cost C can be in a label at all
-// times from the *earliest* at which an agent can be there up to the *latest* from which it can
-// still end at C, and at no other: who came at the earliest waits for any later time, and who can
-// end from the latest can do so from any time before, waiting first. Two searches over labels, none
-// of which knows of times, find these: forward the earliest, in order of time, and with them all
-// moves; backward along those moves the latest, from the last moves on. The layers are then written
-// down, without a node that leads nowhere. (For one agent without goals and constraints, an MDD is
-// made of two distances in the same way.)
+// Builds the MDD of one agent by two searches over labels.
 //
-// *Claim: the ways are exactly the paths of cost C.* A move from label to label is open at its
-// first time, which is the earliest since the moves are asked for at the earliest time in the label
-// that they leave; its last is when that slot ends, or after which arrivals are in another slot; in
-// between single times may be barred. Whoever has counted as early as possible passes such stages
-// (free_goals.cpp: each touch has one successor, or two, both followed), and the completions that
-// the stages are made of are widened until they know all sequences of cost C, C < beyond(); so all
-// stages along a path of cost C are known, and it is in them at times t with t + h <= C: no move of
-// such a path is dropped. A path comes to rest at C by a move at C, in a slot to rest in (or stands
-// there at C = 0): the last step is no wait. And any way to such an end obeys the constraints,
-// since they are a matter of slots and moves alone, but for the time by which it must have come to
-// rest, which C is compared with first.
+// *Definitions.* A *label* is a slot of safe_intervals.h and a stage of sequence_stages.h. The slot
+// determines the state and everything in the past that the constraints depend on. An agent in a
+// slot may wait there until the slot ends, and what it can do from a label at a given time depends
+// on nothing else. So a path of cost C can be in a label at every time from the *earliest*, at
+// which an agent can be there, up to the *latest*, from which it can still end at C, and at no
+// other time. An agent that arrives at the earliest time can wait for any later time, and an agent
+// that can end from the latest time can do so from any time before, waiting first.
 //
-// Measured against layers made forward, time by time, and cleared of dead ends afterwards: those
-// met four nodes for each that they kept, and an instance of the paper's data set that takes Grove
-// seconds took half as long again.
+// *Method.* Neither search branches over times. The forward search computes the earliest times, in
+// order of time, and all moves. The backward search computes the latest times along those moves,
+// from the last moves on. Then the layers are written, without a node that does not lead to an end.
+// (For one agent without goals and constraints, an MDD is made from two distances in the same way.)
+//
+// *Claim: the walks of the graph are exactly the paths of cost C.* *Proof.* Moves are generated at
+// the earliest time in the label that they leave, so the first time of a move is its earliest
+// possible arrival. Its last time follows from the end of the slot that it leaves and from the last
+// arrival in the slot that it enters (SafeIntervals::last_entry()). In between, single times may be
+// barred. A path that counts its stops as early as possible passes the stages of the search
+// (sequence_stages.cpp: each visit has one successor, or two, and then the search follows both).
+// The costs to go, from which the stages are made, are widened until they cover all sequences of
+// cost C or less: C < beyond(). So all stages along a path of cost C are known, and the path is in
+// them at times t with t + h <= C. Hence no move of such a path is dropped. A path comes to rest at
+// C by a move at C, into a slot where it may rest (or stands there at C = 0): the last step is not
+// a wait. Conversely, each walk to such an end obeys the constraints, because they concern only
+// slots and moves. The one exception is the time by which the agent must have come to rest; C is
+// compared with it first.
+//
+// *Measured* against layers that are made forward, time by time, and then cleared of dead ends:
+// that method generated four nodes for each node that it kept. An instance of the paper's data set
+// that takes Grove seconds took half as long again.
 #include "planning/mdd.h"
 
 #include <algorithm>
@@ -37,7 +43,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::int64_t kExpansionsPerPoll = 512;  // of limits: some tenth of a millisecond
+constexpr std::int64_t kExpansionsPerPoll = 512;  // between polls of the limits: about 0.1 ms
 
 }  // namespace
 
@@ -62,20 +68,20 @@ class MddBuilder::Workspace {
     StageId stage;
     Time earliest;
     Time latest = kTooLate;
-    std::int32_t first_move = 0;  // those out of it
+    std::int32_t first_move = 0;  // of the moves out of the label
     std::int32_t end_move = 0;
   };
-  // Arrives at `first`, at `last`, or in between when it is not barred.
+  // A move that may arrive at any time from `first` to `last` that is not barred.
   struct Move {
     LabelId from;
     LabelId to;
     Time first;
     Time last;
   };
-  // By slot and state.
+  // One per slot and stage.
   struct Mark {
     LabelId label;
-    Time distance;  // to the end
+    Time distance;  // lower bound on the steps to the end
     std::uint32_t stamp;
   };
 
@@ -101,19 +107,19 @@ class MddBuilder::Workspace {
   const World& world_;
   SafeIntervals intervals_;
   LabelPlanes<Mark> planes_;
-  BucketQueue queue_;  // of labels, in place of slots
+  BucketQueue queue_;  // Entry::slot is a LabelId here
   std::vector<Label> labels_;
-  std::vector<Move> moves_;             // by the label they leave
-  std::vector<std::int32_t> into_;      // moves by the label they enter
-  std::vector<std::int32_t> first_in_;  // there, by label; one more at the end
-  std::vector<LabelId> ends_;           // where some path comes to rest
-  std::vector<LabelId> useful_;         // by latest, which they have, the last first
-  std::vector<LabelId> here_;           // the labels of the layer that is being written
-  std::vector<NodeId> nodes_;           // by label: of the layer after it
-  Mdd written_;                         // so far; keeps its room
-  std::int64_t met_ = 0;                // labels and nodes, in all calls
+  std::vector<Move> moves_;             // grouped by the label that they leave
+  std::vector<std::int32_t> into_;      // indices of moves, grouped by the label that they enter
+  std::vector<std::int32_t> first_in_;  // index in into_, by label; one more at the end
+  std::vector<LabelId> ends_;           // labels in which some path comes to rest
+  std::vector<LabelId> useful_;         // labels that have a `latest`, in decreasing order of it
+  std::vector<LabelId> here_;           // labels of the layer being written
+  std::vector<NodeId> nodes_;           // by label: its node in the layer after it
+  Mdd written_;                         // the MDD written so far; keeps its capacity
+  std::int64_t met_ = 0;                // labels and nodes of all calls
 
-  // Of the call under way.
+  // Of the current call.
   SequenceStages* goals_ = nullptr;
   const Limits* limits_ = nullptr;
   Time cost_ = 0;
@@ -162,7 +168,7 @@ MddBuilder::Outcome MddBuilder::Workspace::build(SequenceStages& goals,
                                                  Mdd& paths) {
   paths = Mdd();
   intervals_.assign(constraints);
-  // Where states are places whoever finishes later comes to rest later.
+  // If states are places, an agent that finishes later also comes to rest later.
   const Time latest = world_.states_are_places() ? intervals_.latest_rest() : kNever;
   if (cost < 0 || cost >= kNever || cost > latest || !goals.plausible()) return Outcome::kNone;
   if (limits.stop_requested()) return Outcome::kStopped;
@@ -187,7 +193,7 @@ MddBuilder::Outcome MddBuilder::Workspace::make_layers(std::size_t most_nodes, M
   return Outcome::kBuilt;
 }
 
-// All labels that some path may pass, and the moves between them.
+// Generates all labels that some path may pass, and the moves between them.
 MddBuilder::Outcome MddBuilder::Workspace::go_forward(std::size_t label_limit) {
   labels_.clear();
   moves_.clear();
@@ -222,7 +228,7 @@ void MddBuilder::Workspace::expand(LabelId from) {
   labels_[from].end_move = static_cast<std::int32_t>(moves_.size());
 }
 
-// By a move that arrives at `first` or later.
+// Reaches a label from the label `from` by a move that arrives at `first` or later.
 void MddBuilder::Workspace::reach(LabelId from, std::int32_t slot, StageId stage, Time first) {
   Mark* const there = mark(slot, stage);
   if (there == nullptr) return;
@@ -240,7 +246,7 @@ void MddBuilder::Workspace::reach(LabelId from, std::int32_t slot, StageId stage
   if (from != kNoLabel) moves_.push_back({from, there->label, first, last});
 }
 
-// Null: no memory for it.
+// Returns nullptr if there is no memory for it.
 MddBuilder::Workspace::Mark* MddBuilder::Workspace::mark(std::int32_t slot, StageId stage) {
   if (!planes_.open(stage, *limits_)) return nullptr;
   Mark& mark = planes_.label(slot, stage);
@@ -290,7 +296,7 @@ void MddBuilder::Workspace::find_ends() {
   }
 }
 
-// The agent must arrive no later than this.
+// Raises the latest time of the label that `move` leaves; the move must arrive by `arrival`.
 void MddBuilder::Workspace::leave_by(const Move& move, Time arrival) {
   const Time last = last_arrival(move, arrival);
   Label& from = labels_[move.from];
@@ -299,7 +305,7 @@ void MddBuilder::Workspace::leave_by(const Move& move, Time arrival) {
   queue_.push(cost_ - from.latest, {.slot = move.from, .time = from.latest});
 }
 
-// Before move.first: none.
+// Last possible arrival of the move up to `latest`; before move.first if there is none.
 Time MddBuilder::Workspace::last_arrival(const Move& move, Time latest) const {
   return intervals_.last_move(labels_[move.from].slot, place(move.to), std::min(latest, move.last));
 }
@@ -332,7 +338,7 @@ void MddBuilder::Workspace::write_layers() {
   written_.first_successor_.push_back(static_cast<std::int32_t>(written_.successors_.size()));
 }
 
-// A layer.
+// Writes the nodes of one layer.
 void MddBuilder::Workspace::write_nodes(Time time) {
   NodeId node = written_.node_count();
   written_.first_of_layer_.push_back(node);

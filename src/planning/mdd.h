@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All paths of one agent that cost exactly so much: the MDD of CBS with many goals.
+// MDD of one agent with several goals: all its paths of one given cost (Boyarski et al. 2015).
 #pragma once
 
 #include <cstddef>
@@ -14,19 +14,19 @@
 
 namespace grove::detail {
 
-// A layered graph: the states along its ways from layer 0 to layer cost() are exactly the paths it
-// stands for, each by one way or more. Every node is on such a way. (Multi-valued
-// decision diagrams in CBS: Boyarski et al. 2015.)
+// Multi-valued decision diagram: a layered graph. The state sequences along its walks from layer 0
+// to layer cost() are exactly the paths that it represents; each path has one walk or more. Every
+// node lies on such a walk. (MDDs in CBS: Boyarski et al. 2015.)
 class Mdd {
  public:
-  // A node of one layer, all layers numbered together.
+  // Index of a node; the nodes of all layers are numbered together.
   using NodeId = std::int32_t;
   struct Range {
     NodeId first;
     NodeId end;
   };
 
-  // No node at all: no path. Else there are layers 0 .. cost().
+  // True if there is no node, hence no path. Otherwise the layers are 0 .. cost().
   bool empty() const { return places_.empty(); }
   Time cost() const { return static_cast<Time>(first_of_layer_.size()) - 2; }
   int node_count() const { return static_cast<int>(places_.size()); }
@@ -36,25 +36,25 @@ class Mdd {
   }
   Place place(NodeId node) const { return places_[node]; }
   State state(NodeId node) const { return states_.empty() ? places_[node] : states_[node]; }
-  // In the next layer; none from the last.
+  // Successors in the next layer; empty for a node of the last layer.
   std::span<const NodeId> successors(NodeId node) const {
     return {successors_.data() + first_successor_[node],
             successors_.data() + first_successor_[node + 1]};
   }
-  // Memory held, in bytes; no more than it takes if MddBuilder made it.
+  // Memory held, in bytes. An Mdd made by MddBuilder holds no spare capacity.
   std::size_t bytes() const;
 
-  // The same graph, its nodes numbered in the same way.
+  // Equal if the graphs and their node numbers are equal.
   friend bool operator==(const Mdd&, const Mdd&) = default;
-  // The same for equal ones, on every machine.
+  // Equal for equal graphs, on every machine.
   std::uint64_t hash() const;
 
  private:
   friend class MddBuilder;
 
-  void clear();  // keeps its room
+  void clear();  // keeps the capacity
 
-  // Layers from the last to the first.
+  // Nodes are stored by layer, from the last layer to the first.
   std::vector<NodeId> first_of_layer_;  // one more at the end, as below
   std::vector<Place> places_;           // by node
   std::vector<State> states_;           // by node; empty where every state is its place
@@ -62,28 +62,28 @@ class Mdd {
   std::vector<NodeId> successors_;
 };
 
-// Holds the workspace of one thread: reuse it, do not share it.
+// Builds MDDs. One thread at a time. It keeps its workspace between calls, so reuse it.
 class MddBuilder {
  public:
   enum class Outcome : std::uint8_t {
     kBuilt,
-    kNone,      // proven: no path costs exactly that
-    kTooLarge,  // more than `most_nodes` nodes, or (slot, stage) pairs looked at for them
-    kStopped,   // a limit struck
+    kNone,      // proven: no path has exactly this cost
+    kTooLarge,  // more than `most_nodes` nodes, or (slot, stage) pairs reached for them
+    kStopped,   // a limit was reached
   };
 
   // `world` must outlive this.
   explicit MddBuilder(const World& world);
   ~MddBuilder();
 
-  // All paths that realize a sequence of the class, obey `constraints` (also while resting) and
-  // come to rest exactly at `cost`: with the least cost there is, all optimal paths. Widens the
-  // completions of `goals` as needed. `paths` is empty after all outcomes but kBuilt. Throws
-  // std::invalid_argument for a constraint that does not fit the grid.
+  // Builds the MDD of all paths that realize a sequence of the class, obey `constraints` (also
+  // while resting) and come to rest exactly at `cost`. If `cost` is the least cost, these are all
+  // optimal paths. Widens the costs to go of `goals` as needed. `paths` is empty after all outcomes
+  // except kBuilt. Throws std::invalid_argument for a constraint that does not fit the world.
   Outcome build(SequenceStages& goals, std::span<const Constraint> constraints, Time cost,
                 std::size_t most_nodes, const Limits& limits, Mdd& paths);
 
-  // How much was done so far: nodes made, and (slot, stage) pairs looked at for them.
+  // Work done by all calls so far: nodes made, plus (slot, stage) pairs reached for them.
   std::int64_t nodes() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is asked of a low level, and what it answers.
+// Query to a low level, and its outcome.
 #pragma once
 
 #include <cstdint>
@@ -14,29 +14,31 @@ namespace grove::detail {
 
 enum class PathOutcome : std::uint8_t {
   kFound,
-  kAboveCutoff,  // proven: no path costs `cutoff` or less (whether there is one is not known)
+  kAboveCutoff,  // proven: no path costs `cutoff` or less (there may be none at all)
   kInfeasible,   // proven: there is no path
-  kStopped,      // a limit struck, or too much would have to be done: nothing is known
+  kStopped,  // nothing is proven: a limit or label_limit was reached, the costs to go would be too
+             // large, or see known_sequences
 };
 
-// What one agent's path must obey, and how much it is worth. What it refers to is the caller's, for
-// the time of the call.
+// Constraints and preferences for the path of one agent. All pointers and spans must stay valid
+// during the call.
 struct PathQuery {
   static constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
 
   std::span<const Constraint> constraints = {};  // obeyed also while resting at the end
-  // Among equally cheap ways met, one of few conflicts with these is preferred; null: no matter.
+  // Among the paths of equal cost that the search generates, it prefers few conflicts with these;
+  // null: no preference.
   const ConflictAvoidanceTable* others = nullptr;
-  Time cutoff = kNever;                   // dearer paths are of no use; kNever: any will do
-  std::int64_t label_limit = kUnlimited;  // give up after about so many: kStopped
+  Time cutoff = kNever;  // paths of higher cost are of no use; kNever: any cost is accepted
+  std::int64_t label_limit = kUnlimited;  // about this many labels, then kStopped
 
-  // Paths to go around, in place of constraints; null: none.
+  // Paths that must be avoided, in place of constraints; null: none.
   const ReservationTable* reservations = nullptr;
-  // Labels come in order of time + (1 + greed) * cost to go. With any greed the path found may not
-  // be of least cost; what is proven stays proven.
+  // Labels are popped in order of time + (1 + inflation_percent / 100) * cost to go. If it is not
+  // 0, the path found may not be of least cost; proofs remain valid.
   int inflation_percent = 0;
-  // Make do with the sequences that the completions know, at least one; kStopped if that is why
-  // there is no path. The path found may be dearer than one of another sequence.
+  // Use only the sequences that the costs to go cover, at least one; kStopped if no path is found
+  // because of that. Another sequence may have a cheaper path.
   bool known_sequences = false;
 };
 

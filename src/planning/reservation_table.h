@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where planned agents are: what a further one must plan around.
+// Reservation table: the paths of planned agents, which a further agent must avoid.
 #pragma once
 
 #include <cstdint>
@@ -11,29 +11,30 @@
 
 namespace grove::detail {
 
-// The whole paths of some agents and their resting for ever, by place: prioritised planning takes
-// them for walls. Adding or removing a path costs what is on its places, and the low level looks up
-// only the places it comes to. For one thread.
+// The whole paths of some agents, including their rest for ever, by place. Prioritised planning
+// treats them as obstacles. Adding or removing a path costs time in the number of stays on its
+// places, and the low level looks up only the places that it reaches. One thread at a time.
 class ReservationTable {
  public:
   static constexpr AgentIndex kNobody = -1;
 
-  // An agent's being on a place without a break.
+  // A period during which an agent is on a place without a break.
   struct Stay {
-    Time first;        // from here
-    Time last;         // to here, inclusive; kNever: it rests there
-    Place next;        // where it moves at last + 1; kNoPlace when it rests
-    AgentIndex agent;  // whose it is
+    Time first;        // time of arrival
+    Time last;         // last time there, inclusive; kNever: it rests there
+    Place next;        // its place at last + 1; kNoPlace if it rests
+    AgentIndex agent;  // the agent that stays
   };
 
-  // `world` must outlive this. `margin`: a place is taken so many steps before and after anybody is
-  // there.
+  // `world` must outlive this. A place counts as occupied also `margin` steps before and after an
+  // agent is there.
   explicit ReservationTable(const World& world, Time margin = 0)
       : world_(world), margin_(margin), stays_(world.place_count()) {}
 
   Time margin() const { return margin_; }
 
-  // `path`, not empty, must collide with no path that is here; an agent has at most one.
+  // `path` must not be empty and must not collide with a path in the table. An agent has at most
+  // one path.
   void add(AgentIndex agent, const Path& path);
   // `path` must have been added for this agent.
   void remove(AgentIndex agent, const Path& path);
@@ -41,14 +42,15 @@ class ReservationTable {
 
   // The stays on a place in order of time; they do not overlap.
   std::span<const Stay> stays(Place place) const { return stays_[place]; }
-  // How many there are on all places.
+  // Number of stays on all places.
   std::int64_t count() const { return count_; }
-  // Who is on the place at this time; kNobody.
+  // The agent on the place at this time; kNobody if there is none.
   AgentIndex agent_at(Place place, Time time) const;
 
-  // May another one arrive then, from a neighbour or from the place itself, on which it is?
+  // May another agent arrive on `to` at `arrival`, from a neighbour or, if `from` == `to`, by
+  // waiting there?
   bool lets_arrive(Place from, Place to, Time arrival) const;
-  // May it rest there from then on?
+  // May another agent rest on the place from `from` on?
   bool lets_rest(Place place, Time from) const {
     return stays_[place].empty() || std::int64_t{stays_[place].back().last} + margin_ < from;
   }

@@ -1,39 +1,42 @@
 // SPDX-License-Identifier: MIT
-// The core of both low levels: A* over safe intervals (SIPP: Phillips and Likhachev, ICRA 2011)
-// with what has been visited as part of the state (as in the multi-label A* of Grenouilleau, van
-// Hoeve and Hooker, ICAPS 2019). What there is to visit, and so what is dropped and what is put
-// off, is the affair of the goals: goals_in_turn.h, goals_in_class.h.
+// Safe-interval search, the core of both low levels: A* over safe intervals (SIPP: Phillips and
+// Likhachev, ICRA 2011) with the visited goals as part of the state (as in the multi-label A* of
+// Grenouilleau, van Hoeve and Hooker, ICAPS 2019). The template parameter Goals decides what there
+// is to visit, and hence which labels are dropped or postponed: fixed_order_goals.h,
+// free_order_goals.h.
 //
-// Labels and dominance. A *label* is a (state, safe interval of its place, progress), progress
-// being a number for what is visited; it keeps the earliest time known to reach it. That is enough:
-// constraints bar places and moves between them, never waits, so an agent there at time t can be
-// there at any later time of the interval, waiting changes no progress, and whatever a later
-// arrival can do, an earlier one can do after waiting. A barred move (edge constraint) delays a
-// departure, and departing later is again open to the earlier arrival. Into each safe interval of a
-// neighbor only the earliest permitted arrival is generated, for the same reason. Nothing of this
-// holds across intervals: arriving early can mean being caught in an interval that leads nowhere,
-// so labels of different intervals never dominate each other. (A chain that may not be traversed
-// gives its inner places several copies of each interval, by the end the agent came in at, and a
-// place that may not be rested on by some time two intervals, by the time of arrival:
-// safe_intervals.h. That is all of the past that a future can depend on.)
+// *Labels and dominance.* A *label* is a (state, safe interval of its place, progress), where
+// progress is a number for the set of visited goals. It stores the earliest known time of arrival.
+// *Claim: the earliest time suffices.* *Proof.* Constraints bar places and moves between them,
+// never waits, so an agent there at time t can be there at any later time of the interval. Waiting
+// changes no progress. So an earlier arrival can do after waiting whatever a later arrival can do.
+// A barred move (edge constraint) delays a departure, and the later departure is open to the
+// earlier arrival, too. For the same reason only the earliest permitted arrival into each safe
+// interval of a neighbor is generated.
+// None of this holds across intervals: an agent that arrives early can be caught in an interval
+// that leads nowhere. So labels of different intervals never dominate each other. (A corridor that
+// may not be traversed gives its inner places several copies of each interval, by the end at which
+// the agent entered. A place that may not be rested on by some time has two intervals, by the time
+// of arrival: safe_intervals.h. The future depends on nothing else of the past.)
 //
-// The end. The agent may come to rest only where nothing bars it for ever after, with all goals
-// visited. Such a label is a *finish*. No path costs less than the first rest, the least begin of
-// such an interval, so a finish at that very time is optimal at once, whatever f the search has
-// come to; that is what a raised heuristic, max(t + h, first rest), gives, without its plateau.
+// *Finish.* The agent may come to rest only where nothing bars it for ever after, with all goals
+// visited. Such a label is a *finish*. The *first rest* is the least begin of such an interval. No
+// path costs less, so a finish at that time is optimal at once, whatever f the search has reached.
+// The raised heuristic max(t + h, first rest) would have the same effect, but with a plateau.
 //
-// Order. Labels come out by layers, f = t + h (or as the goals say), and may be put off to a later
-// layer when their turn comes: the goals know why that loses no path. So a label may be improved
-// after it was expanded; it is then expanded again. Its old children keep it as their parent:
-// waiting there a little longer is permitted. Times only fall and postponements only rise, each
-// through finitely many values: the search ends, and with an empty queue it has seen all that the
-// goals did not drop.
+// *Order.* Labels are popped by layers, f = t + h (or as Goals defines), and may be postponed to a
+// later layer when they are popped; Goals proves why that loses no path. So a label may be improved
+// after its expansion; then it is expanded again. Its old children keep it as their parent, because
+// waiting there a little longer is permitted. *Termination.* Times only fall and postponements only
+// rise, each through finitely many values, so the search ends. If the queue is empty, the search
+// has covered everything that Goals did not drop.
 //
-// Ties. Among equal f fewer conflicts come first, and the finish is accepted when it comes out.
-// (Conflicts while resting are the same for all paths of equal cost that rest on one place.) Every
-// path that costs what an empty grid would cost passes its labels at their earliest times, so among
-// these the result has the fewest conflicts possible. When constraints delay the agent, fewer
-// conflicts are preferred but not searched for: that would need labels for later arrivals.
+// *Ties.* Among labels of equal f, those with fewer conflicts are popped first, and the finish is
+// accepted when it is popped. (Conflicts while resting are the same for all paths of equal cost
+// that rest on one place.) Every path whose cost equals the cost without constraints passes its
+// labels at their earliest times. So among these paths the result has the fewest conflicts
+// possible. If constraints delay the agent, fewer conflicts are preferred but not optimized: that
+// would need labels for later arrivals.
 #pragma once
 
 #include <algorithm>
@@ -48,53 +51,54 @@
 
 namespace grove::detail {
 
-// In place of a layer: the label is not needed.
+// Returned in place of a layer if the label is not needed.
 inline constexpr Time kDropped = std::numeric_limits<Time>::max();
 
-// `Goals` has a type Progress and says
+// Safe-interval search. `Goals` has a type Progress and the functions
 //
 // - on_arrival(progress, state, reach): calls reach(p) for each progress p that an agent of this
-//   progress may be of once it has come to the state;
-// - layer(progress, state, time): in which layer such a label is to come out, or kDropped;
+//   progress may have after it has arrived in the state;
+// - layer(progress, state, time): the layer in which this label is to be popped, or kDropped;
 // - may_end(progress, state): is this a finish, if the agent may rest here for ever?
-// - first_rest(): no path costs less;
-// - put_off(progress, state, time, layer): the layer to which such a label is put off, or kDropped;
-//   `layer` or less: it is its turn;
-// - makes_gate(state, before, progress): may a label whose parent is of progress `before` stand for
-//   others?
-// - close_gate(state, before, progress, time, until): it does, from `time` to before `until`.
+// - first_rest(): lower bound on the cost of every path;
+// - put_off(progress, state, time, layer): the layer to which this label is postponed, or kDropped;
+//   `layer` or less if it is not postponed;
+// - makes_gate(state, before, progress): may a label whose parent has progress `before` dominate
+//   others (be a *gate*)?
+// - close_gate(state, before, progress, time, until): the label dominates others, from `time` to
+//   before `until`.
 template <class Goals>
 class SafeIntervalSearch {
  public:
   using Progress = typename Goals::Progress;
   enum class End : std::uint8_t {
     kFound,
-    kExhausted,  // there is no path but by labels that the goals dropped
-    kPaused,     // so many labels are expanded; run() goes on
-    kStopped,    // a limit struck
+    kExhausted,  // there is no path except through labels that the goals dropped
+    kPaused,     // `pause_at` labels are expanded; run() continues
+    kStopped,    // a limit was reached
   };
 
   // `world` must outlive this.
   explicit SafeIntervalSearch(const World& world) : world_(world), intervals_(world) {}
 
-  // To be set before begin(), and to stay as they are while the search runs.
+  // Set both before begin(), and do not change them while the search runs.
   SafeIntervals& intervals() { return intervals_; }
   Goals& goals() { return goals_; }
   const World& world() const { return world_; }
 
-  // The agent is in `start` at time 0 and of this progress before anything is visited there. No
-  // label comes before `first_layer`. `others` may be null; it and `limits` must outlive this
-  // search.
+  // Starts a search. The agent is in `start` at time 0 and has `progress` before anything is
+  // visited there. No label has a layer below `first_layer`. `others` may be null; it and `limits`
+  // must outlive this search.
   void begin(State start, Progress progress, Time first_layer, const ConflictAvoidanceTable* others,
              const Limits& limits);
-  // Continues until exactly so many labels are expanded in all: what is done by then must not
-  // depend on the searches before.
+  // Continues until exactly `pause_at` labels are expanded in all searches. What is done by then
+  // must not depend on earlier searches.
   End run(std::int64_t pause_at);
-  // Of what was found.
+  // Of the path found.
   Time cost() const { return finish_.time; }
   void write_path(Path& path);
 
-  // Labels expanded by all searches so far, and with so many more.
+  // Labels expanded by all searches so far, and that number plus `more`.
   std::int64_t expanded() const { return expanded_; }
   std::int64_t expanded_after(std::int64_t more) const {
     return more < PathQuery::kUnlimited - expanded_ ? expanded_ + more : PathQuery::kUnlimited;
@@ -113,7 +117,7 @@ class SafeIntervalSearch {
   };
 
   static constexpr std::int32_t kNoSlot = -1;
-  static constexpr std::int64_t kLabelsPerPoll = 256;  // of limits
+  static constexpr std::int64_t kLabelsPerPoll = 256;  // between polls of the limits
 
   Label& label(const Entry& entry) { return planes_.label(entry.slot, entry.progress); }
   bool postpone(const Entry& entry, State state);
@@ -181,7 +185,7 @@ bool SafeIntervalSearch<Goals>::postpone(const Entry& entry, State state) {
   return true;
 }
 
-// A gate must leave open what those that it stands for do next.
+// A gate must permit whatever the labels that it dominates can do next.
 template <class Goals>
 void SafeIntervalSearch<Goals>::close_gate(const Entry& entry, State state, Progress before) {
   if (goals_.makes_gate(state, before, entry.progress) && intervals_.stands_for_others(entry.slot))
@@ -216,7 +220,7 @@ void SafeIntervalSearch<Goals>::reach(const Entry& from, State from_state, std::
        .stamp = planes_.stamp(),
        .conflicts = conflicts,
        .parent_progress = from.progress};
-  // No path is cheaper than a finish at the first rest: it need not wait for its layer.
+  // No path is cheaper than a finish at the first rest, so such a label skips its layer.
   const bool optimal = time == goals_.first_rest() && is_finish(slot, state, progress);
   queue_.push(optimal ? queue_.layer() : std::max(layer, queue_.layer()),
               {.slot = slot, .time = time, .conflicts = conflicts, .progress = progress});

@@ -30,7 +30,7 @@ void SafeIntervals::assign(std::span<const Constraint> constraints) {
 void SafeIntervals::assign(const ReservationTable& reservations) {
   forget();
   reservations_ = &reservations;
-  // k stays leave at most k + 1 intervals.
+  // k >= 1 stays on a place leave at most k + 1 <= 2 k intervals of each state.
   slot_limit_ =
       states_ + static_cast<int>(2 * reservations.count()) * world_.most_states_on_a_place();
 }
@@ -113,7 +113,7 @@ void SafeIntervals::keep(const Constraint& c) {
       break;
     case ConstraintKind::kStopIs:
     case ConstraintKind::kStopIsNot:
-      break;  // none on the path: check() has refused it
+      break;  // not on the path: check() has refused it
   }
 }
 
@@ -257,7 +257,7 @@ Time SafeIntervals::next_begin(int slot) const {
 Time SafeIntervals::first_move(int from_slot, Place to, Time earliest) const {
   if (unconstrained(to)) return earliest;
   const Group& group = groups_[group_of_[to]];
-  // One pass will do: the bars are in order of their begin.
+  // One pass suffices, because the bars are in order of their begin.
   for (int i = group.first_move; i < group.end_move; ++i)
     if (bars(bars_[i], from_slot, earliest)) earliest = std::min(bars_[i].end, kNever) + 1;
   return earliest;
@@ -266,7 +266,7 @@ Time SafeIntervals::first_move(int from_slot, Place to, Time earliest) const {
 Time SafeIntervals::last_move(int from_slot, Place to, Time latest) const {
   if (unconstrained(to)) return latest;
   const Group& group = groups_[group_of_[to]];
-  // One pass will do here, too: the bars passed begin later than those to come.
+  // One pass suffices here, too: the bars passed begin later than the bars to come.
   for (int i = group.end_move - 1; i >= group.first_move; --i)
     if (bars(bars_[i], from_slot, latest)) latest = bars_[i].begin - 1;
   return latest;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// When an agent may be where: constraints turned into intervals.
+// Safe intervals: the times at which an agent may be in each state, derived from constraints or
+// reservations.
 #pragma once
 
 #include <algorithm>
@@ -14,91 +15,96 @@
 
 namespace grove::detail {
 
-// A state together with a range of times at which the agent may be on its place, and what is known
-// of how it came there. It may always wait inside: constraints bar places and moves, never waits.
+// A state with a range of times at which the agent may be on its place, and with what the future
+// depends on of how it arrived. The agent may always wait inside the interval: constraints bar
+// places and moves, never waits.
 struct SafeInterval {
   State state = kNoState;
   Time begin = 0;
   Time end = kNever;           // inclusive; kNever: for ever
-  Time last_arrival = kNever;  // whoever arrives later is in another interval
-  std::uint8_t copy = 0;       // of the place, see SafeIntervals
-  bool may_rest = false;       // for ever
-  // With reservations: who was here before moves there at `begin`.
+  Time last_arrival = kNever;  // an agent that arrives later is in another interval
+  std::uint8_t copy = 0;       // copy of the place, see SafeIntervals
+  bool may_rest = false;       // may the agent rest here for ever?
+  // With reservations: the agent that was here before moves to this place at `begin`.
   Place left_for = kNoPlace;
-  bool is_late = false;  // whoever came earlier may rest
+  bool is_late = false;  // an agent that arrived earlier may rest
 };
 
-// The safe intervals of all places under one list of constraints, for each state on them. Most
-// places have no constraint and take no memory but a number: the one interval of a state there, all
-// of time, is the *slot* with the number of the state. The intervals of states on other places are
-// the slots from state_count() on, those of one state in a row and in order of time. Reused from
-// list to list; O(constraints) each time but for sorting, and for the length of the chains that may
-// not be traversed.
+// The safe intervals of all states under one list of constraints. Most places have no constraint
+// and take no memory except one number: the only interval of a state there, all of time, is the
+// *slot* with the number of the state. The intervals of states on other places are the slots from
+// state_count() on; those of one state are contiguous and, within a copy (see below), in order of
+// time. The object is reused for many lists. Each list takes O(constraints), plus sorting and the
+// length of the corridors that may not be traversed.
 //
-// With reservations instead of constraints the intervals of a place are made when it is first seen:
-// see() must come before any other question about it. With constraints it does nothing.
+// With reservations instead of constraints, the intervals of a place are made when the place is
+// first seen: see() must be called before any other query about it. With constraints see() does
+// nothing.
 //
-// One arrival, one slot; a slot keeps what an arrival leads to:
+// Each arrival leads to one slot, and a slot determines what the agent can do after the arrival:
 //
-// - *No rest by t.* If the interval [b, inf) of a place has b <= t, it is two overlapping slots:
-// who
-//   arrives at t or earlier may be there for as long as it likes, but not for ever; who arrives
-//   later may rest. (Whoever turns on the place stays in its slot: it has arrived when it came.)
-// - *Rest by t.* Where agents may turn or work after they have arrived for good, likewise: who
-//   arrives at t or earlier may rest, who arrives later may not.
-// - *No traversal.* The inner places of a chain with such a constraint have all their slots in two
-//   or three *copies*. Who enters the chain at one of its ends gets the copy of that end and keeps
-//   it until it leaves, and the constraint bars a move out of one copy only. The last copy bars
-//   none: it is that of an end whose traversals are free, and of the start at time 0.
+// - *No rest by t.* If the interval [b, inf) of a place has b <= t, it becomes two overlapping
+//   slots. An agent that arrives at t or earlier may stay for any time, but not for ever. An agent
+//   that arrives later may rest. (An agent that turns on the place stays in its slot: the time of
+//   arrival is when it came to the place.)
+// - *Rest by t.* If agents may turn or work after they have arrived for good, the interval is
+//   divided in the same way: an agent that arrives at t or earlier may rest, one that arrives later
+//   may not.
+// - *No traversal.* The inner places of a corridor with such a constraint have all their slots in
+//   two or three *copies*. An agent that enters the corridor at one of its ends gets the copy of
+//   that end and keeps it until it leaves, and the constraint bars a move out of one copy only. The
+//   last copy bars none: it is for an end from which traversals are permitted, and for the start at
+//   time 0.
 class SafeIntervals {
  public:
   // `world` must outlive this.
   explicit SafeIntervals(const World& world);
 
   // Replaces the constraints. They may come in any order, overlap and repeat. Throws
-  // std::invalid_argument for a place outside the world, a move from one to itself, or a traversal
-  // of what is no chain.
+  // std::invalid_argument for a place outside the world, a move from a place to itself, a traversal
+  // that does not leave a corridor, or a constraint on the sequence.
   void assign(std::span<const Constraint> constraints);
-  // Bars what would collide with a reserved path. `reservations` must stay as they are until the
-  // next assign().
+  // Bars everything that would collide with a reserved path. `reservations` must not change until
+  // the next assign().
   void assign(const ReservationTable& reservations);
 
   void see(Place place) {
     if (reservations_ && group_of_[place] == kNoGroup) look_up(place);
   }
-  // There will not be more slots than this.
+  // Upper bound on slot_count() until the next assign().
   int slot_limit() const { return slot_limit_; }
   int slot_count() const { return states_ + static_cast<int>(intervals_.size()); }
   State state_of(int slot) const { return slot < states_ ? slot : interval(slot).state; }
   Place place_of(int slot) const { return world_.place(state_of(slot)); }
   Time begin_of(int slot) const { return slot < states_ ? 0 : interval(slot).begin; }
   Time end_of(int slot) const { return slot < states_ ? kNever : interval(slot).end; }
-  // Whoever comes to the place later is in another slot.
+  // Last arrival of this slot: an agent that comes to the place later is in another slot.
   Time last_arrival(int slot) const {
     return slot < states_ ? kNever : interval(slot).last_arrival;
   }
-  // May the agent, having arrived in this slot, stay for ever? Where states are places the time of
-  // kRestBy is not looked at: there the agent finishes when it arrives, see latest_rest().
+  // May an agent that arrived in this slot stay for ever? If states are places, this does not test
+  // the time of kRestBy: there the agent finishes when it arrives, see latest_rest().
   bool may_rest(int slot) const {
     return (only_rest_ == kNoPlace || place_of(slot) == only_rest_) &&
            (slot < states_ || interval(slot).may_rest);
   }
-  // The last time at which a move from the one slot into the other may arrive, if it is not barred.
+  // The last time at which a move from `from_slot` into `slot` may arrive, if the move is not
+  // barred.
   Time last_entry(int from_slot, int slot) const {
     return place_of(from_slot) == place_of(slot)
                ? end_of(from_slot)
                : std::min(end_of(from_slot) + 1, last_arrival(slot));
   }
-  // Can all that is done from another slot of this state, later or at the same time, be done from
-  // here until next_begin()? Not from a copy that is barred from a traversal, nor by who came too
-  // late to rest (kRestBy).
+  // Can an agent in this slot do, until next_begin(), everything that it could do from another slot
+  // of this state at the same time or later? Not from a copy that is barred from a traversal, nor
+  // after an arrival too late to rest (kRestBy).
   bool stands_for_others(int slot) const {
     return copy_of(slot) == kFree && !(slot >= states_ && interval(slot).is_late);
   }
 
-  // No constraint at all bars the place or a move to it, nor has it copies.
+  // True if no constraint bars the place or a move to it, and the place has no copies.
   bool unconstrained(Place place) const { return group_of_[place] == kNoGroup; }
-  // The slots of a state: first_slot(state) .. end_slot(state) - 1, perhaps none.
+  // The slots of a state are first_slot(state) .. end_slot(state) - 1, perhaps none.
   int first_slot(State state) const {
     const Place place = world_.place(state);
     return unconstrained(place) ? state : slots(groups_[group_of_[place]], state).first;
@@ -107,32 +113,33 @@ class SafeIntervals {
     const Place place = world_.place(state);
     return unconstrained(place) ? state + 1 : slots(groups_[group_of_[place]], state).end;
   }
-  // Where an agent is that starts in `state` at time 0; -1: barred.
+  // The slot of an agent that starts in `state` at time 0; -1 if that is barred.
   int start_slot(State state) const;
-  // The begin of the slot of `place` in which the agent may rest; kNever: there is none.
+  // The begin of the slot of `place` in which the agent may rest; kNever if there is none.
   Time rest_begin(Place place) const;
-  // The last time at which the agent may be on `place`; -1: never.
+  // The last time at which the agent may be on `place`; -1 if there is none.
   Time last_time(Place place) const {
     return first_slot(place) == end_slot(place) ? -1 : end_of(end_slot(place) - 1);
   }
-  // When the slot of the same state and copy after `slot` begins; kNever if there is none.
+  // The begin of the next slot of the same state and copy; kNever if there is none.
   Time next_begin(int slot) const;
 
-  // By when the agent must have come to where it rests (kRestBy); kNever: no matter.
+  // The time by which the agent must have arrived at its place of rest (kRestBy); kNever: no limit.
   Time latest_rest() const { return latest_rest_; }
-  // The only place to rest on, kNoPlace: no matter. Not a place at all if there are two such.
+  // The only place on which the agent may rest; kNoPlace: any. If two constraints name different
+  // places, the value is not a place.
   Place only_rest() const { return only_rest_; }
 
-  // The first time from `earliest` on at which an agent in `from_slot` is not barred from moving to
-  // `to`; later than kNever when there is none. Whether `to` is safe then is another matter.
-  // Not with reservations.
+  // The first time from `earliest` on at which the move of an agent in `from_slot` to `to` is not
+  // barred; later than kNever if there is none. Does not test whether `to` is safe then. Not with
+  // reservations.
   Time first_move(int from_slot, Place to, Time earliest) const;
-  // The last time up to `latest` at which it is not barred; negative when there is none.
+  // The last time up to `latest` at which this move is not barred; negative if there is none.
   Time last_move(int from_slot, Place to, Time latest) const;
 
-  // Calls arrive(slot, state, time) for each slot next to `slot` that an agent in it at `from_time`
-  // can move to, with the first time at which it can be there. Whoever moves without leaving the
-  // place stays in the interval that it came to the place in.
+  // Calls arrive(slot, state, time) for each slot to which an agent in `slot` at `from_time` can
+  // move, with the earliest time of arrival. An agent that moves without leaving its place stays in
+  // the interval in which it came to the place.
   template <class Arrive>
   void for_each_move(int slot, Time from_time, Arrive arrive) {
     if (states_are_places_)
@@ -147,18 +154,18 @@ class SafeIntervals {
   static constexpr std::int32_t kNoGroup = -1;
   static constexpr std::int32_t kNoCopies = -1;
   static constexpr Place kNowhere = -2;
-  // Copies of the inner places of a chain.
+  // Copies of the inner places of a corridor.
   static constexpr std::uint8_t kFromFront = 0;
   static constexpr std::uint8_t kFromBack = 1;
-  static constexpr std::uint8_t kFree = 2;  // and of places without copies
+  static constexpr std::uint8_t kFree = 2;  // also of places without copies
 
   struct Range {
     int first;
     int end;
   };
 
-  // A constraint as it is kept: times barred on a place, times by which none may have come to rest,
-  // or a barred move to the place, perhaps from one copy only.
+  // A stored constraint: times barred on a place, times by which the agent must not have come to
+  // rest there, or a barred move to the place, perhaps from one copy only.
   struct Bar {
     enum class Kind : std::uint8_t { kPlace, kRest, kMove };
     Place place;
@@ -166,24 +173,24 @@ class SafeIntervals {
     Time begin;
     Time end;
     Kind kind;
-    std::uint8_t copy;  // kFree: from any
+    std::uint8_t copy;  // the copy that the move leaves; kFree: any
   };
-  // A chain with a barred traversal. A copy that no constraint bars is the free one.
+  // A corridor with a barred traversal. If no constraint bars a copy, it is kFree.
   struct ChainUsed {
     int chain;
     std::uint8_t from_front = kFree;
     std::uint8_t from_back = kFree;
   };
-  // What is known of one place: slots, and positions in bars_.
+  // Data of one constrained place: slots, and indices into bars_.
   struct Group {
     Place place;
-    std::int32_t first_slot = 0;  // of the first state on it; those of the others follow
+    std::int32_t first_slot = 0;  // of the first state on it; the slots of the others follow
     std::int32_t slots = 0;       // of each state
     std::int32_t first_bar = 0;
     std::int32_t first_move = 0;  // the barred moves to the place come last
     std::int32_t end_move = 0;
-    std::int32_t chain = kNoCopies;  // in chains_used_: whose inner place it is
-    Place front = kNoPlace;          // the front of that chain, if next to it
+    std::int32_t chain = kNoCopies;  // of an inner place: in chains_used_
+    Place front = kNoPlace;          // the front of that corridor, if adjacent
   };
 
   template <class PlaceOf, class Arrive>
@@ -223,12 +230,12 @@ class SafeIntervals {
       if (!reservations_)
         time = first_move(from_slot, to, time);
       else if (time == begin && interval(slot).left_for == from)
-        continue;  // head-on; and later `from` is not safe any more
+        continue;  // swap conflict; and later `from` is not safe any more
       if (time <= last) arrive(slot, state, time);
     }
   }
 
-  // Those of a state on the place.
+  // The slots of a state on the place.
   Range slots(const Group& group, State state) const {
     const int first = group.first_slot + world_.rank_on_place(state) * group.slots;
     return {first, first + group.slots};
@@ -237,7 +244,7 @@ class SafeIntervals {
   Range slots_entered(const Group& to, int from_slot, Place from, State state) const {
     if (to.chain == kNoCopies) return slots(to, state);
     const ChainUsed& chain = chains_used_[to.chain];
-    // A neighbor with copies is an inner place of the same chain.
+    // A neighbor with copies is an inner place of the same corridor.
     if (has_copies(from)) return slots_of_copy(to, state, interval(from_slot).copy);
     return slots_of_copy(to, state, from == to.front ? chain.from_front : chain.from_back);
   }
@@ -248,7 +255,8 @@ class SafeIntervals {
   std::uint8_t copy_of(int slot) const { return slot < states_ ? kFree : interval(slot).copy; }
 
   const SafeInterval& interval(int slot) const { return intervals_[slot - states_]; }
-  // Of some slots of one state and copy, in a row.
+  // The first of these slots that ends after `time`. The slots must be contiguous and of one state
+  // and copy.
   int first_ending_after(int first, int end, Time time) const {
     for (int many = end - first; many > 0;) {
       const int half = many / 2;
@@ -291,7 +299,7 @@ class SafeIntervals {
   std::vector<Group> groups_;
   std::vector<SafeInterval> intervals_;
   std::vector<Bar> bars_;            // by place, kind, begin
-  std::optional<Corridors> chains_;  // made for the first traversal to be barred
+  std::optional<Corridors> chains_;  // made for the first barred traversal
   std::vector<ChainUsed> chains_used_;
   Place only_rest_ = kNoPlace;
   Time latest_rest_ = kNever;

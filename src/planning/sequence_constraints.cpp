@@ -25,7 +25,7 @@ void append(SequenceClass& work, Stop stop) {
   work.forbidden_next = 0;
 }
 
-// What is said of the next stop.
+// Applies the constraints on the next stop.
 void settle_next(SequenceClass& work, const AgentStops& stops,
                  std::span<const Constraint> constraints) {
   const auto number = static_cast<Time>(work.prefix.size());
@@ -41,7 +41,7 @@ void settle_next(SequenceClass& work, const AgentStops& stops,
   if (next) append(work, *next);
 }
 
-// If only one stop may be next, it is.
+// If only one stop may be next, appends it.
 void settle_forced(SequenceClass& work, const AgentStops& stops) {
   StopSet allowed = stops.all() & ~work.forbidden_next;
   for (const Stop stop : work.prefix) allowed &= ~(StopSet{1} << stop);

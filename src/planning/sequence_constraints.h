@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Constraints on the order of an agent's stops, and the sequence class that they make.
+// Converts constraints on the order of an agent's stops to a sequence class.
 #pragma once
 
 #include <span>
@@ -9,10 +9,11 @@
 
 namespace grove::detail {
 
-// The sequences of `work` that obey those of `constraints` that are about the sequence, in any
-// order, with stops that follow from them settled. Throws std::invalid_argument if they make no
-// class: each stop number must be settled by kStopIs before anything is said of the next, of a stop
-// that is left and was not ruled out.
+// The sequences of `work` that obey those of `constraints` that are about the sequence. The
+// constraints may come in any order. Stops that follow from them are appended to the prefix. Throws
+// std::invalid_argument if they define no class: the stop at each number must be determined by
+// kStopIs before a constraint may concern the next number, and a constraint must name a stop that
+// is left and was not ruled out.
 SequenceClass narrowed(SequenceClass work, const AgentStops& stops,
                        std::span<const Constraint> constraints);
 

@@ -1,48 +1,53 @@
 // SPDX-License-Identifier: MIT
-// The states of a sequence class "prefix, then none of F, then free".
+// Stages of the sequence class "prefix, then a stop outside F, then any order".
 //
-// A state is what is left to count, for the order of what has been counted no longer matters: while
-// the prefix lasts, one stop may be next; right after it any but those of F; later any.
+// A stage is the set of stops left to count, because the order of the stops counted so far no
+// longer matters. While the prefix lasts, one stop may be next. Right after it, any stop outside F
+// may be next. Later, any stop may be next.
 //
-// Touching counts. An agent on a stop that may be counted next loses nothing by counting it: a
-// continuation that counts it later realizes a sequence of the class without counting it a second
-// time, and if it was the first free stop, it is not of F, so it may be the first. (It is not so
-// that fewer stops left are always better: with F, a stop of F touched right after the prefix is
-// not counted, and must be visited again.) So each touch has one successor, with one exception.
+// *Claim: visiting counts.* An agent on a stop that may be counted next loses nothing by counting
+// it. *Proof.* A continuation that counts the stop later realizes a sequence of the class without
+// counting it a second time. If it was the first free stop, it is not in F, so it may be the first.
+// *Consequence.* Each visit has one successor stage, with the one exception below. (It does not
+// follow that fewer stops left are always better: a stop of F visited right after the prefix is not
+// counted, and must be visited again.)
 //
-// Without a destination an agent whose stops take no time rests on the last stop of its sequence,
-// so that every path has one last stop, and the classes of a partition share no sequence. Being on
-// a stop for the last time is being on it at the end: a path that has counted everything may rest
-// on any free stop v, since moving v to the end of the order counted leaves a sequence of the class
-// - if its first free stop stays outside F. Moving v breaks that only if v itself was counted first
-// and F is not empty. Then the stop w that was counted first is no place to rest (unless it is the
-// only free stop): the state remembers it by its `rests`; and because that takes something away,
-// touching a possible first stop need not count: the search follows both ways. That is exact: a
-// realized sequence with first free stop w and last stop v != w is followed by counting w at its
-// visit, skipping the possible first stops before, and everything else as soon as touched. If only
-// one stop can be the first, skipping it leads nowhere and is left out. A prefix stop is a place to
-// rest only if it is the last one of a complete prefix.
+// *Exception.* Without a destination, an agent whose stops take no time rests on the last stop of
+// its sequence. So every path has one last stop, and the classes of a partition share no sequence.
+// The last visit to that stop is the one at the end. A path that has counted everything may
+// therefore rest on any free stop v: moving v to the end of the order counted leaves a sequence of
+// the class, if its first free stop stays outside F. Moving v breaks that only if v itself was
+// counted first and F is not empty. Then the agent may not rest on the stop w that was counted
+// first, unless w is the only free stop. The stage stores this in `rests`. Because counting w first
+// thus removes a place to rest, visiting a possible first stop need not count it: the search
+// follows both alternatives. That is exact: for a realized sequence with first free stop w and last
+// stop v != w, the search counts w at its visit, skips the possible first stops before it, and
+// counts every other stop as soon as it is visited. If only one stop can be the first, skipping it
+// leads nowhere, and the alternative is left out. The agent may rest on a prefix stop only if that
+// is the last one of a complete prefix.
 //
-// *Work.* A stop that takes time is counted when its work is completed, and work is begun only on a
-// stop that may be counted next: it ends with that count, for nothing else can be counted meanwhile
-// (of the stops on one place only those that take time are stops: Instance). Begun work that did
-// not count would be a wait. Such work is not done again at the end, so an agent without a
-// destination that has any may rest on any of its own places, whatever it has counted last: there
-// the order says nothing of the rest, as with a destination.
+// *Work.* A stop that takes time is counted when its work is completed. Work is begun only on a
+// stop that may be counted next. It ends with that count, because nothing else can be counted
+// during the work (of the stops on one place, only those that take time are stops: Instance). Work
+// that did not count would be equivalent to waiting. Such work is not done again at the end. So an
+// agent without a destination that has such work may rest on any of its own places, whatever it
+// counted last. As with a destination, the order then does not determine where the agent rests.
 //
-// The distance from a state is the least over the stops u next of dist(state, u) + onward cost of
-// u. If onward(u) >= D(u, w) + onward(w), D(u, w) being the greatest distance to w from any state
-// on u, then u is never needed beside w, whatever the state: dist(state, w) <= dist(state, u) +
-// D(u, w). What remains is a handful of stops. (No two can rule out each other: on two places
-// D is positive, and on one place there is work to be done.) Onward costs are the least over the
-// states in which a stop may be left, so never more than what is to be paid.
+// *Distance.* The distance from a state is the least dist(state, u) + onward(u) over the stops u
+// that may be next, where onward(u) is the least cost from u through the other stops left. Let D(u,
+// w) be the greatest distance to w from any state on u. *Claim: if onward(u) >= D(u, w) +
+// onward(w), then u is not needed if w is kept, for any state.* *Proof.* dist(state, w) <=
+// dist(state, u) + D(u, w). *Consequence.* Only a few stops remain. (No two stops rule out each
+// other: on two places D is positive, and on one place there is work to be done.) Onward costs are
+// the minimum over the states in which a stop may be left, so they never exceed the actual cost.
 //
-// *Ports.* Where agents turn on worlds of moderate size, each stop has four ports (cost_matrix.h),
-// and all of this is said of ports: it makes onward costs exact. Whoever counts a stop does so in
-// a heading, or within a turn after which it is there in a heading (but for those who start
-// within a turn; they have no ports): so a path that counts u pays at least dist(state, port) +
-// onward(port) for the port that it is in then. A port does not rule out another of a stop that
-// takes time: who is at work there in one heading would have to begin anew in the other.
+// *Ports.* If agents turn and the world is of moderate size, each stop has four ports
+// (cost_matrix.h), and all of the above holds for ports instead of stops. Ports make onward costs
+// exact. An agent that counts u does so in a heading, or within a turn after which it is on u in a
+// heading. (Agents that start within a turn are excepted; they have no ports.) So a path that
+// counts u pays at least dist(state, port) + onward(port) for the port that it is in then. A port
+// does not rule out another port of a stop that takes time: an agent at work there in one heading
+// would have to begin again in the other heading.
 #include "planning/sequence_stages.h"
 
 #include <algorithm>
@@ -147,8 +152,9 @@ std::shared_ptr<const std::int8_t[]> AgentStops::stops_of_states(const Instance&
   return own;
 }
 
-// Whoever is there for good, on what nobody bars for ever after, turns and works at once: all of
-// its work there, with a turn before and after at most.
+// Once an agent is there for good, and no constraint bars the place any more, it turns and works
+// without waiting: at most all of its work there, plus max_turn_time() for the turns before and
+// after.
 Time AgentStops::longest_finish(Place place) const {
   Time longest = world_->max_turn_time(kind_);
   for (std::size_t stop = 0; stop < places_.size(); ++stop)
@@ -209,7 +215,7 @@ Time SequenceStages::to_rest(const Stage& stage, State state) const {
   return best;
 }
 
-// Those of `left` that may be counted next.
+// The stops of `left` that may be counted next.
 StopSet SequenceStages::next_of(StopSet left) const {
   for (Stop stop : class_.prefix)
     if (holds(left, stop)) return bit(stop);
@@ -221,7 +227,7 @@ StopSet SequenceStages::rests_after(const Stage& stage, int stop) const {
   return first ? stage.rests & ~bit(stop) : stage.rests;
 }
 
-// From each port of the next stop through the other stops of `left` to the end.
+// Least costs from each port of `stop`, counted next, through the other stops of `left` to the end.
 SequenceStages::PortCosts SequenceStages::onward_costs(StopSet left, int stop) const {
   const int ports = stops_.ports();
   const int first = stop * ports;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What an agent must visit when the low level chooses the order itself, within a sequence class.
+// Stops of one agent, and the stages of a sequence class: the progress that the low level tracks
+// when it chooses the order of visits itself.
 #pragma once
 
 #include <algorithm>
@@ -20,14 +21,14 @@
 
 namespace grove::detail {
 
-// One agent's stops, with all that does not depend on the class: shared by its SequenceStages.
-// Copies share what does not change; a copy may go to another thread.
+// Stops of one agent, with all data that does not depend on the sequence class. Its SequenceStages
+// share it. Copies share the data that does not change; a copy may be used by another thread.
 class AgentStops {
  public:
   static constexpr int kNoStop = -1;
 
-  // `instance` and `distances` must outlive this. What is large shares the memory of the distances,
-  // if that is shared.
+  // `instance` and `distances` must outlive this. The large arrays lie in the memory of the
+  // distances, if that is shared.
   AgentStops(const Instance& instance, const DistanceFields& distances, AgentIndex agent);
 
   const Instance& instance() const { return *instance_; }
@@ -37,43 +38,48 @@ class AgentStops {
   Place start_place() const { return start_place_; }
   std::optional<Place> destination() const { return destination_; }
   Place place(int stop) const { return places_[stop]; }
-  // The stop where an agent in this state is: on its place or, if it takes time, with the work just
-  // completed. kNoStop: none. Less: it is at work, see stop_of_work().
+  // The stop that an agent visits in this state: the state is on the stop's place or, if the stop
+  // takes time, its work has just been completed. Returns kNoStop if there is none. A value less
+  // than kNoStop means that the agent is at work; see stop_of_work().
   int stop_at(State state) const { return stop_at_[state]; }
-  // For what is less than kNoStop: the stop at which an agent is at work; kNoStop: none of its own.
+  // For a value of stop_at() less than kNoStop: the stop at which the agent is at work. Returns
+  // kNoStop if the work is not that of one of its own stops.
   static int stop_of_work(int at) { return at == kForeignWork ? kNoStop : kFirstWork - at; }
   // Does the stop take time?
   bool takes_time(int stop) const { return (work_stops_ >> stop & 1) != 0; }
   StopSet all() const { return all_stops(count()); }
 
-  // It rests on the last stop of its sequence; else where to_rest() is 0, whatever the sequence.
+  // True if the agent rests on the last stop of its sequence. Otherwise it rests where to_rest() is
+  // 0, whatever the sequence.
   bool rests_on_last_stop() const { return !to_rest_; }
-  // How long an agent may have still to turn and to work, at most, where it came to rest for good,
-  // if it does not tarry.
+  // Upper bound on the steps that the agent still turns and works on `place` after it has come to
+  // rest there for good, if it does not wait in between.
   Time longest_finish(Place place) const;
 
-  // How many ports each stop has (CostMatrix). Where there is but one, a port is its stop.
+  // Number of ports of each stop (CostMatrix). If it is 1, a port is identified with its stop.
   int ports() const { return ports_; }
-  // From a state to a port.
+  // Distance from a state to a port.
   Time to_port(State state, int port) const { return to_port_[port][state]; }
-  // To a stop, by whatever port.
+  // Distance from a state to a stop: the minimum over the ports of the stop.
   Time distance(State state, int stop) const {
     Time least = to_port(state, stop * ports_);
     for (int port = 1; port < ports_; ++port)
       least = std::min(least, to_port(state, stop * ports_ + port));
     return least;
   }
-  // From a state to where the agent may rest, unless it rests on its last stop.
+  // Distance from a state to the nearest state in which the agent may rest. Requires
+  // !rests_on_last_stop().
   Time to_rest(State state) const { return to_rest_[state]; }
-  // From a port of one stop to a port of another, at most, whatever the base state on the stop.
+  // Upper bound on the distance from port `from` of one stop to port `to` of another, over all base
+  // states on the first stop.
   Time longest_leg(int from, int to) const {
     return longest_legs_[static_cast<std::size_t>(from) * port_count() + to];
   }
-  // How long it takes at most to turn from a state on a stop to where a port of it is left: in its
-  // heading, or where there is but one port in any base state.
+  // Upper bound on the steps to turn from a state on a stop to a state in which `port` of the stop
+  // is left: the heading of the port or, with one port per stop, any base state.
   Time turn(State state, int port) const;
 
-  // Of all sequences.
+  // Costs to go over all sequences, not only those of a class.
   const CostToGo& cost_to_go() const { return completions_; }
   CostToGo& cost_to_go() { return completions_; }
 
@@ -82,7 +88,7 @@ class AgentStops {
   std::shared_ptr<const std::int8_t[]> stops_of_states(const Instance& instance,
                                                        SharedArray shared) const;
 
-  // What stands for work on stop s is kFirstWork - s.
+  // In stop_at_, work on stop s has the value kFirstWork - s.
   static constexpr int kFirstWork = -2;
   static constexpr int kForeignWork = -128;
 
@@ -97,7 +103,7 @@ class AgentStops {
   std::vector<Place> places_;
   std::vector<Time> durations_;  // by stop
   StopSet work_stops_ = 0;
-  std::shared_ptr<const std::int8_t[]> stop_at_;  // by state; owns nothing where that is shared
+  std::shared_ptr<const std::int8_t[]> stop_at_;  // by state; owns nothing if the array is shared
   std::vector<DistanceView> to_port_;
   std::vector<Time> longest_legs_;  // by port, then port
   int ports_ = 1;
@@ -105,37 +111,37 @@ class AgentStops {
   CostToGo completions_;
 };
 
-// The stages of one agent under one sequence class - how far it has come with its stops -, numbered
-// as the search comes upon them. A
-// path *realizes* a sequence if it is on its stops one after the other and, without a destination,
-// rests on the last one. For one thread; several SequenceStages may share their AgentStops within
-// it.
+// Stages of one agent under one sequence class, numbered in the order in which the search reaches
+// them. A stage is the agent's progress: the stops left to count and, without a destination, the
+// stops where it may rest. A path *realizes* a sequence if it visits the stops in that order and,
+// without a destination, rests on the last one. One thread at a time; several SequenceStages of the
+// same thread may share their AgentStops.
 class SequenceStages {
  public:
   using StageId = std::int32_t;
   static constexpr StageId kOutside = -1;
 
   struct Stage {
-    StopSet left = 0;          // not counted yet
-    StopSet next = 0;          // those of them that may be counted next
-    StopSet rests = 0;         // if it rests on its last stop: where it may come to rest
-    bool may_skip = false;     // of the next: touching need not count
-    std::int32_t first = 0;    // its onward ways, in onward()
-    std::int32_t nearest = 0;  // so many of them settle the distance
+    StopSet left = 0;          // stops not counted yet
+    StopSet next = 0;          // of these, the stops that may be counted next
+    StopSet rests = 0;         // if the agent rests on its last stop: the stops where it may rest
+    bool may_skip = false;     // visiting a stop of `next` need not count it
+    std::int32_t first = 0;    // index in onward_ of the first onward port of the stage
+    std::int32_t nearest = 0;  // the first `nearest` of them determine distance()
     std::int32_t count = 0;
   };
-  // A port of a stop that may come next, and the least cost from there through all that is then
-  // left.
+  // A port of a stop that may be counted next, and the least cost from that port through all stops
+  // that are left afterwards.
   struct Onward {
     std::int32_t port;
     Time cost;
   };
 
-  // `stops` must outlive this. Throws std::invalid_argument for a prefix that repeats a stop or
-  // names one that the agent does not have.
+  // `stops` must outlive this. Throws std::invalid_argument if the prefix repeats a stop or
+  // contains a stop that the agent does not have.
   SequenceStages(AgentStops& stops, SequenceClass work);
-  // The same with other completions than those of `stops`, of this class and over as many stops.
-  // They must outlive this.
+  // The same with costs to go other than those of `stops`. They must be for this class and for as
+  // many stops, and must outlive this.
   SequenceStages(AgentStops& stops, SequenceClass work, CostToGo& cost_to_go);
 
   AgentStops& stops() { return stops_; }
@@ -144,26 +150,26 @@ class SequenceStages {
   const CostToGo& cost_to_go() const { return *completions_; }
   CostToGo& cost_to_go() { return *completions_; }
 
-  // False if the class is empty or something in it cannot be reached at all.
+  // Returns false if the class is empty or if a stop or the place of rest is unreachable.
   bool plausible() const;
 
-  // The first stage: nothing counted. Forgets all stages if the completions were widened since;
-  // to be called before each search.
-  // kOutside if the completions know no member of the class.
+  // Returns the first stage, in which no stop is counted. Returns kOutside if the costs to go cover
+  // no member of the class. Deletes all stages if the costs to go were widened since the last call.
+  // Call it before each search.
   StageId first_stage();
   const Stage& stage(StageId id) const { return stages_[id]; }
   int stage_count() const { return static_cast<int>(stages_.size()); }
 
-  // The stage after counting `stop`, which must be one of the next. kOutside if the completions do
-  // not know it.
+  // The stage after counting `stop`, which must be in Stage::next. Returns kOutside if the costs to
+  // go do not cover it.
   StageId after(StageId id, int stop) {
     GROVE_ASSERT(stages_[id].next >> stop & 1, "a stop that is counted may be next");
     const StageId known = after_[static_cast<std::size_t>(id) * stride_ + stop];
     return known == kUnknown ? make_after(id, stop) : known;
   }
 
-  // Calls reach(stage) for each stage that an agent of stage `id` may be of once it has come to
-  // `state`. False: there is another one, which the completions do not know.
+  // Calls reach(stage) for each stage that an agent in stage `id` may be in after it has arrived in
+  // `state`. Returns false if there is another such stage that the costs to go do not cover.
   template <class Reach>
   bool on_arrival(StageId id, State state, Reach reach) {
     const int at = stops_.stop_at(state);
@@ -182,8 +188,8 @@ class SequenceStages {
     return true;
   }
 
-  // The least cost from a state through all that is left, over the ways known; kNever or more when
-  // there is none.
+  // Least cost from a state through all stops that are left, over the known onward ports. Returns
+  // kNever or more if there is none.
   Time distance(StageId id, State state) const {
     const Stage& s = stages_[id];
     if (s.left == 0) return to_rest(s, state);
@@ -192,12 +198,12 @@ class SequenceStages {
       best = std::min(best, stops_.to_port(state, o.port) + o.cost);
     return best;
   }
-  // All ways known from a stage; the first Stage::nearest of them settle distance().
+  // All known onward ports of a stage. The first Stage::nearest of them determine distance().
   std::span<const Onward> onward(const Stage& stage) const {
     return {onward_.data() + stage.first, static_cast<std::size_t>(stage.count)};
   }
 
-  // May the agent come to rest here?
+  // May the agent come to rest in this state?
   bool is_rest(const Stage& stage, State state) const {
     if (stage.left != 0) return false;
     if (!stops_.rests_on_last_stop()) return stops_.to_rest(state) == 0;
@@ -208,7 +214,7 @@ class SequenceStages {
  private:
   static constexpr StageId kUnknown = -2;
 
-  // Work is begun only on what may be counted next.
+  // Work is begun only on a stop that may be counted next.
   static bool may_work(const Stage& stage, int at) {
     const int stop = AgentStops::stop_of_work(at);
     return stop != AgentStops::kNoStop && (stage.next >> stop & 1) != 0;
@@ -223,23 +229,24 @@ class SequenceStages {
   void add_onward(Stage& stage);
 
   AgentStops& stops_;
-  std::optional<CostToGo> own_;  // of the class, if that is not all sequences
+  std::optional<CostToGo> own_;  // of the class, unless those of all sequences serve it
   CostToGo* completions_;
   SequenceClass class_;
-  StopSet free_;            // the stops that are not in the prefix
-  StopSet first_free_;      // those of them that may be the first
+  StopSet free_;            // stops that are not in the prefix
+  StopSet first_free_;      // of these, the stops that may be the first
   bool rest_is_not_first_;  // without a destination: see the .cpp
   std::size_t stride_;      // of after_
-  Time built_beyond_ = -1;  // completions().beyond() when the states were made
+  Time built_beyond_ = -1;  // beyond() of the costs to go when the stages were made
   StageId first_stage_ = kOutside;
   std::vector<Stage> stages_;
-  std::vector<StageId> after_;  // by state, then stop
+  std::vector<StageId> after_;  // by stage, then stop
   std::vector<Onward> onward_;
-  std::vector<StopSetIndex> index_;  // states by what is left; [1 + s]: that may not rest on s
+  std::vector<StopSetIndex> index_;  // stages by `left`; [1 + s]: those that may not rest on s
 };
 
-// The sequence of the class that a path realizes: each stop counted as early as may be, without a
-// destination the one it rests on last. Throws std::invalid_argument if it realizes none.
+// The sequence of the class that a path realizes. Each stop is counted as early as possible;
+// without a destination, the stop that the path rests on is counted last. Throws
+// std::invalid_argument if the path realizes no sequence of the class.
 Sequence realized_sequence(const SequenceStages& goals, const Path& path);
 
 }  // namespace grove::detail

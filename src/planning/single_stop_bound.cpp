@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Earliest arrivals over (safe interval, been on the place). The earliest arrival in an interval
-// can do all that a later one can, after waiting; so what is not reached is not reachable, and what
-// is reached is not reachable earlier. In order of the time plus what is still to go at least (A*):
-// distances without intervals, which are consistent.
+// Computes earliest arrivals over (safe interval, has the stop been visited?) by A*. The earliest
+// arrival in an interval can do after waiting everything that a later one can. So a pair that is
+// not reached is unreachable, and no pair can be reached earlier than the search reaches it. The
+// order is time plus a lower bound on the time to go: distances without intervals, which are
+// consistent.
 #include "planning/single_stop_bound.h"
 
 #include <algorithm>
@@ -19,8 +20,8 @@ Time SingleStopBound::least_cost(const AgentStops& stops, Time least, const Limi
   return least_;
 }
 
-// least_ or, if it is later, the first time at which the agent can rest for ever, having been on
-// the stop `via`; kNever: it cannot at all.
+// The first time at which the agent can rest for ever after visiting the stop `via`, but at least
+// least_; kNever if that is impossible.
 Time SingleStopBound::least_cost_through(int via) {
   via_ = via;
   after_via_ = 0;
@@ -48,7 +49,7 @@ Time SingleStopBound::least_cost_through(int via) {
   return kNever;
 }
 
-// How long it takes from there at least; kNever: it is impossible.
+// Lower bound on the time to go; kNever if it is impossible.
 Time SingleStopBound::to_go(State state, bool visited) const {
   if (!visited) return std::min(kNever, stops_->distance(state, via_) + after_via_);
   return stops_->rests_on_last_stop() ? 0 : stops_->to_rest(state);

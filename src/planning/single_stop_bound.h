@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A quick necessary condition for a path through many cells.
+// Lower bound on the cost of a path through many stops, from each stop separately.
 #pragma once
 
 #include <vector>
@@ -11,22 +11,22 @@
 
 namespace grove::detail {
 
-// When can an agent come to rest, having been on one of its stops? What it must visit besides only
-// makes it later: so each stop bounds its cost. Polynomial where the question for all stops
-// together is not: it settles the common hopeless case, a door shut before or behind the agent, for
-// ever or for long.
+// For each stop: when can the agent come to rest after visiting this stop? The other stops only
+// make it later, so each stop bounds its cost. This takes polynomial time; the question for all
+// stops together is NP-hard. It detects the common infeasible case: a door that is closed before or
+// behind the agent, for ever or for long.
 class SingleStopBound {
  public:
   // Both must outlive this.
   SingleStopBound(const World& world, SafeIntervals& intervals)
       : world_(world), intervals_(intervals) {}
 
-  // What a path through all stops costs at least under the intervals, `least` being known; kNever:
-  // there is none. Looks at fewer of them if a limit strikes.
+  // Lower bound on the cost of a path through all stops under the intervals, given the bound
+  // `least`; kNever if there is no path. If a limit is reached, it examines fewer stops.
   Time least_cost(const AgentStops& stops, Time least, const Limits& limits);
 
  private:
-  using Queue = BasicBucketQueue<std::uint8_t>;  // progress: has been on `via`
+  using Queue = BasicBucketQueue<std::uint8_t>;  // progress: 1 if `via` was visited
 
   static std::size_t index(int slot, int visited) {
     return 2 * static_cast<std::size_t>(slot) + static_cast<std::size_t>(visited);
@@ -43,7 +43,7 @@ class SingleStopBound {
   const AgentStops* stops_ = nullptr;
   int via_ = AgentStops::kNoStop;
   Time least_ = 0;
-  Time after_via_ = 0;  // from there to where the agent may rest, at least
+  Time after_via_ = 0;  // lower bound on the time from `via` to where the agent may rest
 };
 
 }  // namespace grove::detail

@@ -1,26 +1,32 @@
 // SPDX-License-Identifier: MIT
-// Let G be a label that was expanded on stop u, just counted at time g in an interval [.., b] of
-// u's cell, coming from state s; and L another label of s. A path P through L counts some stop
-// next. If that is u, at a time in [g, b], then G could stand there as well, waiting, in the same
-// state after u: from there on P is open to G. L cannot count u before t + dist(L, u). So if that
-// is g or later, L is needed for u only in a later interval, which begins at n: such paths cost n +
-// onward(u) or more. For each way u on that has no such G the bound is t + dist(L, u) + onward(u).
-// The least of all these is what L is postponed to; if there is none, it is dropped. (Ways that the
-// graph does not know cost beyond() or more; a label dropped with such a way counts as dropped for
-// its state.) Soundness is that of the gates in goals_in_turn.h: when L is postponed beyond
-// the optimal cost, an optimal path changes over to a G with fewer stops left, so this ends. With a
-// fixed sequence a gate holds for all earlier states; here for one, since the others may count
-// other stops on the way to u. The states before are cut off by gates of their own.
+// Dominance between labels at stops (*gates*).
 //
-// Where agents turn, L may count u in another state than G: then G turns, too, which takes it
-// so many steps at most, on its place and in its interval. So there the gate of a port stands for
-// those that count u by it that much later than g. (At the end of work on u G has all moves of the
-// state that it worked in.)
+// *Rule.* Let G be a label that was expanded on stop u, just counted at time g in an interval [..,
+// b] of u's place, coming from stage s. Let L be another label of s. A path P through L counts some
+// stop next. If that is u, at a time in [g, b], then G could stand there as well, waiting, in the
+// same stage after u: from there on P is open to G. L cannot count u before t + dist(L, u). So if
+// that is g or later, L is needed for u only in a later interval, which begins at n; such paths
+// cost n + onward(u) or more. For each onward stop u that has no such G the bound is t + dist(L, u)
+// + onward(u). L is postponed to the least of these bounds; if there is none, it is dropped.
+// (Onward stops that the graph does not cover cost beyond() or more. A label dropped with such a
+// stop counts as dropped for its stage.)
 //
-// "Later interval" goes by the time of arrival: if u may not be rested on by t and G came by then,
-// P comes by t, and then it leaves u again, as G can, or it comes at n = t + 1 or later. And "stand
-// there as well" must leave open what P does next: if u has copies, a G in one that is barred from
-// leaving the chain makes no gate. One in the free copy does: it can do what the others can.
+// *Soundness* is that of the gates in fixed_order_goals.h: if L is postponed beyond the optimal
+// cost, an optimal path changes over to a G with fewer stops left, so this ends. With a fixed
+// sequence a gate holds for all earlier stages. Here it holds for one stage, because earlier stages
+// may count other stops on the way to u. The earlier stages are cut off by gates of their own.
+//
+// *Turning agents.* If agents turn, L may count u in another state than G. Then G turns, too, on
+// its place and in its interval, for a bounded number of steps. So the gate of a port dominates
+// those labels that count u by this port at least that many steps later than g. (At the end of work
+// on u, G has all moves of the state that it worked in.)
+//
+// *Later interval* refers to the time of arrival. If u may not be rested on by t and G arrived by
+// then: if P arrives by t, it leaves u again, as G can; otherwise it arrives at n = t + 1 or later.
+//
+// *Stand there as well* must leave open what P does next. If u has copies, a G in a copy that is
+// barred from leaving the corridor makes no gate. A G in the free copy makes one, because it can do
+// everything that the others can.
 #include "planning/stop_dominance.h"
 
 #include <algorithm>
@@ -34,7 +40,7 @@ void StopDominance::begin_search() {
   gates_.clear();
 }
 
-// One gate is kept per way: the one that puts off furthest.
+// Keeps one gate per onward port: the one that postpones furthest.
 void StopDominance::close(const SequenceStages& goals, StageId from, State state, Time time,
                           Time until) {
   const AgentStops& stops = goals.stops();
