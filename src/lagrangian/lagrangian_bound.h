@@ -27,8 +27,8 @@ namespace grove::detail {
 // helpers.
 class LagrangianBound {
  public:
-  // Returns nullptr if an agent has too many stops, since the search keeps marks for every subset
-  // of them. `instance` and `tuning` must outlive the bound; it copies `stops`.
+  // Returns nullptr if an agent has too many stops: the search keeps a mark per state and subset of
+  // stops. `instance` and `tuning` must outlive the bound; it copies `stops`.
   static std::unique_ptr<LagrangianBound> make(const Instance& instance,
                                                const AgentStopsCache& stops, const Tuning& tuning);
 
