@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // *Claim: if for every a' <= a and b' <= b the MDDs of two agents for finish times exactly a' and
-// b' are dependent (joint_mdd_search.h: all pairs of their paths collide), then no two paths of
-// these agents that finish by a and by b are free of collisions.* *Proof.* A path that finishes by
-// a time finishes exactly at some time up to then. *Consequence.* No plan contains such paths,
-// whatever the other agents do. An MDD that was not built, because it is too large or a limit was
-// reached, proves nothing.
+// b' are dependent (joint_mdd_search.h: all pairs of their paths collide) or one of them is empty,
+// then no two paths of these agents that finish by a and by b are free of collisions.* *Proof.* A
+// path that finishes by a time finishes exactly at some time up to then. *Consequence.* No plan
+// contains such paths, whatever the other agents do. An MDD that was not built, because it is too
+// large or a limit was reached, proves nothing.
 #include "lagrangian/finish_time_conflicts.h"
 
 #include "lagrangian/least_cost.h"

@@ -59,7 +59,7 @@ class FinishTimeConflicts {
     std::vector<std::unique_ptr<Mdd>> sets;
   };
 
-  static constexpr Time kGrid = 16;  // finish times from least on that are examined
+  static constexpr Time kGrid = 16;  // number of finish times examined, from least on
   using Grid = std::array<Known, kGrid * kGrid>;
 
   Known compared(const FinishTimeConflict& pair, Time later_a, Time later_b, const Limits& limits);

@@ -53,8 +53,8 @@ class LagrangianBound {
     PricingRequest share;
   };
   std::vector<Asked> dispatch_pricing();
-  // Processes a helper's answer. A value counts only if the round is still the requested one and
-  // the agent has no value yet. Returns the number of values that counted. Throws
+  // Processes a helper's answer. A value counts only if round and multipliers are still those of
+  // the request and the agent has no value yet. Returns the number of values that counted. Throws
   // std::invalid_argument if the agents were not requested.
   int accept(int helper, PricingReply answer);
 
@@ -113,7 +113,7 @@ class LagrangianBound {
   TargetLevelStep ascent_;
   std::vector<Path> paths_;                    // by agent: path of its subproblem value
   std::vector<ScaledCost> prices_;             // by agent
-  std::vector<std::int64_t> labels_;           // by agent: per agent of its last job
+  std::vector<std::int64_t> labels_;           // by agent: mean of its last job
   std::vector<FinishTimeConflict> colliding_;  // pairs still to be tested in this round
   bool is_counted_ = false;                    // encounters_ is of this round
   std::int64_t next_list_;                     // round of the next dual solution, at the earliest

@@ -20,8 +20,8 @@
 // far: worse_plans times (best cost - sum of individual costs), because escaping takes more where
 // congestion costs more. Until then no higher cost is accepted, because a plan that still improves
 // quickly would improve more slowly: random-32-32-20, 200 agents, ten seconds, 5,202 to 5,238
-// instead of 5,149. In instances so dense that plans keep improving for the whole run (loss above
-// worse_plans_loss), no higher cost is ever accepted.
+// instead of 5,149. Nor is one accepted while the best cost exceeds the sum of individual costs by
+// more than worse_plans_loss times that sum: instances so dense improve for the whole run.
 //
 // *Cutoff.* The cutoff of a call is the old cost (plus what acceptance allows), less the new paths
 // so far, less the individual costs of the agents still to be planned. Above it the iteration fails

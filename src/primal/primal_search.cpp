@@ -4,38 +4,39 @@
 //
 // *Rounds.* LNS improves a plan quickly at first and then stalls in a local optimum. Other seeds
 // end in other optima. So a new round begins with prioritised planning when LNS has worked without
-// success for as long as the round took to reach its best plan.
+// success for as long as the round took to reach its best plan, and for stall_neighborhoods
+// iterations at least.
 //
 // *Definition.* W is the work of individual planning of all agents (meeting_work_).
 //
-// *First plan.* Prioritised planning has a head start: one attempt, of at most planning_head_start
-// * W. On instances that are not dense it ends within 1.5 W, with plans much cheaper than those of
-// LaCAM (LaCAM: 1.1 to 3.5 times the sum of individual costs). After the head start, prioritised
-// planning and LaCAM share the work equally until one of them has a plan. A low-level call of
-// prioritised planning that takes long is postponed and repeated with twice the label limit,
-// because a call that proves that an agent is enclosed can take longer than the tree search needs
-// for a small instance.
+// *First plan.* Prioritised planning has a head start: one attempt, of at most
+// planning_head_start*W. On instances that are not dense it ends within 1.5 W, with plans much
+// cheaper than those of LaCAM (LaCAM: 1.1 to 3.5 times the sum of individual costs). After the head
+// start, prioritised planning and LaCAM share the work equally until one of them has a plan. A
+// low-level call of prioritised planning that takes long is postponed and repeated with twice the
+// label limit, because a call that proves that an agent is enclosed can take longer than the tree
+// search needs for a small instance.
 //
 // *Both continue.* If LaCAM has a plan first (mostly within 2 W), LNS takes over that plan and
 // LaCAM's half of the work. Prioritised planning keeps the other half. If it finds a plan in the
-// end, that plan is mostly much cheaper; it replaces the current plan if it is cheaper. Measured on
-// room-64-64-8, 100 agents, 300 tasks: prioritised planning 28,118 after a work of 330,000; LaCAM
-// 30,979 after 40,000, which LNS had reduced to 30,964 by then. A plan adopted from another search
-// in the meantime does not end prioritised planning either. In later rounds prioritised planning
-// shares the work with the LNS of the previous round in the same way, so no round waits for a plan
-// that may never be found.
+// end, that plan is mostly much cheaper. In the first round it replaces the current plan only if it
+// is cheaper. Measured on room-64-64-8, 100 agents, 300 tasks: prioritised planning 28,118 after a
+// work of 330,000; LaCAM 30,979 after 40,000, which LNS had reduced to 30,964 by then. In the first
+// round a plan adopted from another search does not end prioritised planning either. In later
+// rounds prioritised planning shares the work with the LNS of the previous round in the same way,
+// so no round waits for a plan that may never be found.
 //
 // *Dense instances.* If LaCAM's plan costs much more than the sum of individual costs,
 // traffic-guided LaCAM (traffic_guided_lacam.cpp) continues from it, round by round, as long as it
 // finds cheaper plans. LNS follows, because it changes too few agents at a time to resolve a jam:
 // warehouse-10-20-10-2-1 with 900 agents improves from 206,729 to 115,468 in six seconds; LNS only
 // improved from 204,322 to 197,747 in four. Prioritised planning mostly fails there: once there is
-// a plan and prioritised planning has done long_planning * W, it gets 1/9 of the work
+// a plan and prioritised planning has done long_planning*W, it gets 1/9 of the work
 // (others_to_planning).
 //
 // *Tree search.* The tree search waits for that cheaper plan, but no longer than its root takes.
-// The root examines all pairs of agents, so its work is estimated as min(long_planning, W /
-// meeting_of_root_work) * W.
+// The root examines all pairs of agents, so its work is estimated as min(long_planning,
+// W/meeting_of_root_work)*W.
 //
 // *Agent order.* The first order is by individual cost, lowest first. An agent may not come to rest
 // where an agent planned earlier still passes, so low-cost agents planned late would wait for
