@@ -12,9 +12,9 @@
 // 2023), which leads out of loops.
 //
 // *Stops.* In contrast to LaCAM, agents have stops. An agent that is on a stop has visited it,
-// whatever the order. The stops left are part of the configuration. *Claim: fixing the order in
-// which an agent heads for its stops loses no solution.* Every step can be undone, so if the stops
-// can be visited in one order, they can be visited in any other.
+// whatever the order. The stops left are part of the configuration. Fixing the order in which an
+// agent *heads* for its stops loses no solution where every step can be undone: stops that can be
+// visited in one order can then be visited in any other.
 //
 // *Guide.* A guide (traffic_guided_lacam.cpp) leads nearly all agents to their destinations, but
 // the last ones may move in circles, each making way for the other: warehouse-10-20-10-2-1 with 900

@@ -11,7 +11,7 @@ namespace grove::detail {
 
 enum class PlanSource : std::uint8_t {
   kTree,                 // a conflict-free constraint-tree node
-  kStart,                // start plan, given with the instance
+  kStart,                // start plan, or incumbent of a checkpoint
   kPrioritizedPlanning,  // prioritised planning
   kConfigurations,       // LaCAM
   kLns,                  // large neighbourhood search
