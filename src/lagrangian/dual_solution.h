@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a round of the Lagrangian bound has found, for those who look for plans.
+// Dual solution: the result of a round of the Lagrangian bound, for the primal search.
 #pragma once
 
 #include <numeric>
@@ -10,8 +10,9 @@
 
 namespace grove::detail {
 
-// A tariff, and what each agent pays under it at least. What a plan pays above that, and what it
-// leaves unused of the tariff, make together what it costs above the bound. A value.
+// Multipliers and the agents' subproblem values under them. The cost of a plan minus bound() is the
+// sum of its paths' penalised costs above their subproblem values, plus the multipliers of the rows
+// that it does not use. A value.
 struct DualSolution {
   // Proven: no plan costs less.
   ScaledCost bound() const {
@@ -19,8 +20,8 @@ struct DualSolution {
   }
 
   Multipliers multipliers;
-  std::vector<ScaledCost> prices;  // by agent
-  std::vector<Path> paths;         // of those prices; empty where none is known
+  std::vector<ScaledCost> prices;  // subproblem values, by agent
+  std::vector<Path> paths;         // of these values; empty: no path is known
 };
 
 }  // namespace grove::detail

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Whoever finishes by a time does so exactly at some time up to then. So if the sets of paths that
-// finish exactly at a' and at b' allow no pair without a collision (pair_dependency.h), for every
-// a' <= a and b' <= b, then no two paths of these agents that finish by a and by b go together -
-// and so in no plan at all, whatever the others do. A set that was not made, since it is too large
-// or time ran out, proves nothing.
+// *Claim: if for every a' <= a and b' <= b the MDDs of two agents for finish times exactly a' and
+// b' are dependent (joint_mdd_search.h: all pairs of their paths collide) or one of them is empty,
+// then no two paths of these agents that finish by a and by b are free of collisions.* *Proof.* A
+// path that finishes by a time finishes exactly at some time up to then. *Consequence.* No plan
+// contains such paths, whatever the other agents do. An MDD that was not built, because it is too
+// large or a limit was reached, proves nothing.
 #include "lagrangian/finish_time_conflicts.h"
 
 #include "lagrangian/least_cost.h"
@@ -11,7 +12,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kBytesOfNode = 24;  // about, with the way to the next
+constexpr std::size_t kBytesOfNode = 24;  // about, with its edges
 
 }  // namespace
 
@@ -49,7 +50,7 @@ FinishTimeConflict FinishTimeConflicts::extended(FinishTimeConflict pair, const 
   return pair;
 }
 
-// Those that finish exactly so much later than they could alone.
+// Tests the paths that finish exactly `later_a` and `later_b` steps after the least finish times.
 FinishTimeConflicts::Known FinishTimeConflicts::compared(const FinishTimeConflict& pair,
                                                          Time later_a, Time later_b,
                                                          const Limits& limits) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// By when two agents cannot both have finished.
+// Pairs of finish times that two agents cannot both meet in any plan.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace grove::detail {
 
-// Which agent by when, and which other.
+// Agent a finishes at finish_a or earlier, and agent b at finish_b or earlier.
 struct FinishTimeConflict {
   AgentIndex a = -1;
   AgentIndex b = -1;
@@ -24,39 +24,42 @@ struct FinishTimeConflict {
   Time finish_b = 0;
 };
 
-// Compares the sets of all paths of two agents that cost so much. Remembers what it found. For one
-// thread at a time.
+// Tests pairs of finish times by joint search of the MDDs of two agents, and caches the results.
+// The proof is at the head of the .cpp. One thread at a time.
 class FinishTimeConflicts {
  public:
-  // Effort on one set and on one comparison; and what all sets may hold.
+  // Limits: nodes of one MDD, pairs of nodes of one joint search, bytes of all MDDs.
   struct Most {
     std::size_t set_nodes;
     std::size_t compared_pairs;
     std::size_t bytes;
   };
 
-  // All must outlive this.
+  // All references must outlive this.
   FinishTimeConflicts(const World& world, AgentStopsCache& stops, Most most);
   ~FinishTimeConflicts();
 
-  // Proven: no two paths without a collision finish by these times. Not found out: false.
+  // Returns true only if it is proven that no two paths without a collision finish by these times,
+  // and false if it is not proven within the limits.
   bool are_incompatible(const FinishTimeConflict& pair, const Limits& limits);
-  // Later times of which that is so, too: none of the two can be a step later.
+  // Raises the finish times of an incompatible pair while it stays proven incompatible. Afterwards
+  // neither can be a step later.
   FinishTimeConflict extended(FinishTimeConflict pair, const Limits& limits);
 
-  // Nodes of sets and pairs of them looked at so far.
+  // Nodes of MDDs and pairs of nodes examined so far.
   std::int64_t work() const { return builder_.nodes() + dependency_.pairs(); }
 
  private:
   enum class Known : std::uint8_t { kNot, kExcluded, kNotExcluded };  // 0 first: see Grid
   struct OfAgent {
     std::unique_ptr<SequenceStages> goals;
-    Time least = 0;  // it cannot finish before
-    // By how much later; null: too large. Empty: none finishes exactly then.
+    Time least = 0;  // earliest finish, or a lower bound on it
+    // MDDs by cost - least. nullptr: not built within the limits. Empty: no path finishes exactly
+    // then.
     std::vector<std::unique_ptr<Mdd>> sets;
   };
 
-  static constexpr Time kGrid = 16;  // steps later than the least that are looked at
+  static constexpr Time kGrid = 16;  // number of finish times examined, from least on
   using Grid = std::array<Known, kGrid * kGrid>;
 
   Known compared(const FinishTimeConflict& pair, Time later_a, Time later_b, const Limits& limits);

@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Why the bound holds, for any multipliers y >= 0. Take a plan. Each of its paths costs its agent,
-// with the multipliers of the rows that it uses, at least the agent's price; and each row is used
-// once at most (relaxed_rows.cpp). Summed over all agents,
+// *Claim: for any multipliers y >= 0, the sum of subproblem values minus the sum of multipliers is
+// a lower bound on every plan.* A subproblem value of an agent is a lower bound on the penalised
+// cost of each of its paths: cost plus the multipliers of the rows that the path uses. *Proof.*
+// Take a plan. Each row is used at most once (relaxed_rows.cpp). Summed over all agents,
 //
-//   sum of prices <= sum of costs + sum over rows of y * uses <= cost of the plan + sum of y.
+//   sum of values <= sum of costs + sum over rows of y * uses <= cost of the plan + sum of y.
 //
-// So no plan costs less than the sum of prices minus the sum of multipliers. All are integers, of
-// which kUnit make a step; the cost of a plan is a whole number of steps, so the bound may be
-// rounded up. A price need not be exact, as long as no path costs less (penalized_search.cpp). In
-// the sum each price must have been found under one and the same multipliers: they are moved only
-// when no job is in hand.
+// *Rounding.* All numbers are integers in units of 1 / kUnit step. The cost of a plan is a whole
+// number of steps, so the bound may be rounded up.
 //
-// Helpers, in other processes, have copies of the multipliers. What they answer names its
-// multipliers by their digest (tariff.h) and counts only while that is the digest here, in a round
-// that still lacks those prices; so, but for that digest's chance of 2^-64, it does not matter for
-// the bound how late an answer is, nor what helpers were told. What a helper has been told of a
-// path's price only ends its search earlier, at a price that is not above. Nobody waits for a
-// helper: prices that are not there when all others are, are found here.
+// *Conditions.* A value need not be exact, as long as no path costs less (penalized_search.cpp).
+// All values in the sum must have been computed under the same multipliers, so multipliers are
+// moved only when no job is in progress.
 //
-// For how far to go see level_ascent.h; the direction is what the cheapest paths use of each row
-// beyond once - a subgradient - smoothed, for one step alone is blind for what the last one did.
+// *Helpers*, in other processes, have copies of the multipliers. An answer names its multipliers by
+// their digest (multipliers.h). It counts only if the digest is the current one and the round still
+// lacks these values. So, except with probability 2^-64 (equal digests), neither the delay of an
+// answer nor what was sent to a helper affects the validity of the bound. The cost of a known path
+// that is sent to a helper only ends its search earlier, at a value that is not above that cost. No
+// thread waits for a helper: when all other values are there, the missing ones are computed here.
+//
+// *Step.* See target_level_step.h for the step length. The direction is a subgradient: the uses of
+// each row by the cheapest paths, minus 1. It is smoothed over rounds, because a single subgradient
+// does not take account of the previous step.
 #include "lagrangian/lagrangian_bound.h"
 
 #include <algorithm>
@@ -32,12 +35,12 @@ namespace grove::detail {
 namespace {
 
 constexpr int kMostStops = 10;
-constexpr std::size_t kMostMarkBytes = std::size_t{1} << 26;  // of one agent's search
+constexpr std::size_t kMostMarkBytes = std::size_t{1} << 26;  // marks of one agent's search
 constexpr std::size_t kBytesOfMark = 16;
-constexpr std::int64_t kFirstLabels = 2000;            // of an agent, until it is known better
-constexpr std::int64_t kStepsPerWork = 32;             // of paths, counted
-constexpr int kRoundsPerList = 4;                      // rounds so far to those until the next list
-constexpr double kLeastWay = 0.02 * Penalties::kUnit;  // nothing comes of a shorter one
+constexpr std::int64_t kFirstLabels = 2000;  // expected labels of an agent before its first job
+constexpr std::int64_t kStepsPerWork = 32;   // path steps counted per unit of work
+constexpr int kRoundsPerList = 4;            // rounds so far per round until the next dual solution
+constexpr double kLeastWay = 0.02 * Penalties::kUnit;  // shorter ways gain nothing
 
 }  // namespace
 
@@ -120,7 +123,7 @@ void LagrangianBound::perform(Job& job, Pricer& pricer, Cost cutoff, Cost known,
     do_perform(job, pricer, cutoff, known, limits);
   } catch (const std::bad_alloc&) {
     job.failed = true;
-  } catch (const std::overflow_error&) {  // of a penalty
+  } catch (const std::overflow_error&) {  // a penalty is too great
     job.failed = true;
   }
 }
@@ -133,7 +136,7 @@ void LagrangianBound::do_perform(Job& job, Pricer& pricer, Cost cutoff, Cost kno
   pricer.perform(job, limits);
 }
 
-// Of the path that it has, under the multipliers of this round.
+// Penalised cost of the agent's current path under the multipliers of this round; kNoCost: no path.
 ScaledCost LagrangianBound::known_price(AgentIndex agent) const {
   return paths_[agent].empty() ? kNoCost : multipliers().price(agent, paths_[agent]);
 }
@@ -156,7 +159,7 @@ void LagrangianBound::commit(Job job) {
   end_pricing_if_done();
 }
 
-// If it is the first one: of helpers and of those here who did not wait for them.
+// Stores a value unless the agent has one: a helper and a thread here may compute the same one.
 bool LagrangianBound::take_price(AgentIndex agent, ScaledCost price, Path path) {
   if (is_priced_[agent]) return false;
   is_priced_[agent] = 1;
@@ -184,7 +187,8 @@ void LagrangianBound::note_best_multipliers() {
       reasons_.push_back({multipliers().row(id), multipliers().charge(id)});
 }
 
-// The round cannot end meanwhile, for nobody has these agents yet; so the tariff stays as it is.
+// The round cannot end in the meantime, because no thread and no helper has been given these agents
+// yet. So the multipliers do not change.
 std::vector<LagrangianBound::Asked> LagrangianBound::dispatch_pricing() {
   const std::vector<AgentRange> cuts = partition_agents();
   std::vector<Asked> shares;
@@ -205,8 +209,9 @@ std::vector<LagrangianBound::Asked> LagrangianBound::dispatch_pricing() {
   return shares;
 }
 
-// So that all have about as much to do, counting what is done here alone between two rounds; and
-// nobody so little that a message is not worth it.
+// Balances the expected work between helpers and this process. It counts the work between two
+// rounds, which is done only here. No helper gets less work than a message is worth
+// (lagrangian_share_work).
 std::vector<LagrangianBound::AgentRange> LagrangianBound::partition_agents() {
   const std::lock_guard lock(mutex_);
   std::vector<AgentRange> cuts;
@@ -228,7 +233,8 @@ std::vector<LagrangianBound::AgentRange> LagrangianBound::partition_agents() {
   return cuts;
 }
 
-// Of the agents that nobody has been asked for, by what they took last.
+// Expected work of the agents that are not yet in a job or request, by the labels of their last
+// jobs.
 std::int64_t LagrangianBound::work_left() const {
   return std::accumulate(labels_.begin() + next_agent_, labels_.begin() + end_agent_,
                          std::int64_t{0}) /
@@ -255,7 +261,7 @@ int LagrangianBound::accept(int helper, PricingReply answer) {
   return counted;
 }
 
-// In parts: pairs are dear.
+// Runs over several jobs, because testing a pair is expensive.
 void LagrangianBound::end_round(Job& job, Cost cutoff, Cost known, const Limits& limits) {
   if (!is_counted_) {
     separate_conflict_rows();
@@ -290,7 +296,7 @@ void LagrangianBound::separate_finish_rows(Job& job, const Limits& limits) {
   job.work += pairs_.work() - begin;
 }
 
-// Better ones come ever more slowly.
+// Rounds between two dual solutions increase, because the bound improves more and more slowly.
 void LagrangianBound::make_list(ScaledCost bound) {
   {
     const std::lock_guard lock(mutex_);

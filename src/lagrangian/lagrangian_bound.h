@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A bound on all plans from prices instead of collisions: a Lagrangian relaxation.
+// Lagrangian bound: a lower bound on every plan, from multipliers on collision constraints.
 #pragma once
 
 #include <cstdint>
@@ -20,62 +20,64 @@
 
 namespace grove::detail {
 
-// The instance at the root, without any demand. Rounds of jobs: every agent gets its price, which
-// any number of threads may find side by side, and other processes; then the multipliers are moved.
-// What happens depends on no clock and on no order in which jobs end. Methods may be called from
-// any thread, but those about helpers: these by one.
+// Lagrangian relaxation of the root problem (no constraints of the tree). Works in rounds of jobs.
+// In a round each agent's subproblem value is computed, by any number of threads and by helpers,
+// which are other processes. Then the multipliers are moved. The result depends neither on timing
+// nor on the order in which jobs end. Thread-safe, except that one thread calls the methods about
+// helpers.
 class LagrangianBound {
  public:
-  // None: not for this method, for an agent may have done too many things to keep a price for each.
-  // Both must outlive it, but for `stops`, of which it makes a copy.
+  // Returns nullptr if an agent has too many stops: the search keeps a mark per state and subset of
+  // stops. `instance` and `tuning` must outlive the bound; it copies `stops`.
   static std::unique_ptr<LagrangianBound> make(const Instance& instance,
                                                const AgentStopsCache& stops, const Tuning& tuning);
 
-  // What is done at one go: the prices of some agents, or, if of none, a part of what follows in a
-  // round.
+  // A unit of work: the subproblem values of several agents or, if it has no agents, a part of the
+  // work between two rounds.
   using Job = PricingJob;
-  // The next one; none: all are in hand, or it has ended. Whoever takes one performs it and commits
-  // it.
+  // The next job. Returns nullopt if all jobs are in progress or the bound has ended. The caller
+  // must perform() and commit() the job.
   std::optional<Job> next();
   bool has_jobs() const;
-  // `cutoff`: plans that cost so much or more are of no interest. `known`: no plan costs less.
-  // Where memory is refused it ends, and keeps the bound that it has.
+  // Performs a job. `cutoff`: plans of this cost or more are of no interest. `known`: a proven
+  // lower bound on every plan. If memory is refused the bound ends and keeps its value.
   void perform(Job& job, Pricer& pricer, Cost cutoff, Cost known, const Limits& limits);
   void commit(Job job);
 
-  // There are others, numbered from 0, who may be asked for prices.
+  // Sets the number of helpers, which are numbered from 0.
   void set_helpers(int count) { helpers_.resize(static_cast<std::size_t>(count)); }
-  // Whom to ask now, and what for: those who have answered, if there is enough to be done.
+  // Pricing requests for the helpers that have answered their last one, if there is enough work.
   struct Asked {
     int helper;
-    std::int64_t work;  // that it will probably take
+    std::int64_t work;  // expected
     PricingRequest share;
   };
   std::vector<Asked> dispatch_pricing();
-  // What this one was asked for. Counts if the round is still that one and nobody else has found
-  // those prices. Returns how many did.
+  // Processes a helper's answer. A value counts only if round and multipliers are still those of
+  // the request and the agent has no value yet. Returns the number of values that counted. Throws
+  // std::invalid_argument if the agents were not requested.
   int accept(int helper, PricingReply answer);
 
-  // From now on, remembers by which charges it has the bound that it has.
+  // Records from now on the multipliers that prove lower_bound().
   void record_best_multipliers() { keeps_reasons_ = true; }
-  // Once no job is in hand.
+  // The recorded multipliers, those > 0. Call it only when no job is in progress.
   const std::vector<RowMultiplier>& reasons() const { return reasons_; }
 
-  // Nothing is to be gained any more.
+  // Whether the bound has ended: it has no more jobs.
   bool ended() const;
   // Proven: no plan costs less.
   Cost lower_bound() const;
   int rounds() const;
   const Multipliers& multipliers() const { return rows_.multipliers(); }
-  // Of a round with the best bound so far, a new one now and then; null: none yet. It appears when
-  // a job is committed.
+  // The dual solution of a round with the best bound so far; nullptr: none yet. It is replaced now
+  // and then, when a job is committed.
   std::shared_ptr<const DualSolution> price_list() const;
 
  private:
   enum class Phase : std::uint8_t { kPricing, kBetween, kEnded };
 
   LagrangianBound(const Instance& instance, const AgentStopsCache& stops, const Tuning& tuning);
-  // To be asked of a helper: agents in a row.
+  // Consecutive agents for one helper.
   struct AgentRange {
     int helper;
     AgentIndex first;
@@ -83,8 +85,8 @@ class LagrangianBound {
     std::int64_t work;  // expected
   };
   struct Helper {
-    std::vector<Multipliers::Amount> charges;  // that it knows
-    bool owes = false;                         // an answer
+    std::vector<Multipliers::Amount> charges;  // by row: the multipliers that it has received
+    bool owes = false;                         // an answer is outstanding
   };
 
   void begin_pricing();
@@ -104,38 +106,39 @@ class LagrangianBound {
 
   const Instance& instance_;
   const Tuning& tuning_;
-  AgentStopsCache stops_;  // of pairs_
+  AgentStopsCache stops_;  // used by pairs_
   RelaxedRows rows_;
   OccupancyCounts encounters_;
   FinishTimeConflicts pairs_;
   TargetLevelStep ascent_;
-  std::vector<Path> paths_;                    // by agent: of its price in this round
+  std::vector<Path> paths_;                    // by agent: path of its subproblem value
   std::vector<ScaledCost> prices_;             // by agent
-  std::vector<std::int64_t> labels_;           // by agent: that its price took last
-  std::vector<FinishTimeConflict> colliding_;  // still to be looked at in this round
-  bool is_counted_ = false;                    // of this round
-  std::int64_t next_list_;                     // in rounds: not before
+  std::vector<std::int64_t> labels_;           // by agent: mean of its last job
+  std::vector<FinishTimeConflict> colliding_;  // pairs still to be tested in this round
+  bool is_counted_ = false;                    // encounters_ is of this round
+  std::int64_t next_list_;                     // round of the next dual solution, at the earliest
   std::shared_ptr<const DualSolution> new_list_;
-  std::vector<Helper> helpers_;  // of the one thread that asks them
+  std::vector<Helper> helpers_;  // used only by the thread that calls the methods about helpers
   bool keeps_reasons_ = false;
 
   mutable std::mutex mutex_;  // guards:
   Phase phase_ = Phase::kPricing;
-  int in_hand_ = 0;  // jobs
+  int in_hand_ = 0;  // jobs in progress
   int rounds_ = 0;
   ScaledCost best_ = 0;
-  std::vector<RowMultiplier> reasons_;  // for it, if they are kept
+  std::vector<RowMultiplier> reasons_;  // multipliers that prove best_, if they are recorded
   std::shared_ptr<const DualSolution> list_;
-  // Agents are priced here from the first one on, and helpers are asked for the last ones; when
-  // there are no others left, also for those not yet answered, from the last one back.
+  // Agents are priced here in ascending order, and helpers are asked for the last ones. When no
+  // other agents are left, those requested but not yet answered are priced here too, in descending
+  // order.
   AgentIndex next_agent_ = 0;
-  AgentIndex end_agent_ = 0;             // not to be asked for any more; from here on helpers are
-  AgentIndex asked_ = 0;                 // and were
-  AgentIndex taken_over_ = 0;            // from here on
+  AgentIndex end_agent_ = 0;             // agents from here on are for helpers
+  AgentIndex asked_ = 0;                 // agents from here on were requested from helpers
+  AgentIndex taken_over_ = 0;            // requested agents from here on are priced here too
   std::vector<std::uint8_t> is_priced_;  // by agent
-  std::vector<ScaledCost> known_;        // by agent: what helpers were told
+  std::vector<ScaledCost> known_;  // by agent: the cost of a known path that was sent to the helper
   int unpriced_ = 0;
-  std::int64_t work_between_ = 0;  // when the multipliers were moved last
+  std::int64_t work_between_ = 0;  // work of the jobs between the last two rounds
 };
 
 }  // namespace grove::detail

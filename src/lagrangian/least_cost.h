@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an agent alone pays at least.
+// Least cost of an agent without the other agents.
 #pragma once
 
 #include "model/limits.h"
@@ -7,8 +7,8 @@
 
 namespace grove::detail {
 
-// Exact, unless limits strike: then a lower bound. Widens the completions so far that they hold an
-// order that costs no more.
+// The least cost of a path of the agent; only a lower bound if a limit was reached. Widens the
+// costs to go until they contain a sequence of that cost.
 Time least_cost(SequenceStages& goals, const Limits& limits);
 
 }  // namespace grove::detail

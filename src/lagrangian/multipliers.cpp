@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The digest is the sum, modulo 2^64, of each charge times a number drawn from what its row is. So
-// it follows every change of a charge, in whatever order changes come, and does not ask how rows
-// are numbered.
+// The digest is the sum, modulo 2^64, of each multiplier times a hash of its row. So it can be
+// updated with each change of a multiplier, and depends neither on the order of the changes nor on
+// the numbering of the rows.
 #include "lagrangian/multipliers.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr Time kMostTime = 1 << 24;  // of a row; none was ever near it
+constexpr Time kMostTime = 1 << 24;  // limit of the times of a row; real ones are far below
 
 // As in SplitMix64.
 std::uint64_t mix(std::uint64_t x) {
@@ -27,7 +27,7 @@ std::uint64_t number_of(const RelaxedRow& row) {
   return number | 1;
 }
 
-// Seven bits in a byte, low ones first; the eighth says that there are more.
+// Varint encoding: seven bits per byte, lowest bits first; bit 8 is set if more bytes follow.
 void write(std::string& to, std::uint32_t number) {
   for (; number >= 0x80; number >>= 7) to.push_back(static_cast<char>(number | 0x80));
   to.push_back(static_cast<char>(number));
@@ -44,7 +44,7 @@ std::uint32_t read(const std::string& from, std::size_t& at) {
   throw std::invalid_argument("changes of a tariff that are cut short");
 }
 
-// Small numbers for small amounts of either sign.
+// Zigzag encoding: small numbers for small amounts of either sign.
 std::uint32_t folded(std::int32_t amount) {
   return (static_cast<std::uint32_t>(amount) << 1) ^ static_cast<std::uint32_t>(amount >> 31);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What each agent has to pay for, and to whom that can be told.
+// Lagrangian multipliers of relaxed rows, as penalties on paths, with updates for copies in other
+// processes.
 #pragma once
 
 #include <cstddef>
@@ -14,16 +15,16 @@
 
 namespace grove::detail {
 
-// What a tariff has that another, an earlier state of it, has not. A value.
+// The difference between Multipliers and an earlier state of them. A value.
 struct MultiplierUpdate {
   std::vector<RelaxedRow> rows;
-  // Of each row whose charge has changed: how many rows since the one before have not, and by how
-  // much; in few bytes.
+  // For each row whose multiplier has changed: the number of unchanged rows since the previous
+  // changed one, and the difference. Encoding: multipliers.cpp.
   std::string charges;
 };
 
-// Rows, and what is charged for the use of each: the multipliers as they are paid. For one thread
-// at a time; any number may read meanwhile if nobody writes.
+// Relaxed rows with integer multipliers, in units of 1 / Penalties::kUnit step. One thread at a
+// time while it is changed; otherwise any thread may read it.
 class Multipliers {
  public:
   using Amount = Penalties::Amount;
@@ -33,26 +34,27 @@ class Multipliers {
   Multipliers(const World& world, int agents);
 
   const Penalties& penalties() const { return penalties_; }
-  // What an agent pays for finishing at a time; 0 beyond the end.
+  // By finish time: the penalty of an agent for finishing then; 0 beyond the end.
   std::span<const Amount> on_finish(AgentIndex agent) const { return on_finish_[agent]; }
-  // What a path costs with all of that.
+  // Penalised cost of a path.
   ScaledCost price(AgentIndex agent, const Path& path) const;
   ScaledCost sum() const { return sum_; }
-  // Names the charges: those of two tariffs are the same if this is, but for a chance of 2^-64.
+  // Digest of the multipliers: equal for equal multipliers; different ones have equal digests with
+  // probability 2^-64.
   std::uint64_t digest() const { return digest_; }
 
   std::size_t count() const { return rows_.size(); }
   const RelaxedRow& row(RowId id) const { return rows_[id]; }
   Amount charge(RowId id) const { return multipliers_[id]; }
-  // Rows are numbered in the order in which they come; nothing is charged for a new one.
+  // Adds a row with multiplier 0. Rows are numbered in the order of insertion.
   void add(const RelaxedRow& row);
-  // The penalties change with it.
+  // Sets a multiplier, and updates the penalties.
   void set_multiplier(RowId id, Amount amount);
 
-  // What must be told to whoever knows so many rows with these charges. Then `known` is what there
-  // is here.
+  // The update for a copy that has known.size() rows with the multipliers `known`. Sets `known` to
+  // the current multipliers.
   MultiplierUpdate update_for(std::vector<Amount>& known) const;
-  // Takes over what was told. Throws std::invalid_argument for what cannot be told to this one.
+  // Applies an update. Throws std::invalid_argument if the update does not fit these multipliers.
   void learn(const MultiplierUpdate& news);
 
  private:

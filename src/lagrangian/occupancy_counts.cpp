@@ -20,7 +20,7 @@ void OccupancyCounts::count(std::span<const Path> paths) {
 
 std::vector<Collision> OccupancyCounts::collisions() const {
   std::vector<Collision> found;
-  std::unordered_map<std::uint64_t, AgentIndex> met;  // the last one on a crowded place, or a move
+  std::unordered_map<std::uint64_t, AgentIndex> met;  // last agent there
   const auto move = [&](Place from, Place to) {
     return static_cast<std::uint64_t>(from) << 32 | static_cast<std::uint32_t>(to);
   };

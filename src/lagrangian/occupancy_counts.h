@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who is where when, and who is in whose way, if every agent has a path of its own.
+// Occupancy of places over time, and collisions, of one path per agent.
 #pragma once
 
 #include <cstdint>
@@ -10,32 +10,33 @@
 
 namespace grove::detail {
 
-// Two agents that collide.
+// A collision of two agents: both are on one place, or they swap places.
 struct Collision {
   AgentIndex a;
   AgentIndex b;
-  Time time;     // they are on one place then, or arrive by a swap
-  Place place;   // that place, or that to which `a` moves
-  Place before;  // that which `a` moves from, if it is a swap; else kNoPlace
+  Time time;     // when both are on the place, or arrive by the swap
+  Place place;   // the place, or the place to which `a` moves
+  Place before;  // the place from which `a` moves, if it is a swap; else kNoPlace
 };
 
-// Counts agents by place and time, those at rest included, up to the time when all rest. For one
-// thread at a time.
+// Counts agents by place and time until all are at rest. Agents at rest count. One thread at a
+// time.
 class OccupancyCounts {
  public:
   // `world` must outlive this.
   explicit OccupancyCounts(const World& world) : world_(world) {}
 
-  // Replaces what was counted. `paths` by agent, empty for who has none, must stay as they are.
+  // Replaces the counts. `paths`, by agent, empty for an agent without one, must stay unchanged
+  // while this is used.
   void count(std::span<const Path> paths);
 
-  // Everybody is at rest from then on.
+  // All agents are at rest from this time on.
   Time end() const { return end_; }
   int at(Place place, Time time) const {
     return time < end_ ? counts_[index(place, time)] : counts_[index(place, end_ - 1)];
   }
-  // Of each place with several agents each but the first with one before, and all swaps; in an
-  // order that the paths alone settle.
+  // At each time from 1 on: for each place with several agents, each agent but the first paired
+  // with the previous one; and all swaps. The order depends only on the paths.
   std::vector<Collision> collisions() const;
 
  private:

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Layer by layer in time, for a later arrival may be cheaper than an earlier one: to wait costs. A
-// label is a state and a stage (free_goals.h) at a time, and what was paid on the way there; two
-// ways to one label have the same future, so the cheaper one is kept. What has yet to be paid is at
-// least a unit for each step of the distance, for no penalty is negative, and what coming to rest
-// costs then, or a unit for each step that it is put off; labels from which that reaches the price
-// to be undercut are dropped. Since a layer costs a unit more than the one before, the layers end.
+// *Search.* Layer by layer in time, because a later arrival may be cheaper than an earlier one:
+// waiting costs. A label is a state and a stage (sequence_stages.h) at a time, with the cost paid
+// so far. Two paths to one label have the same future, so only the cheaper one is kept.
 //
-// A path that leaves what the completions know costs beyond() steps or more; the price is never
-// said to be more than that. Nor, when labels or time run out, more than the least that a label of
-// the last whole layer pays at least: every path not yet seen passes that layer.
+// *Pruning.* The cost still to come is at least one unit for each step of the distance, because
+// penalties are nonnegative, plus the least penalty of coming to rest then or later, where each
+// step of delay costs a unit. A label is dropped if this bound reaches the cutoff. The search ends,
+// since the cost rises by at least a unit per layer.
+//
+// *Bound.* A path outside the sequences stored in the costs to go costs at least beyond() steps, so
+// the result never exceeds that. If labels or time run out, the result does not exceed the least
+// bound of a label in the last complete layer either: every path not yet seen passes through that
+// layer.
 #include "lagrangian/penalized_search.h"
 
 #include <algorithm>
@@ -76,8 +79,9 @@ bool PenalizedSearch::improve(SequenceStages& goals, std::span<const Amount> on_
   return true;
 }
 
-// What coming to rest costs beside the steps, at a time or later, each step later being one more.
-// Of who may rest on several places nothing is said of these.
+// Computes ends_: by time, the least penalty of coming to rest then or later, plus a unit for each
+// step of delay. If the agent may rest on several places, the penalties of these places are left
+// out.
 void PenalizedSearch::look_at_ends() {
   const AgentStops& stops = goals_->stops();
   const auto finishes = static_cast<Time>(on_finish_.size());
@@ -100,8 +104,8 @@ void PenalizedSearch::start() {
 }
 
 void PenalizedSearch::expand(std::uint32_t at) {
-  const Label label = labels_[at];  // labels_ will grow
-  // Dropped since, for a cheaper path was found.
+  const Label label = labels_[at];  // a copy, because labels_ grows
+  // A cheaper path was found since the label was created.
   if (label.paid + to_pay(label.distance, time_ - 1) >= below_) return;
   const Place place = world_.place(label.state);
   if (lets_arrive(place, place))
@@ -117,12 +121,13 @@ void PenalizedSearch::expand(std::uint32_t at) {
   }
 }
 
-// By a move, so perhaps for good.
+// Creates a label for an arrival by a move, where the agent may come to rest.
 void PenalizedSearch::arrive(std::uint32_t from, State state, StageId stage, Amount paid) {
   if (reach(from, state, stage, paid) == 0) come_to_rest({state, stage, paid, 0, from});
 }
 
-// How far it is from there; kNever: too far.
+// Creates or improves the label of a state and stage in this layer. Returns the distance from there
+// to a place of rest, or kNever if the label is dropped.
 Time PenalizedSearch::reach(std::uint32_t from, State state, StageId stage, Amount paid) {
   if (static_cast<std::size_t>(stage) >= marks_.size())
     marks_.resize(static_cast<std::size_t>(stage) + 1);
@@ -144,7 +149,7 @@ Time PenalizedSearch::reach(std::uint32_t from, State state, StageId stage, Amou
   return mark.distance;
 }
 
-// If that is the cheapest so far.
+// Stores a complete path if it is the cheapest so far.
 void PenalizedSearch::come_to_rest(const Label& label) {
   if (!goals_->is_rest(goals_->stage(label.stage), label.state)) return;
   if (others_ != nullptr && !others_->lets_rest(world_.place(label.state), time_)) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an agent pays at least, penalties included: its price.
+// Subproblem of the Lagrangian relaxation: least penalised cost of a path of one agent.
 #pragma once
 
 #include <algorithm>
@@ -17,13 +17,13 @@
 
 namespace grove::detail {
 
-// In Penalties::kUnit.
+// In units of 1 / Penalties::kUnit step.
 using ScaledCost = std::int64_t;
-constexpr ScaledCost kNoCost = -1;  // where none is known
+constexpr ScaledCost kNoCost = -1;  // no cost is known
 
-// The cheapest path of one agent alone, all orders of its stops considered. Its price is its cost,
-// the penalties of its steps and of its rest for ever, and one on the time at which it finishes.
-// Holds the workspace of one thread: reuse it, do not share it.
+// Finds a path of least penalised cost of one agent, over all orders of its stops. The penalised
+// cost is the cost, plus the penalties of its steps and of its rest for ever, plus one on its
+// finish time. One thread at a time; reuse it, because it holds the workspace.
 class PenalizedSearch {
  public:
   static constexpr ScaledCost kMostPrice = ScaledCost{1} << 30;
@@ -31,19 +31,22 @@ class PenalizedSearch {
   // `penalties` must outlive this, and may change between searches.
   explicit PenalizedSearch(const Penalties& penalties);
 
-  // Proven: a path costs at least the price, which is at most `below`. `on_finish`: what finishing
-  // at a time costs, 0 beyond its end. `path`, not null, becomes one of that price if it is less
-  // than `below` and the search was not cut short; else it stays as it is.
+  // Returns a proven lower bound on the penalised cost of every path, at most `below`. `on_finish`:
+  // the penalty by finish time, 0 beyond its end. If the search ends within the label limit and
+  // `limits`, and finds a path below the cutoff, the bound is exact and `*path` (unless `path` is
+  // nullptr) becomes such a path; else it is unchanged. The cutoff is the least of `below`,
+  // kMostPrice, and beyond() of the costs to go.
   ScaledCost search(SequenceStages& goals, std::span<const Penalties::Amount> on_finish,
                     ScaledCost below, std::int64_t label_limit, const Limits& limits, Path* path);
 
-  // Puts in the place of `path`, whose price is `price`, the cheapest one that goes around others,
-  // as it does, and finishes by `latest`. False: none is cheaper, or it would take more labels.
+  // Replaces `path`, whose penalised cost is `price`, by a path of least penalised cost among those
+  // that go around `others` and finish by `latest`. `path` must do so too. Returns false, with
+  // `path` unchanged, if the search ends at a limit or finds no path of lower penalised cost.
   bool improve(SequenceStages& goals, std::span<const Penalties::Amount> on_finish,
                const ReservationTable& others, Time latest, ScaledCost price,
                std::int64_t label_limit, const Limits& limits, Path& path);
 
-  // Labels met so far.
+  // Labels created so far.
   std::int64_t labels() const { return labels_met_; }
 
  private:
@@ -55,7 +58,7 @@ class PenalizedSearch {
     State state;
     StageId stage;
     Amount paid;
-    Time distance;  // to where it may rest, alone
+    Time distance;  // to a place of rest, ignoring other agents
     std::uint32_t parent;
   };
   struct Mark {
@@ -70,7 +73,7 @@ class PenalizedSearch {
   }
   void look_at_ends();
   void start();
-  // From so far away, at a time.
+  // Lower bound on the penalised cost still to come, `distance` steps from rest at `time`.
   ScaledCost to_pay(Time distance, Time time) const {
     const auto end = static_cast<std::size_t>(time) + static_cast<std::size_t>(distance);
     return ScaledCost{distance} * Penalties::kUnit + ends_[std::min(end, ends_.size() - 1)];
@@ -86,19 +89,19 @@ class PenalizedSearch {
   const World& world_;
   std::vector<std::vector<Mark>> marks_;  // by stage, then state
   std::uint32_t stamp_ = 0;
-  std::vector<Label> labels_;                                 // layer by layer
-  std::vector<std::pair<Place, std::vector<Amount>>> rests_;  // what resting from a time on costs
+  std::vector<Label> labels_;                                 // layer by layer in time
+  std::vector<std::pair<Place, std::vector<Amount>>> rests_;  // penalty by first time of rest
   std::vector<Amount> ends_;                                  // see look_at_ends()
   std::int64_t labels_met_ = 0;
 
-  // Of the call under way.
+  // Data of the current call.
   SequenceStages* goals_ = nullptr;
   std::span<const Amount> on_finish_;
-  Time time_ = 0;           // of the labels that are being made
-  Penalties::Layer layer_;  // then
+  Time time_ = 0;           // of the labels that are created
+  Penalties::Layer layer_;  // penalties at that time
   ScaledCost below_ = 0;
   std::optional<Label> best_;
-  const ReservationTable* others_ = nullptr;  // null: nobody else is there
+  const ReservationTable* others_ = nullptr;  // nullptr: no other agents
   Time latest_ = kNever;
 };
 

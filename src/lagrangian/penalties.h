@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What multipliers add to the cost of a path, step by step.
+// Penalties on the steps of a path, from Lagrangian multipliers.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,10 @@
 
 namespace grove::detail {
 
-// Penalties on steps: on arriving at a time by an *arc*, which is a place and one next to it, or a
-// place on which the agent stays. Amounts are integers; kUnit stands for a cost of one step.
-// Nobody pays less than 0. Memory goes with the spots that are penalised.
+// Penalties by arrival time and *arc*. An arc is a pair of neighbouring places, or a place on which
+// the agent stays. Amounts are integers >= 0; kUnit is the cost of one step. Memory grows with the
+// number of penalised arcs and times, in pages of kOnPage arcs. One thread at a time while it is
+// changed; otherwise any thread may read it.
 class Penalties {
  public:
   using Amount = std::int32_t;
@@ -27,15 +28,15 @@ class Penalties {
   Arc staying(Place place) const { return first_arc_[place]; }
   // `to` is `from` itself or a neighbour.
   Arc arc(Place from, Place to) const;
-  // By the moves of a state, in their order.
+  // The arcs of the moves of a state, in the order of the moves.
   std::span<const Arc> arcs(State state) const {
     const std::span<const State> moves = world_.moves(state);
     return {arc_of_move_.data() + (moves.data() - first_move_), moves.size()};
   }
-  // All that lead to a place, its staying() among them.
+  // All arcs that lead to a place, including staying(place).
   std::span<const Arc> arcs_to(Place place) const { return arcs_to_[place]; }
 
-  // Those of one time.
+  // The penalties of one arrival time.
   class Layer {
    public:
     Amount operator[](Arc arc) const {
@@ -46,10 +47,10 @@ class Penalties {
 
    private:
     friend class Penalties;
-    const std::uint32_t* pages_of_arcs_ = nullptr;  // null: nothing is penalised
+    const std::uint32_t* pages_of_arcs_ = nullptr;  // nullptr: no penalties
     const Amount* amounts_ = nullptr;
   };
-  // Until the next add().
+  // Valid until the next add().
   Layer at(Time arrival) const {
     Layer layer;
     if (arrival >= end()) return layer;
@@ -58,9 +59,9 @@ class Penalties {
     return layer;
   }
   Amount of(Time arrival, Arc arc) const { return at(arrival)[arc]; }
-  // Throws std::overflow_error when it would become too much to be reckoned with.
+  // Adds to a penalty. Throws std::overflow_error if the penalty would exceed kMost.
   void add(Time arrival, Arc arc, Amount amount);
-  // Nothing is penalised then, or later.
+  // There are no penalties at this time or later.
   Time end() const { return static_cast<Time>(pages_of_time_.size()); }
 
  private:
@@ -68,12 +69,12 @@ class Penalties {
   static constexpr Amount kMost = 1 << 28;
 
   const World& world_;
-  const State* first_move_;  // of all states
+  const State* first_move_;  // the moves of state 0, which are the first of all
   std::vector<Arc> first_arc_;
   std::vector<Arc> arc_of_move_;
   CsrArray arcs_to_;
   std::size_t arcs_ = 0;
-  std::vector<std::vector<std::uint32_t>> pages_of_time_;  // 0: nothing is penalised there
+  std::vector<std::vector<std::uint32_t>> pages_of_time_;  // 0: no penalties on that page
   std::vector<Amount> pages_;
 };
 

@@ -32,7 +32,8 @@ SequenceStages& Pricer::goals(AgentIndex agent) {
   return *goals_[agent];
 }
 
-// No path is known that would say where to stop, but hardly any costs more than the least.
+// First value of an agent: no path is known whose cost could be the cutoff. The cutoff rises from
+// just above the least cost, because hardly any value is much higher.
 ScaledCost Pricer::first_price(AgentIndex agent, const Limits& limits, Path& path) {
   const ScaledCost least = ScaledCost{least_cost(goals(agent), limits)} * Penalties::kUnit;
   ScaledCost price = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The prices of agents under a tariff, some at one go.
+// Pricing: the subproblem values of several agents under given multipliers.
 #pragma once
 
 #include <cstdint>
@@ -16,25 +16,26 @@ namespace grove::detail {
 
 constexpr std::int64_t kLabelsPerWork = 2;  // see search/work.h
 
-// Agents in a row, and what became of them.
+// Consecutive agents first .. end - 1 and their results, one entry per agent.
 struct PricingJob {
   AgentIndex first = 0;
   AgentIndex end = 0;
-  std::vector<ScaledCost> known;  // of a path each has, at least its price; kNoCost: it has none
+  std::vector<ScaledCost> known;  // cost of a known path; kNoCost: none
   std::vector<ScaledCost> prices;
-  std::vector<Path> paths;  // empty: there is none cheaper
+  std::vector<Path> paths;  // empty: no path cheaper than `known` was found
   std::int64_t work = 0;    // in the unit of search/work.h
-  bool failed = false;      // memory was refused: nothing of it counts
+  bool failed = false;      // memory was refused: no result counts
 };
 
-// What one thread prices agents with. Not of those that others have.
+// Computes subproblem values. One thread at a time.
 class Pricer {
  public:
-  // `tariff` must outlive this, and may change between jobs.
+  // `multipliers` must outlive this, and may change between jobs. `stops` is copied.
   Pricer(const Multipliers& multipliers, const AgentStopsCache& stops)
       : multipliers_(multipliers), stops_(stops), search_(multipliers.penalties()) {}
 
-  // Proven: under the tariff no path of an agent costs less than its price.
+  // Computes the subproblem value of each agent of the job. Proven: no path of the agent has a
+  // lower penalised cost.
   void perform(PricingJob& job, const Limits& limits);
 
  private:

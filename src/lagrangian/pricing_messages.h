@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What one process asks another for: the prices of some agents. Values.
+// Pricing messages between processes: the request for subproblem values of several agents, and the
+// reply. Values.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +12,17 @@ namespace grove::detail {
 
 struct PricingRequest {
   std::int64_t round = 0;
-  std::int32_t first = 0;         // agent
-  std::vector<ScaledCost> known;  // as in PricingJob, by agent from the first one on
-  MultiplierUpdate news;          // of the round's tariff, since this one was asked last
+  std::int32_t first = 0;         // first agent
+  std::vector<ScaledCost> known;  // as in PricingJob, from agent `first` on
+  MultiplierUpdate news;          // changes of the multipliers since the helper's last request
 };
 
 struct PricingReply {
-  std::int64_t round = 0;    // that was asked for
-  std::uint64_t digest = 0;  // of the tariff under which all were found
+  std::int64_t round = 0;    // of the request
+  std::uint64_t digest = 0;  // of the multipliers under which all values were computed
   std::int32_t first = 0;
   std::vector<ScaledCost> prices;
-  std::vector<Path> paths;  // empty: there is none cheaper than that which is known
+  std::vector<Path> paths;  // empty: no path cheaper than the known one was found
   std::int64_t work = 0;
 };
 

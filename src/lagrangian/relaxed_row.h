@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What at most one agent uses once, in any plan.
+// Relaxed row: a constraint "at most one use", satisfied by every plan.
 #pragma once
 
 #include <cstdint>
@@ -8,20 +8,21 @@
 
 namespace grove::detail {
 
-// What many use and pay for. `a`, `b`: of kPlace a place, of kEdge two neighbours, the lesser one
-// first, of kFinish two agents.
+// In any plan at most one agent uses a row, and it uses it once (proof: relaxed_rows.cpp). `a`,
+// `b`: of kPlace a place (only a), of kEdge two neighbours, the lesser one first, of kFinish two
+// agents.
 struct RelaxedRow {
   enum class Kind : std::uint8_t { kPlace, kEdge, kFinish };
   Kind kind = Kind::kPlace;
   std::int32_t a = 0;
   std::int32_t b = 0;
-  Time time = 0;    // of kFinish: by which a finishes
-  Time time_b = 0;  // only of kFinish
+  Time time = 0;    // of kFinish: latest finish of agent a
+  Time time_b = 0;  // only of kFinish: latest finish of agent b
 
   friend bool operator==(const RelaxedRow&, const RelaxedRow&) = default;
 };
 
-// With what its use costs: of 1024, that make a step.
+// A row and its multiplier in units of 1/1024 step.
 struct RowMultiplier {
   RelaxedRow row;
   std::int32_t charge = 0;

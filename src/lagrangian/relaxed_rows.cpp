@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Why in no plan two agents use one row, nor one agent twice.
+// *Claim: in any plan each row is used at most once, by at most one agent.* *Proof*, by kind of
+// row:
 //
-// *A place at a time*: to be there then, at rest or not. Two would collide.
+// *Place at a time.* Used by being there then, at rest or not. Two agents would collide.
 //
-// *An edge u - v at a time*, u being the one of the lesser number: to arrive at that time by u -> v
-// or by v -> u, or having stayed on u. Two that move the same way, or stay on u, share a place; two
-// that move against each other swap; and who stays on u is on the place that the other leaves or
-// comes to. An agent arrives once at a time.
+// *Edge u - v at a time*, where u has the lesser number. Used by arriving at that time by u -> v or
+// by v -> u, or after staying on u. Two agents that move the same way, or both stay on u, share a
+// place. Two that move in opposite directions swap. An agent that stays on u is on the place that
+// the other one leaves or enters. An agent arrives once at a time.
 //
-// *A pair of finish times*: agent a comes to rest by its time, or agent b by its own; for these two
-// alone, and proven by finish_pairs.h. Each finishes once.
+// *Pair of finish times.* Used by agent a if it comes to rest by its time, and by agent b if it
+// does by its own. Not both, by finish_time_conflicts.h. Each agent finishes once.
 //
-// Multipliers are never negative, and what is charged to an agent is the sum of those of the rows
-// that its path uses; being integers there, they are what is proven with, whatever the arithmetic
-// that chose them.
+// *Arithmetic.* Multipliers are never negative. An agent is charged the sum of the integer
+// multipliers of the rows that its path uses. The proof uses these integers, so it does not depend
+// on the floating-point arithmetic that chose them.
 #include "lagrangian/relaxed_rows.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@
 namespace grove::detail {
 namespace {
 
-// A unit is a step of one agent; no row was ever seen to be worth more than a few.
+// Limit of a multiplier: 64 steps. No observed multiplier exceeded a few steps.
 constexpr double kGreatestMultiplier = 64.0 * Penalties::kUnit;
 
 std::uint64_t pair_key(const FinishTimeConflict& pair) {
@@ -42,7 +43,7 @@ std::uint64_t RelaxedRows::place_key(Place place, Time time) const {
          static_cast<std::uint64_t>(place);
 }
 
-// An edge is its arc from the lesser place.
+// An edge is identified by its arc from the lesser place.
 std::uint64_t RelaxedRows::edge_key(Place from, Place to, Time arrival) const {
   const auto arc = multipliers_.penalties().arc(std::min(from, to), std::max(from, to));
   return static_cast<std::uint64_t>(arrival) << 32 | static_cast<std::uint32_t>(arc);
@@ -91,7 +92,7 @@ double RelaxedRows::turn(std::span<const Path> paths, const OccupancyCounts& enc
   count_uses(paths, encounters);
   double squares = 0;
   for (Course& row : courses_) {
-    const bool is_at_rest = row.exact_multiplier <= 0;  // and cannot go down
+    const bool is_at_rest = row.exact_multiplier <= 0;  // it cannot decrease
     double direction = row.used - 1;
     if (is_at_rest) direction = std::max(direction, 0.0);
     direction += memory * row.direction;

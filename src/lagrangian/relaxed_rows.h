@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What all agents together must obey, and how dear that should be.
+// Relaxed rows: the constraints that couple the agents, with their multipliers and directions.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@
 
 namespace grove::detail {
 
-// Rows: of each at most one agent uses it once, in any plan (the argument is at the head of the
-// .cpp). Each has a multiplier, which whoever uses it pays: it is in the tariff. For one thread at
-// a time, and nobody may read the tariff meanwhile.
+// Set of relaxed rows: in any plan at most one agent uses a row, and it uses it once (proof: head
+// of the .cpp). An agent pays a row's multiplier for using it. One thread at a time, and no thread
+// may read multipliers() in the meantime.
 class RelaxedRows {
  public:
   // `world` must outlive this.
@@ -23,16 +23,16 @@ class RelaxedRows {
 
   const Multipliers& multipliers() const { return multipliers_; }
 
-  // New rows have multiplier 0. Those that there are already stay.
+  // Adds a row with multiplier 0. For a collision, an existing row stays as it is.
   void add(const Collision& collision);
   void add(const FinishTimeConflict& pair);
-  // Is there a row that says that these two cannot both finish by these times?
+  // Whether a row forbids that both agents finish by these times.
   bool has(const FinishTimeConflict& pair) const;
 
-  // Sets the direction of each row: what these paths use it beyond once, and so much of the old
-  // direction. Returns the squared length of all.
+  // Sets the direction of each row: its uses by `paths` minus 1, plus `memory` times the old
+  // direction; not below 0 if the multiplier is 0. Returns the squared length of the direction.
   double turn(std::span<const Path> paths, const OccupancyCounts& encounters, double memory);
-  // Multipliers go so far in their directions, but not below 0.
+  // Moves each multiplier by `step` times its direction, within 0 .. 64 steps.
   void go(double step);
 
  private:

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// There is no second share before the first is answered, and it is answered when the last of its
-// jobs has come back: so no job ever sees two tariffs, and the digest, taken when the share came,
-// is that of all its prices.
+// *Claim: the digest of a reply is that of the multipliers under which all its values were
+// computed.* *Proof.* accept() rejects a request before the last one is answered, and that one is
+// answered only when all its jobs are committed. So no job sees two states of the multipliers, and
+// the digest taken in accept() is that of all values.
 #include "lagrangian/remote_pricing.h"
 
 #include <algorithm>

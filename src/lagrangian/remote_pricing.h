@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prices for a Lagrangian bound that is in another process.
+// Remote pricing: subproblem values for a Lagrangian bound in another process.
 #pragma once
 
 #include <cstddef>
@@ -12,32 +12,32 @@
 
 namespace grove::detail {
 
-// A copy of the tariff there, and a share of the agents: one after the other, each a job for any
-// thread. Methods may be called from any thread.
+// Holds a copy of the other process's multipliers and the current pricing request, whose agents are
+// separate jobs. Thread-safe.
 class RemotePricing {
  public:
   // `instance` must outlive this.
   explicit RemotePricing(const Instance& instance);
 
-  // The next share, when the last one was answered. Throws std::invalid_argument for what cannot be
-  // asked for.
+  // Accepts the next request; the last one must have been answered. Throws std::invalid_argument if
+  // the request is invalid.
   void accept(PricingRequest share);
-  // The next job; none: all are in hand. Whoever takes one performs and commits it.
+  // The next job. Returns nullopt if there is none. The caller must perform and commit() it.
   std::optional<PricingJob> next();
   bool has_jobs() const;
   void commit(PricingJob job);
-  // All that was asked for, once, when it is done.
+  // The reply to the request, once, when all its jobs are committed; nullopt otherwise.
   std::optional<PricingReply> take_answer();
 
   const Multipliers& multipliers() const { return multipliers_; }
 
  private:
   const Instance& instance_;
-  Multipliers multipliers_;  // changes only when no job is in hand
+  Multipliers multipliers_;  // changes only when no job is in progress
   mutable std::mutex mutex_;
-  std::optional<PricingRequest> share_;  // not answered yet; under mutex_, as is the rest
+  std::optional<PricingRequest> share_;  // not answered yet; mutex_ guards it and all below
   PricingReply answer_;
-  std::size_t next_ = 0;  // of the share
+  std::size_t next_ = 0;  // entry of the request
   std::size_t done_ = 0;
 };
 

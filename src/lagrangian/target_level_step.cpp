@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Far above what can be reached a level makes steps so long that values fall far below the best;
-// each such value counts for several rounds of waiting. (warehouse-10-20-10-2-1, 300 agents, 12 s,
-// in the median of what was tried: 24,172 instead of 23,971, where all agents alone pay that.)
+// A level far above the reachable values makes steps so long that values fall far below the best
+// one. Each such value counts for several rounds of waiting, so that the level is lowered sooner.
+// *Measured* on warehouse-10-20-10-2-1, 300 agents, 12 s, median of the variants tried: bound
+// 24,172 instead of 23,971, the sum of individual costs.
 #include "lagrangian/target_level_step.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kFarBelow = 0.5;  // of the way to the level
+constexpr double kFarBelow = 0.5;  // of the distance to the level
 constexpr int kRoundsForFarBelow = 5;
 
 }  // namespace

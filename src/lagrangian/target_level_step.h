@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// How far to go in a direction that promises more.
+// Step length of the subgradient method: Polyak step with a target level.
 #pragma once
 
 #include "model/tuning.h"
 
 namespace grove::detail {
 
-// A subgradient method with a target level (Goffin and Kiwiel 1999): steps are those of Polyak
-// towards a level some way above the best value so far. The way grows shorter when the level proves
-// out of reach. It proves nothing, and whatever it says does no harm. For one thread at a time.
+// Target level method (Goffin and Kiwiel 1999). The step is a Polyak step towards a level, which is
+// way() above the best value so far. way() shrinks when the level is not reached. Heuristic: the
+// validity of the bound does not depend on the step. One thread at a time.
 class TargetLevelStep {
  public:
   explicit TargetLevelStep(const Tuning& tuning) : tuning_(tuning) {}
 
-  // The step from a point of this value along a direction of this squared length (> 0). No value
-  // will be above `most`.
+  // The step length from a point of value `value` along a direction of squared length `squares` >
+  // 0. `most`: upper bound on all values.
   double step(double value, double most, double squares);
-  // From the best value so far to the level; 0 before the first step.
+  // Distance from the best value so far to the level; 0 before the first step.
   double way() const { return way_; }
 
  private:
@@ -24,7 +24,7 @@ class TargetLevelStep {
 
   const Tuning& tuning_;
   double best_ = 0;
-  double best_at_level_ = 0;  // when this level was chosen
+  double best_at_level_ = 0;  // best_ when this level was chosen
   double way_ = 0;
   int waited_ = 0;
 };

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Who of those planned would be run into.
+// Agents that block a path: those with which it would collide.
 #pragma once
 
 #include "planning/reservation_table.h"
 
 namespace grove::detail {
 
-// Calls visit(agent) for each one, other than `agent` itself, that it would run into on `path`,
-// begun `late` steps late, resting at its end included; for some more than once. Ends when visit()
-// returns false.
+// Calls visit(other) for each planned agent, other than `agent`, with which `agent` would collide
+// on `path` begun `late` steps late, resting at its end included. An agent may be visited more than
+// once. Stops when visit() returns false.
 template <class Visit>
 void for_each_blocking_agent(const World& world, const ReservationTable& reservations,
                              AgentIndex agent, const Path& path, Time late, Visit visit) {

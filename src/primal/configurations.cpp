@@ -39,7 +39,7 @@ std::size_t Configurations::growth() const {
   return places_.growth() + (rehashes ? 2 * slots_.size() * sizeof(Id) : 0);
 }
 
-// Where `places` is, or would be.
+// The slot of `places`, or the free slot where it would be inserted.
 std::size_t Configurations::slot_of(std::span<const Standing> places, std::uint64_t hash) {
   std::size_t slot = hash & (slots_.size() - 1);
   while (slots_[slot] != kNone &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Joint states, stored compactly and found again.
+// LaCAM configurations: a compact set with lookup.
 #pragma once
 
 #include <algorithm>
@@ -12,14 +12,14 @@
 
 namespace grove::detail {
 
-// Where one agent is and what it has still to visit.
+// State of one agent in a configuration: where it is, and the stage that stores its stops left.
 struct Standing {
   State state;
   VisitStages::Stage stage;
   friend bool operator==(const Standing&, const Standing&) = default;
 };
 
-// Numbered rows of equal length, in blocks that never move.
+// Numbered rows of equal length, stored in blocks that never move.
 template <class T>
 class RowBlocks {
  public:
@@ -49,7 +49,8 @@ class RowBlocks {
   std::vector<std::unique_ptr<T[]>> blocks_;
 };
 
-// A set of configurations, numbered in the order in which they came: one Standing per agent each.
+// A hash set of configurations, numbered in the order of insertion. A configuration is one Standing
+// per agent. One thread at a time.
 class Configurations {
  public:
   using Id = std::int32_t;
@@ -59,7 +60,7 @@ class Configurations {
   std::span<const Standing> operator[](Id id) { return places_[id]; }
   Id count() const { return places_.count(); }
 
-  // The number of `places`. If it is new, it is the last one: count() - 1.
+  // Inserts `places` and returns its number, which is count() - 1 if it is new.
   Id insert(std::span<const Standing> places);
   // Bytes that the next insert() may allocate.
   std::size_t growth() const;

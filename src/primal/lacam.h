@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One search over configurations, from its seed to its end.
+// LaCAM: one depth-first search over configurations, without restarts.
 #pragma once
 
 #include <cstdint>
@@ -17,36 +17,37 @@ class Lacam {
  public:
   using Outcome = LacamWithRestarts::Outcome;
 
-  // As LacamWithRestarts. `guide`: by what agents find their ways, as far as it leads; its fields
-  // must outlive this.
+  // Arguments as for LacamWithRestarts. `guide`: distance fields by which agents choose their paths
+  // until a configuration is met again; nullptr: distances in steps. The fields must outlive this.
   Lacam(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed,
         const LegFields* guide = nullptr);
   Lacam(const Lacam&) = delete;
   Lacam& operator=(const Lacam&) = delete;
 
-  // Makes at most `steps` joint steps and takes off what it made.
+  // Makes at most `steps` joint steps and subtracts the number made from `steps`.
   Outcome run(const Limits& limits, std::int64_t& steps);
   const std::optional<Plan>& plan() const { return plan_; }
   std::int64_t configurations() const { return configurations_.count(); }
 
  private:
   using Id = Configurations::Id;
-  // Steps since an agent was last at rest, and 1 at the start.
+  // Steps since an agent was last at rest; 1 at the start.
   using Age = std::uint16_t;
   static constexpr Age kArrived = 0;
   static constexpr Age kOldest = UINT16_MAX;
   using ConstraintId = std::int32_t;
   static constexpr ConstraintId kNone = -1;
 
-  // A constraint stands for itself and its ancestors; its depth says which agent it tells.
+  // A node of the constraint tree. It stands for itself and its ancestors. Its depth d > 0 means
+  // that it constrains the agent of d-th priority.
   struct Constraint {
     ConstraintId above;
-    ConstraintId next;  // in its configuration's queue
+    ConstraintId next;  // the next one in its configuration's queue
     State state;
     std::int32_t depth;
   };
 
-  // What there is to know about a configuration beside its places.
+  // Search data of a configuration.
   struct Node {
     Id parent;
     ConstraintId first;  // the queue of its constraints
@@ -84,10 +85,10 @@ class Lacam {
   std::optional<Plan> plan_;
   bool is_guided_;
 
-  // Of the configuration being expanded.
+  // Data of the configuration that is expanded.
   Id ranked_ = -1;
-  std::vector<AgentIndex> ranking_;  // by priority
-  std::vector<AgentIndex> by_way_;   // at the start, the longest way first: breaks ties
+  std::vector<AgentIndex> ranking_;  // agents by priority
+  std::vector<AgentIndex> by_way_;  // agents by distance from the start, longest first: breaks ties
   std::vector<LacamConstraint> orders_;
   std::vector<Standing> places_;
   std::vector<State> next_;

@@ -1,32 +1,45 @@
 // SPDX-License-Identifier: MIT
-// Where it is crowded the low level's heuristic, blind to the others, lets it expand every label
-// with f below the best path's cost. A greedy order finds good paths much sooner there, and
-// somewhat worse ones elsewhere. So each order is a way of its own, with what it gained of late and
-// what work that took; mostly the one with the better rate is used.
+// Repair operators and acceptance of large neighbourhood search.
 //
-// A call that takes many times the labels of those that find a path is given up: mostly there is
-// none to be found, and the time is better spent elsewhere. So is one that takes long before any
-// has found a path; the next may take twice as many.
+// *Exact and greedy search.* The low level's heuristic ignores the other agents. In dense instances
+// the search therefore expands every label with f below the cost of the best path. A greedy order
+// (inflation_percent) finds good paths much sooner there, and slightly worse paths elsewhere. So
+// each order is a repair operator with its recent gain and work; usually the operator with the best
+// ratio gain / work is used.
 //
-// Where prices are known, each agent may leave to others what they would pay for: its cheapest path
-// is found first, and gives way to the one that is cheapest with all penalties.
+// *Label limit.* A call is abandoned after many times the labels of calls that find a path, because
+// mostly there is no path, and the time is better spent elsewhere. Until an operator has found a
+// path, its limit is first_labels, which doubles after each failure.
 //
-// It ends in a local optimum soon. So when as many neighbourhoods as there are agents were in vain,
-// plans are gone on with that cost a little more than the best one met: a share of what that costs
-// above all agents alone, for where much is lost by crowding it takes more to get out. Until then
-// nothing dearer is taken, else a plan that still improves quickly improves more slowly
-// (random-32-32-20, 200 agents, ten seconds: 5,202 to 5,238 instead of 5,149), and where it is so
-// crowded that plans improve for as long as one looks, nothing dearer at all.
+// *Penalised costs.* With a dual solution, an agent can leave to other agents the places and times
+// for which these would pay. The cheapest path is found first and then replaced by the path of
+// least penalised cost.
 //
-// The cutoff of a call is what is left of the old cost, less what the agents still to come need at
-// least: beyond it the neighbourhood is lost anyway.
+// *Acceptance.* LNS soon ends in a local optimum. After neighborhoods_before_worse iterations per
+// agent without improvement, it also accepts plans that cost a little more than the best one so
+// far: worse_plans times (best cost - sum of individual costs), because escaping takes more where
+// congestion costs more. Until then no higher cost is accepted, because a plan that still improves
+// quickly would improve more slowly: random-32-32-20, 200 agents, ten seconds, 5,202 to 5,238
+// instead of 5,149. Nor is one accepted while the best cost exceeds the sum of individual costs by
+// more than worse_plans_loss times that sum: instances so dense improve for the whole run.
 //
-// Two or three agents at once, by joint search around the others, where one by one gained nothing:
-// a fifth of those that are not too large gain, but the time is better spent otherwise. Medians of
-// three seeds, 5 s on a busy machine, without and with: random-32-32-20, 150 agents 3,861 and
-// 3,921, 100 agents 2,361 and 2,364; room-32-32-4, 60 agents 1,756 and 1,764, 80 agents 2,415 and
-// 2,432; empty-32-32, 200 agents 4,358 and 4,360. Only where all have been in vain for long, 8 s:
-// room, 60 agents, 1,756 and 1,759, 1,646 and 1,646.
+// *Cutoff.* The cutoff of a call is the old cost (plus what acceptance allows), less the new paths
+// so far, less the individual costs of the agents still to be planned. Above it the iteration fails
+// anyway.
+//
+// *Not used: joint search* of two or three agents around the others, where planning one by one
+// gained nothing. One in five of the smaller neighbourhoods gains, but the time is better spent
+// otherwise. Medians of three seeds, 5 s on a busy machine:
+//
+//   instance           agents   without    with
+//   random-32-32-20       150     3,861   3,921
+//   random-32-32-20       100     2,361   2,364
+//   room-32-32-4           60     1,756   1,764
+//   room-32-32-4           80     2,415   2,432
+//   empty-32-32           200     4,358   4,360
+//
+// Used only after a long time without improvement, 8 s, room, 60 agents: 1,756 and 1,759, 1,646 and
+// 1,646.
 #include "primal/lns.h"
 
 #include <algorithm>
@@ -68,7 +81,7 @@ LargeNeighborhoodSearch::RepairOperator& LargeNeighborhoodSearch::choose_repair(
       ways, {}, [](const RepairOperator& way) { return (way.gain + 1) / way.work; });
 }
 
-// How much more than `cost`, that of the plan as it is, the next one may cost.
+// By how much the next plan may exceed `cost`, the cost of the current plan.
 Cost LargeNeighborhoodSearch::worse_allowed(Cost cost) {
   if (cost < least_) {
     least_ = cost;
@@ -81,7 +94,7 @@ Cost LargeNeighborhoodSearch::worse_allowed(Cost cost) {
   return std::max<Cost>(0, least_ + static_cast<Cost>(more + random_.unit()) - cost);
 }
 
-// False if the agents cannot be planned at `most` or less, at least not in this order.
+// Returns false if the agents, planned in this order, find no paths of total cost `most` or less.
 bool LargeNeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost most,
                                         RepairOperator& way, const Limits& limits) {
   Cost left = most;

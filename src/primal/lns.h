@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Large neighbourhood search: from a plan to a cheaper one, a few agents at a time.
+// Large neighbourhood search (LNS): improves a plan by re-planning a few agents at a time.
 #pragma once
 
 #include <array>
@@ -14,13 +14,14 @@
 
 namespace grove::detail {
 
-// Takes the paths of a few agents away and plans them anew, one after the other, in random order.
-// The new paths stay if they cost no more together; after many that did not help also if all paths
-// cost little more than the best ones met. (MAPF-LNS: Li et al., IJCAI 2021; the low level here
-// chooses the order of the tasks too. Record-to-record travel: Dueck 1993.)
+// MAPF-LNS (Li et al., IJCAI 2021). Each iteration removes the paths of a few agents and plans
+// these agents again, one after the other, in random order. It keeps the new paths if their total
+// cost is not higher. After many iterations without improvement it also keeps them if the plan
+// costs little more than the best one so far (record-to-record travel: Dueck 1993). The low level
+// also chooses the order of the tasks. One thread at a time.
 class LargeNeighborhoodSearch {
  public:
-  // All must outlive this.
+  // All references must outlive this.
   LargeNeighborhoodSearch(const Problem& problem, PrimalLowLevel& router, PlannedPaths& paths,
                           Random& random, const Tuning& tuning)
       : router_(router),
@@ -29,10 +30,12 @@ class LargeNeighborhoodSearch {
         tuning_(tuning),
         neighborhoods_(problem, router, paths, random, tuning) {}
 
-  // One neighbourhood; all agents must have paths, and have them afterwards whatever happens.
+  // One iteration. All agents must have paths. They also have paths afterwards, even if a limit is
+  // reached.
   void step(const Limits& limits);
 
-  // There is another plan to begin with; alone the agents would cost so much.
+  // Starts on another plan, which is in `paths`. `individual_costs`: sum of the agents' individual
+  // costs.
   void begin(Cost individual_costs) {
     least_ = kInfiniteCost;
     own_costs_ = individual_costs;
@@ -41,16 +44,16 @@ class LargeNeighborhoodSearch {
   std::int64_t steps() const { return steps_; }
 
  private:
-  // How an agent is planned: exactly, greedily, or so that it pays least where prices are known;
-  // which does better is found out on the way.
+  // A way to plan one agent: exactly, greedily, or at least penalised cost (only with a dual
+  // solution). The statistics are sums that decay by way_memory; choose_repair() selects by them.
   struct RepairOperator {
     int inflation_percent;
     bool priced;
-    double gain = 0;                     // of late
-    double work = 1;                     // of late, in labels
-    double labels = 0;                   // of late, of calls that found a path
-    double found = 0;                    // of late, such calls
-    std::int64_t first_labels = 20'000;  // a call may take so many before any has found a path
+    double gain = 0;                     // cost reduction
+    double work = 1;                     // work (unit: search/work.h)
+    double labels = 0;                   // labels of calls that found a path
+    double found = 0;                    // calls that found a path
+    std::int64_t first_labels = 20'000;  // label limit of a call until one finds a path
   };
 
   RepairOperator& choose_repair();
@@ -68,8 +71,8 @@ class LargeNeighborhoodSearch {
   std::array<RepairOperator, 3> repair_operators_{
       RepairOperator{0, false}, RepairOperator{30, false}, RepairOperator{0, true}};
   Cost own_costs_ = 0;
-  Cost least_ = kInfiniteCost;  // of plans met since begin()
-  std::int64_t in_vain_ = 0;    // neighbourhoods since then
+  Cost least_ = kInfiniteCost;  // least plan cost since begin()
+  std::int64_t in_vain_ = 0;    // iterations since least_ improved
   std::vector<Path> old_paths_;
   Path path_;
   std::int64_t steps_ = 0;

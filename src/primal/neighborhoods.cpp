@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The kinds:
-// - delayed: an agent that pays more than it would alone, chosen by how much more, and those that
-//   stand in the way of its own best path, or of that path a little later;
-// - anyone: agents drawn from all;
-// - one spot: agents that pass around one place at about one time;
-// - overpaying: where prices are known, an agent that pays more than its price, penalties included,
-//   and those that stand in the way of the path of that price. Who is delayed because all others
-//   would be if it were not does not overpay.
+// The destroy operators:
+// - kAgentBased: an agent whose path costs more than its individual path, drawn in proportion to
+//   the difference, and the agents that block its individual path, or that path begun a little
+//   later.
+// - kRandom: random agents.
+// - kMapBased: agents that pass near one place at about one time.
+// - kReducedCost, only with a dual solution: an agent whose penalised path cost exceeds its
+//   subproblem value, drawn in proportion to the difference, and the agents that block the path of
+//   that value. An agent that is delayed because otherwise all others would be delayed has no
+//   reduced cost.
 #include "primal/neighborhoods.h"
 
 #include <algorithm>
@@ -17,7 +19,8 @@
 namespace grove::detail {
 namespace {
 
-constexpr Time kLate = 3;  // steps, fewer than these, that one may be late on a path of its price
+// A path of the dual solution is tried with delays of 0 to kLate - 1 steps.
+constexpr Time kLate = 3;
 
 }  // namespace
 
@@ -36,7 +39,8 @@ const std::vector<AgentIndex>& Neighborhoods::choose() {
   return chosen_;
 }
 
-// Where small ones do not gain any more, larger ones may (variable neighbourhood search: Mladenovic
+// Upper limit of the size. It grows after neighborhoods_in_vain failures per agent, because larger
+// neighbourhoods may gain where small ones no longer do (variable neighbourhood search: Mladenovic
 // and Hansen 1997).
 std::int64_t Neighborhoods::most_wanted() const {
   const std::int64_t times =
@@ -96,7 +100,7 @@ AgentIndex Neighborhoods::some_delayed_agent() {
   return ReservationTable::kNobody;
 }
 
-// Those that the agent would run into on a path, `late` steps late.
+// Adds the agents with which `agent` would collide on `path`, begun `late` steps late.
 void Neighborhoods::add_those_in_the_way(AgentIndex agent, const Path& path, Time late) {
   for_each_blocking_agent(problem_.instance.world(), paths_.reservations(), agent, path, late,
                           [&](AgentIndex other) {
@@ -147,7 +151,8 @@ const Path& Neighborhoods::wanted_path(AgentIndex agent) const {
   return path.empty() ? router_.individual_path(agent) : path;
 }
 
-// Breadth first from a place on somebody's path, about the time when it is there.
+// Adds the visitors of places in breadth-first order around a random position of a random agent's
+// path, about the time of that position.
 void Neighborhoods::add_around_spot() {
   const World& world = problem_.instance.world();
   const Path& path = paths_.path(random_.below(problem_.instance.agent_count()));

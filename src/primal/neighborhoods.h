@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which agents to plan anew together.
+// Choice of the agents that large neighbourhood search re-plans together (destroy operators).
 #pragma once
 
 #include <array>
@@ -14,30 +14,32 @@
 
 namespace grove::detail {
 
-// Chooses neighbourhoods of a few agents, of some kinds, each as often as it did well of late
-// (adaptive large neighbourhood search: Ropke and Pisinger 2006; for MAPF: Li et al., IJCAI 2021).
+// Chooses neighbourhoods of a few agents by several destroy operators. An operator is chosen more
+// often the more it gained recently (adaptive large neighbourhood search: Ropke and Pisinger 2006;
+// for MAPF: Li et al., IJCAI 2021). The operators are described at the head of the .cpp. One thread
+// at a time.
 class Neighborhoods {
  public:
-  // All must outlive this.
+  // All references must outlive this.
   Neighborhoods(const Problem& problem, const PrimalLowLevel& router, const PlannedPaths& paths,
                 Random& random, const Tuning& tuning)
       : problem_(problem), router_(router), paths_(paths), random_(random), tuning_(tuning) {}
 
-  // The next one, in random order; all agents must have paths. Valid until the next call.
+  // The next neighbourhood, in random order. All agents must have paths. Valid until the next call.
   const std::vector<AgentIndex>& choose();
-  // How much cheaper the plan became by the neighbourhood chosen last.
+  // Reports the cost reduction by the neighbourhood chosen last; 0 if there was none.
   void reward(Cost gain);
 
  private:
   enum Kind : std::uint8_t { kAgentBased, kRandom, kMapBased, kReducedCost };
   static constexpr int kKinds = 4;
-  static constexpr std::int64_t kFew = 2;  // fewer are filled up with anyone
+  static constexpr std::int64_t kFew = 2;  // a smaller neighbourhood is filled with random agents
 
   std::int64_t most_wanted() const;
   Kind choose_kind();
   void add(AgentIndex agent);
   bool full() const { return std::ssize(chosen_) >= wanted_; }
-  // All of them, or without those that ask for prices where there are none.
+  // Number of operators that can be used: kReducedCost needs a dual solution.
   int kinds() const { return router_.prices() == nullptr ? kReducedCost : kKinds; }
   void add_anyone();
   void add_delayed();
@@ -58,13 +60,13 @@ class Neighborhoods {
   std::array<double, kKinds> weights_{1, 1, 1, 1};
   Kind kind_ = kRandom;
   std::int64_t wanted_ = 0;
-  std::int64_t in_vain_ = 0;  // neighbourhoods since one that gained
+  std::int64_t in_vain_ = 0;  // neighbourhoods since the last cost reduction
   std::vector<AgentIndex> chosen_;
-  int seen_prices_ = 0;                      // Router::price_changes() then
-  std::vector<ScaledCost> reduced_cost_;     // by agent: above its price
-  std::vector<std::int64_t> seen_editions_;  // by agent: of the path of which that is so
+  int seen_prices_ = 0;                      // PrimalLowLevel::price_changes() of reduced_cost_
+  std::vector<ScaledCost> reduced_cost_;     // by agent: of its path
+  std::vector<std::int64_t> seen_editions_;  // by agent: edition of the path of reduced_cost_
   std::vector<Place> queue_;
-  std::vector<std::int32_t> seen_at_;  // by place: the search that saw it
+  std::vector<std::int32_t> seen_at_;  // by place: the last breadth-first search that reached it
   std::int32_t search_ = 0;
 };
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Priority inheritance with backtracking (PIBT: Okumura, Machida, Defago and Tamura, AIJ 2022).
 //
-// Agents choose a next state one after the other by priority: the one from which the rest of their
-// way is shortest, then one whose place is empty now, then by dice. Who stands on the place chosen
-// must choose next, whatever its own priority, and must find another; if it cannot, it stays and
-// the first one tries its next choice. Each agent decides once, so a step takes about agents x
-// candidates time.
+// Agents choose a next state one after the other by priority. An agent prefers the state with the
+// least distance left, then a state whose place is now empty, then a random one. The agent that
+// stands on the chosen place must choose next, whatever its own priority, and must leave. If it
+// cannot, it stays, and the first agent tries its next choice. Each agent decides once, so a step
+// takes O(agents x candidates) time.
 //
-// Two agents that can pass each other only at a junction behind them (swaps.cpp): the one that
-// chooses takes its candidates in reverse, away from the other, and pulls it along.
+// If two agents can pass each other only at a junction behind them (swaps.cpp), the one that
+// chooses tries its candidates in reverse order, away from the other, and pulls it along.
 //
-// Orders (LaCAM's constraints) are reservations made before anybody chooses.
+// LaCAM constraints are reservations made before any agent chooses.
 #include "primal/pibt_generator.h"
 
 #include <algorithm>
@@ -49,7 +49,7 @@ bool PibtGenerator::obey(std::span<const LacamConstraint> orders) {
   });
 }
 
-// Finds a state for an agent that has none yet.
+// Finds a next state for an agent that has none yet. Returns false if it must stay.
 bool PibtGenerator::push(AgentIndex agent) {
   const std::size_t first = candidates_.size();
   rank_candidates(agent);
@@ -59,7 +59,7 @@ bool PibtGenerator::push(AgentIndex agent) {
   return moved;
 }
 
-// Those from `first` on.
+// Tries the candidates from `first` on.
 bool PibtGenerator::try_candidates(AgentIndex agent, std::size_t first) {
   const std::size_t end = candidates_.size();
   const AgentIndex partner = swaps_.partner(agent, candidates_[first].state, from_);
@@ -77,12 +77,13 @@ bool PibtGenerator::try_candidates(AgentIndex agent, std::size_t first) {
   return false;
 }
 
-// Brings an agent along to a state that its neighbour has left, if both are free to.
+// Moves an agent to a state that its neighbour leaves, if the agent has not decided and the place
+// is free.
 void PibtGenerator::pull(AgentIndex agent, State state) {
   if (to_[agent] == kNoState && later_[world_.place(state)] == kNobody) move(agent, state);
 }
 
-// Appends them to candidates_, the best first.
+// Appends the agent's candidates to candidates_, best first.
 void PibtGenerator::rank_candidates(AgentIndex agent) {
   const Standing from = from_[agent];
   VisitStages& visits = agents_[agent];

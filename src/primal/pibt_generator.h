@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One joint step of all agents.
+// PIBT as configuration generator of LaCAM: one joint step of all agents.
 #pragma once
 
 #include <span>
@@ -11,21 +11,22 @@
 
 namespace grove::detail {
 
-// Where an agent is told to be after the step.
+// LaCAM constraint: the state of an agent after the step.
 struct LacamConstraint {
   AgentIndex agent;
   State state;
 };
 
-// Makes joint steps by priority inheritance with backtracking (PIBT). Workspace of one thread.
+// Makes joint steps by priority inheritance with backtracking (PIBT). One thread at a time.
 class PibtGenerator {
  public:
   // `world` and `agents` must outlive this.
   PibtGenerator(const World& world, std::vector<VisitStages>& agents);
 
-  // A step from `from` without collisions in which every order is obeyed; agents come earlier in
-  // `priority` the more they matter. The result, by agent, holds until the next call; empty if none
-  // was found, which is certain only if every agent has an order.
+  // Makes a joint step from `from` without collisions that satisfies all constraints `orders`.
+  // `priority`: the agents, highest priority first. Returns the states by agent, valid until the
+  // next call. Returns an empty span if no step was found; only if every agent has a constraint is
+  // it certain that none exists.
   std::span<const State> step(std::span<const Standing> from, std::span<const AgentIndex> priority,
                               std::span<const LacamConstraint> orders, SplitMix64& dice);
 
@@ -48,10 +49,10 @@ class PibtGenerator {
 
   const World& world_;
   std::vector<VisitStages>& agents_;
-  std::vector<AgentIndex> now_;        // by place: who is there
-  std::vector<AgentIndex> later_;      // by place: who will be there
+  std::vector<AgentIndex> now_;        // by place: the agent that is there
+  std::vector<AgentIndex> later_;      // by place: the agent that will be there
   std::vector<State> to_;              // by agent; kNoState: not decided
-  std::vector<Candidate> candidates_;  // of those who are choosing, one after the other
+  std::vector<Candidate> candidates_;  // stack: of all agents that are choosing
   Swaps swaps_;
   std::span<const Standing> from_;
   SplitMix64* dice_ = nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where plans come from.
+// Source of a plan: the search that found it.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@ namespace grove::detail {
 
 enum class PlanSource : std::uint8_t {
   kTree,                 // a conflict-free constraint-tree node
-  kStart,                // given with the instance
+  kStart,                // start plan, or incumbent of a checkpoint
   kPrioritizedPlanning,  // prioritised planning
-  kConfigurations,       // configuration search
+  kConfigurations,       // LaCAM
   kLns,                  // large neighbourhood search
   kJointSearch,          // A* over joint states
 };
@@ -22,7 +22,7 @@ inline constexpr std::array<std::string_view, 6> kPlanSources{
     "tree", "start", "priorities", "configurations", "neighborhood", "joint"};
 static_assert(kPlanSources.size() == static_cast<std::size_t>(kLastPlanSource) + 1);
 
-// As files and logs call it.
+// The name of a source in files and logs.
 constexpr std::string_view name_of(PlanSource source) {
   return kPlanSources[static_cast<std::size_t>(source)];
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The paths of those agents that have one, with their reservations.
+// Paths of the agents that have one, with their reservations.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace grove::detail {
 
-// Paths that do not collide, by AgentIndex; an agent without one has an empty path.
+// Collision-free paths, by AgentIndex; empty for an agent without a path. One thread at a time.
 class PlannedPaths {
  public:
   explicit PlannedPaths(const Instance& instance)
@@ -23,12 +23,12 @@ class PlannedPaths {
   const std::vector<Path>& paths() const { return paths_; }
   const Path& path(AgentIndex agent) const { return paths_[agent]; }
   Time cost(AgentIndex agent) const { return static_cast<Time>(paths_[agent].size()) - 1; }
-  // Another whenever the agent was given a path.
+  // A number that changes whenever the agent is given a path.
   std::int64_t edition(AgentIndex agent) const { return editions_[agent]; }
-  // Of all paths that are there.
+  // Sum of the costs of all paths.
   Cost cost() const { return cost_; }
 
-  // The agent must have none; `path` must collide with no other.
+  // Adds a path. The agent must have none, and `path` must not collide with another one.
   void put(AgentIndex agent, Path path) {
     GROVE_ASSERT(paths_[agent].empty() && !path.empty(), "an agent has one path at most");
     reservations_.add(agent, path);
@@ -37,7 +37,7 @@ class PlannedPaths {
     cost_ += cost(agent);
     steps_moved_ += static_cast<std::int64_t>(paths_[agent].size());
   }
-  // The agent must have one.
+  // Removes the agent's path and returns it. The agent must have one.
   Path take(AgentIndex agent) {
     GROVE_ASSERT(!paths_[agent].empty(), "a path that is taken was there");
     cost_ -= cost(agent);
@@ -51,7 +51,7 @@ class PlannedPaths {
     cost_ = 0;
   }
 
-  // Lengths of all paths put or taken so far: what that work is worth.
+  // Total length of all paths put or taken so far: a measure of that work.
   std::int64_t steps_moved() const { return steps_moved_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One agent's way around those already planned.
+// Low level of the primal heuristics: one agent's path around the agents already planned.
 #pragma once
 
 #include <cstdint>
@@ -16,34 +16,36 @@
 
 namespace grove::detail {
 
-// The low level with what it needs of every agent. Each agent chooses the order of its tasks.
+// Free-order SIPP with its data of every agent: each agent chooses the order of its tasks. One
+// thread at a time.
 class PrimalLowLevel {
  public:
-  // Both must outlive this.
+  // Both references must outlive this.
   PrimalLowLevel(const Problem& problem, AgentStopsCache& stops);
 
-  // Finds the agent's best path without other agents, or a good one if its sequences are too
-  // many to tell; to be called for an agent before any other question about it. Returns false if a
-  // limit was reached.
+  // Individual planning: finds the agent's best path without the other agents, or a good path if it
+  // has too many sequences to find the best one. Must be called for an agent before any other
+  // method. Returns false if a limit was reached.
   bool meet(AgentIndex agent, const Limits& limits);
 
   // As FreeOrderSipp::find.
   PathOutcome find(AgentIndex agent, const PathQuery& query, const Limits& limits, Path& path);
 
-  // From now on it is known what is dear.
+  // Sets the dual solution; not nullptr.
   void use(std::shared_ptr<const DualSolution> prices);
-  // Null: nothing is known.
+  // The dual solution; nullptr: none yet.
   const DualSolution* prices() const { return prices_.get(); }
-  // How often that has changed.
+  // Number of calls of use().
   int price_changes() const { return price_changes_; }
-  // Puts in the place of a path around others the one that is cheapest by the prices, if that
-  // finishes by `latest`. There must be prices.
+  // Replaces `path`, a path around `others`, by the path of least penalised cost that also goes
+  // around them and finishes by `latest`. `path` stays as it is if the search finds none of less
+  // penalised cost. There must be a dual solution.
   void improve(AgentIndex agent, const ReservationTable& others, Time latest, const Limits& limits,
                Path& path);
 
-  // Is the own path proven to be the best?
+  // Whether the individual path is proven to be optimal.
   bool knows_best(AgentIndex agent) const { return in_order_[agent] == nullptr; }
-  // The agent's best or good path without other agents, and its cost.
+  // The path found by meet(), and its cost.
   const Path& individual_path(AgentIndex agent) const { return own_paths_[agent]; }
   Time individual_cost(AgentIndex agent) const {
     return static_cast<Time>(own_paths_[agent].size()) - 1;
@@ -53,7 +55,7 @@ class PrimalLowLevel {
     return realized_sequence(*goals_[agent], own_paths_[agent]);
   }
 
-  // The plan that `paths`, by AgentIndex, make.
+  // The plan with these paths, by AgentIndex.
   Plan plan(const std::vector<Path>& paths);
 
   std::int64_t calls() const { return calls_; }
@@ -70,15 +72,15 @@ class PrimalLowLevel {
   const Problem& problem_;
   AgentStopsCache& stops_;
   FreeOrderSipp low_level_;
-  // By AgentIndex. Of an agent that follows a good sequence: its completions.
+  // By AgentIndex: the costs to go of an agent that follows a good sequence, else nullptr.
   std::vector<std::unique_ptr<CostToGo>> in_order_;
   std::vector<std::unique_ptr<SequenceStages>> goals_;
-  std::vector<Path> own_paths_;  // by AgentIndex
+  std::vector<Path> own_paths_;  // individual paths, by AgentIndex
   std::int64_t calls_ = 0;
   std::shared_ptr<const DualSolution> prices_;
   int price_changes_ = 0;
-  std::optional<PenalizedSearch> priced_;  // by them
-  std::int64_t labels_before_ = 0;         // by those before
+  std::optional<PenalizedSearch> priced_;  // search with the penalties of prices_
+  std::int64_t labels_before_ = 0;         // labels of the searches with earlier dual solutions
 };
 
 }  // namespace grove::detail

@@ -1,47 +1,54 @@
 // SPDX-License-Identifier: MIT
-// The course of the search: every agent's own best path; a first plan; large neighbourhood search
-// on it. That works quickly at first and then stalls in a local optimum, and other seeds end in
-// other ones. So when a round has gone on without success for as long as it took to come where it
-// is, a new round begins with prioritised planning.
+// Schedule of the primal search: individual planning of every agent (its best path without the
+// others), then a first plan, then large neighbourhood search (LNS) on that plan.
 //
-// Prices of the Lagrangian bound, once there are some, help with neighbourhoods alone: a plan by
-// prioritised planning with penalties, or from the paths of these prices, is cheaper than one
-// without (3,976 instead of 4,246 for 150 agents on random-32-32-20), but dearer than what the
-// neighbourhoods have made by then (3,830).
+// *Rounds.* LNS improves a plan quickly at first and then stalls in a local optimum. Other seeds
+// end in other optima. So a new round begins with prioritised planning when LNS has worked without
+// success for as long as the round took to reach its best plan, and for stall_neighborhoods
+// iterations at least.
 //
-// Prioritised planning is given a head start: one attempt, of at most so many times the work that
-// meeting the agents took. It ends within 1.5 times that where there is room, with plans much
-// cheaper than the configuration search's (1.1 to 3.5 times the sum of own costs). When the head
-// start is used up, it shares the work equally with the configuration search, until one of them has
-// a plan; a single call that takes long is put off, to be made with twice the patience: one that
-// proves that an agent is shut in can take longer than the tree needs for a small instance.
-// If the configuration search is first (mostly within twice the meeting's work), large
-// neighbourhood search takes its plan and its half of the work. Prioritised planning keeps the
-// other: where it has a plan in the end, that is mostly the cheaper one by far (room-64-64-8, 100
-// agents, 300 tasks: 28,118 after a work of 330,000; the configuration search 30,979 after 40,000,
-// which large neighbourhood search had brought down to 30,964 by then), and taken if so. A plan of
-// another search, which comes meanwhile, ends that as little as one of its own. In later rounds it
-// shares with the large neighbourhood search of the round before in the same way, so no round waits
-// for a plan that never comes.
+// *Definition.* W is the work of individual planning of all agents (meeting_work_).
 //
-// Where it is so crowded that the configuration search's plan costs much more than the agents
-// alone, guided search (guided_search.cpp) goes on from it, round by round, as long as that makes
-// cheaper plans. Large neighbourhood search, which changes too little at a time to empty a jam,
-// follows: warehouse-10-20-10-2-1 with 900 agents goes from 206,729 to 115,468 in six seconds,
-// where it alone came from 204,322 to 197,747 in four. Prioritised planning mostly fails there:
-// after long_planning meetings it gets the ninth part of the work.
+// *First plan.* Prioritised planning has a head start: one attempt, of at most
+// planning_head_start*W. On instances that are not dense it ends within 1.5 W, with plans much
+// cheaper than those of LaCAM (LaCAM: 1.1 to 3.5 times the sum of individual costs). After the head
+// start, prioritised planning and LaCAM share the work equally until one of them has a plan. A
+// low-level call of prioritised planning that takes long is postponed and repeated with twice the
+// label limit, because a call that proves that an agent is enclosed can take longer than the tree
+// search needs for a small instance.
 //
-// The tree waits for that cheaper plan, but no longer than its root takes: that looks at all pairs
-// of agents, so it is taken to be as many meetings as go into the meeting's work by
-// meeting_of_root_work, long_planning at most.
+// *Both continue.* If LaCAM has a plan first (mostly within 2 W), LNS takes over that plan and
+// LaCAM's half of the work. Prioritised planning keeps the other half. If it finds a plan in the
+// end, that plan is mostly much cheaper. In the first round it replaces the current plan only if it
+// is cheaper. Measured on room-64-64-8, 100 agents, 300 tasks: prioritised planning 28,118 after a
+// work of 330,000; LaCAM 30,979 after 40,000, which LNS had reduced to 30,964 by then. In the first
+// round a plan adopted from another search does not end prioritised planning either. In later
+// rounds prioritised planning shares the work with the LNS of the previous round in the same way,
+// so no round waits for a plan that may never be found.
 //
-// The first order is by the agents' own costs, the cheapest first: an agent may not come to rest
-// where one before it still passes, so cheap agents planned late would wait for dear ones, while
-// these find ways around those that rest. Measured on maps of 64x64 cells and den312d, with 100
-// agents and 300 tasks: first plans 0.7-8 % above the sum of own costs; in random order 8-14 %, the
-// dearest first 12-18 %. (Those who must visit another's destination before it: 0.5 instead of
-// 0.2 % with 500 agents and 3,000 tasks in a warehouse.) Later rounds sort by costs with some
-// noise.
+// *Dense instances.* If LaCAM's plan costs much more than the sum of individual costs,
+// traffic-guided LaCAM (traffic_guided_lacam.cpp) continues from it, round by round, as long as it
+// finds cheaper plans. LNS follows, because it changes too few agents at a time to resolve a jam:
+// warehouse-10-20-10-2-1 with 900 agents improves from 206,729 to 115,468 in six seconds; LNS only
+// improved from 204,322 to 197,747 in four. Prioritised planning mostly fails there: once there is
+// a plan and prioritised planning has done long_planning*W, it gets 1/9 of the work
+// (others_to_planning).
+//
+// *Tree search.* The tree search waits for that cheaper plan, but no longer than its root takes.
+// The root examines all pairs of agents, so its work is estimated as min(long_planning,
+// W/meeting_of_root_work)*W.
+//
+// *Agent order.* The first order is by individual cost, lowest first. An agent may not come to rest
+// where an agent planned earlier still passes, so low-cost agents planned late would wait for
+// high-cost ones, whereas high-cost agents find paths around resting ones. Measured on maps of
+// 64x64 cells and den312d, 100 agents, 300 tasks: first plans cost 0.7 to 8 % more than the sum of
+// individual costs; in random order 8 to 14 %, highest cost first 12 to 18 %. Planning each agent
+// that must visit another agent's destination before that agent: 0.5 instead of 0.2 % (500 agents,
+// 3,000 tasks, warehouse). Later rounds sort by cost with noise (order_spread).
+//
+// *Dual solutions* of the Lagrangian bound guide only LNS. A plan by prioritised planning with
+// penalties, or from the paths of the dual solution, is cheaper than one without (3,976 instead of
+// 4,246 for 150 agents on random-32-32-20), but LNS has found cheaper plans by then (3,830).
 #include "primal/primal_search.h"
 
 #include <algorithm>
@@ -75,7 +82,7 @@ class PrimalSearch::Impl {
       : problem_(problem),
         tuning_(tuning),
         seed_(seed),
-        // (Its agents move into each other's places.)
+        // LaCAM lets an agent enter a place in the step in which another agent leaves it.
         may_configure_(techniques.has(Technique::kConfigurations) && problem.instance.may_follow()),
         may_guide_(may_configure_),
         agents_(problem.instance.agent_count()),
@@ -122,7 +129,8 @@ class PrimalSearch::Impl {
   }
 
  private:
-  // Far from what is proven, prices say little about what will be dear.
+  // Is the best plan within priced_gap of `bound`? With a larger gap, a dual solution predicts
+  // poorly which places and times are congested.
   bool is_near(ScaledCost bound) const {
     return static_cast<double>(best_) * Penalties::kUnit <=
            (1 + tuning_.priced_gap) * static_cast<double>(bound);
@@ -132,7 +140,7 @@ class PrimalSearch::Impl {
   void advance(const Limits& limits);
   void meet(const Limits& limits);
   void begin_round(bool first);
-  // Is there other work than prioritised planning?
+  // Whether LaCAM or LNS can use part of the work.
   bool is_raced() const { return improving_ || may_configure_; }
   bool planning_is_due() const;
   void plan(const Limits& limits);
@@ -150,43 +158,43 @@ class PrimalSearch::Impl {
   const Tuning tuning_;
   const std::uint64_t seed_;
   bool may_configure_;
-  bool may_guide_;  // once
+  bool may_guide_;  // LaCAM with traffic; at most once per search
   const int agents_;
   Random random_;
   PrimalLowLevel router_;
-  PlannedPaths paths_;    // the plan that is being improved, or none
-  PlannedPaths planned_;  // by prioritised planning
+  PlannedPaths paths_;    // the plan that LNS improves, or no paths
+  PlannedPaths planned_;  // of prioritised planning
   PrioritizedPlanning planning_;
   std::unique_ptr<LacamWithRestarts> configurations_;
-  std::unique_ptr<TrafficGuidedLacam> guided_;  // while it makes cheaper plans
+  std::unique_ptr<TrafficGuidedLacam> guided_;  // while it finds cheaper plans
   LargeNeighborhoodSearch neighborhoods_;
 
-  AgentIndex met_ = 0;  // agents from here on have not been met
-  Cost own_costs_ = 0;  // of those met
+  AgentIndex met_ = 0;  // agents from here on have no individual path yet
+  Cost own_costs_ = 0;  // of agents with an individual path
   bool own_costs_are_least_ = true;
   std::int64_t meeting_work_ = 0;
-  std::optional<Plan> adopted_;  // before all agents were met
+  std::optional<Plan> adopted_;  // adopted before all individual paths were known
   bool improving_ = false;       // there is a plan in paths_
   Cost best_ = kInfiniteCost;
-  std::vector<Path> best_paths_;             // of that, if it was found here; by agent
-  std::vector<std::int64_t> best_editions_;  // by agent: of paths_
-  Cost told_ = kInfiniteCost;                // the best one that was returned, or adopted
+  std::vector<Path> best_paths_;  // by agent: paths of the plan of cost best_, if found here
+  std::vector<std::int64_t> best_editions_;  // by agent: edition in paths_ that best_paths_ holds
+  Cost told_ = kInfiniteCost;                // cost of the best plan returned or adopted
   std::int64_t work_when_told_ = 0;
   PlanSource source_ = PlanSource::kPrioritizedPlanning;
   PlanSource source_of_paths_ = PlanSource::kPrioritizedPlanning;
   std::int64_t steps_ = 0;
   std::int64_t joint_steps_ = 0;
   std::int64_t work_at_last_plan_ = 0;
-  std::int64_t rounds_in_vain_ = 0;  // of guided search
+  std::int64_t rounds_in_vain_ = 0;  // of traffic-guided LaCAM, without a cheaper plan
   std::int64_t guided_work_ = 0;
   std::int64_t guided_joint_steps_ = 0;
-  // Of the round under way.
+  // State of the current round.
   std::int64_t round_began_ = 0;  // in work
   bool first_round_ = true;
-  bool planning_now_ = false;  // prioritised planning is under way
-  std::int64_t patience_ = 0;  // with a call of prioritised planning, while it is raced
+  bool planning_now_ = false;  // prioritised planning is in progress
+  std::int64_t patience_ = 0;  // label limit of a low-level call, while is_raced()
   std::int64_t planning_work_ = 0;
-  std::int64_t other_work_ = 0;  // since it began
+  std::int64_t other_work_ = 0;  // work of LaCAM and LNS in this round
   Cost round_best_ = kInfiniteCost;
   std::int64_t round_improved_ = 0;       // in work
   std::int64_t round_improved_step_ = 0;  // in neighbourhoods
@@ -222,8 +230,8 @@ void PrimalSearch::Impl::keep_best() {
   }
 }
 
-// To make a plan of paths and to check it takes about as long as a third of its cost in work: where
-// many agents improve by small steps it is told now and then.
+// Making and checking a plan from its paths takes about one third of the plan's cost, in units of
+// work. So when many agents improve by small steps, only some of the plans are returned.
 bool PrimalSearch::Impl::may_tell(const Limits& limits) const {
   return source_ != PlanSource::kLns || optimal() || limits.stop_requested() ||
          work() - work_when_told_ >= tuning_.work_to_tell * best_;
@@ -297,7 +305,7 @@ void PrimalSearch::Impl::take_over_planned() {
   planning_now_ = false;
   configurations_.reset();
   if (first_round_ && improving_ && planned_.cost() >= paths_.cost()) return planned_.clear();
-  guided_.reset();  // such plans are the cheaper ones
+  guided_.reset();  // prioritised planning mostly finds cheaper plans
   paths_.clear();
   for (AgentIndex agent = 0; agent < agents_; ++agent) paths_.put(agent, planned_.take(agent));
   source_of_paths_ = PlanSource::kPrioritizedPlanning;
@@ -352,7 +360,7 @@ void PrimalSearch::Impl::guide(const Limits& limits) {
   if (outcome == Outcome::kStopped || rounds_in_vain_ >= tuning_.guided_rounds) guided_.reset();
 }
 
-// The cheapest orders, as meeting the agents has found them.
+// The sequences of the individual paths, with distinct last stops (separate_ends()).
 std::vector<Sequence> PrimalSearch::Impl::own_orders() const {
   std::vector<Sequence> orders;
   for (AgentIndex agent = 0; agent < agents_; ++agent)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The primal side: valid plans, ever cheaper, from heuristics that prove nothing.
+// The primal search: heuristics that find valid plans of decreasing cost and prove nothing.
 #pragma once
 
 #include <cstdint>
@@ -17,53 +17,58 @@
 
 namespace grove::detail {
 
-// Prioritised planning, raced by configuration search where it takes long (LaCAM; only with
-// Technique::kConfigurations), then large neighbourhood search on the plan, from other seeds when
-// that stalls (primal_search.cpp tells how). In small steps, so that one thread can do other things
-// in between. The same seed, steps, adoptions and prices make the same plans, limits aside. For one
-// thread.
+// Finds a first plan by prioritised planning, interleaved with LaCAM where that takes long (only
+// with Technique::kConfigurations). Then it improves the plan by large neighbourhood search, and
+// restarts with another agent order when that stalls. The schedule is at the head of
+// primal_search.cpp. Works in small steps, so that one thread can do other work in between.
+// Deterministic: the same seed, steps, adopted plans and dual solutions make the same plans, limits
+// excepted. One thread at a time.
 class PrimalSearch {
  public:
   struct Counts {
     std::int64_t steps = 0;
-    std::int64_t attempts = 0;       // of prioritised planning, failed ones included
-    std::int64_t joint_steps = 0;    // of the configuration search
-    std::int64_t neighborhoods = 0;  // destroyed and replanned
+    std::int64_t attempts = 0;       // of prioritised planning, including failed ones
+    std::int64_t joint_steps = 0;    // of LaCAM
+    std::int64_t neighborhoods = 0;  // LNS iterations
     std::int64_t low_level_calls = 0;
     std::int64_t low_level_expanded = 0;
   };
 
-  // All must outlive this; `stops` may be shared with other searches of the same thread.
+  // All references must outlive this. `stops` may be shared with other searches of the same thread.
   PrimalSearch(const Problem& problem, AgentStopsCache& stops, std::uint64_t seed,
                Techniques techniques = Techniques::defaults(), const Tuning& tuning = {});
   ~PrimalSearch();
 
-  // Goes on for about a millisecond (or one call of the low level, where that is longer). Returns a
-  // plan if it is cheaper than any returned or adopted before; source() then tells how it was
-  // found. (Of large plans that become cheaper time after time not each.)
+  // Continues for about a millisecond, or for one low-level call if that takes longer. Returns a
+  // plan if it is cheaper than all plans returned or adopted before; source() then specifies how it
+  // was found. When large neighbourhood search improves a large plan in many small steps, only some
+  // of the better plans are returned.
   std::optional<Plan> step(const Limits& limits);
   PlanSource source() const;
 
-  // From now on looks for plans cheaper than `plan`, a valid one, beginning in its neighbourhood.
-  // Ignored unless it is cheaper than all before.
+  // Searches from now on for plans cheaper than `plan`, which must be valid, and begins in its
+  // neighbourhood. Ignored unless `plan` is cheaper than all plans before.
   void adopt(const Plan& plan);
 
-  // From now on knows what is dear where and when. Null, or the same as before: nothing new.
-  // Not heeded while the best plan costs much more than those who made them have proven.
+  // Sets the dual solution that guides large neighbourhood search. Ignored if it is null, if it is
+  // the current one, or if the best plan costs more than 1 + priced_gap times its bound.
   void use(std::shared_ptr<const DualSolution> prices);
 
-  // The cheapest plan returned or adopted, or about to be returned.
+  // Cost of the cheapest plan that was returned or adopted or is about to be returned. Returns
+  // nullopt if there is none.
   std::optional<Cost> best_cost() const;
-  // A plan is likely soon: the first, while the configuration search has neither given up nor begun
-  // anew; or after its plan a much cheaper one, while prioritised planning has not taken long.
-  // Never without the configuration search.
+  // Whether a plan is likely soon. Without a plan: LaCAM has not failed and has made fewer than
+  // joint_steps_to_plan steps. With a plan, a much cheaper one is expected while prioritised
+  // planning of the first round, or traffic-guided LaCAM, has done less work than the root of the
+  // tree takes (estimate: head of primal_search.cpp). Always false without LaCAM.
   bool expects_plan() const;
-  // Every agent is on a path as short as if it were alone: there is nothing left to do.
+  // Whether every agent has a path that is optimal without the other agents, so that the plan is
+  // optimal.
   bool optimal() const;
 
-  // Work done so far; see search/work.h.
+  // Work done so far (unit: search/work.h).
   std::int64_t work() const;
-  // The work after which the last plan was returned.
+  // Value of work() when the last better plan was found.
   std::int64_t work_at_last_plan() const;
   Counts counts() const;
 

@@ -1,26 +1,31 @@
 // SPDX-License-Identifier: MIT
-// Prioritised planning (Erdmann and Lozano-Perez 1987; Silver 2005). An agent planned later takes
-// the paths before it for walls, their rest at the end included, and may not come to rest where one
-// of them still passes. So it fails when the walls shut it in, which is mostly the doing of a few
-// agents that were planned too late: the one that fails is moved to the front and all is begun
-// again (so did Bennewitz et al. 2002 with random exchanges; measured, this succeeds on far
-// more crowded maps than random orders). Agents that shut out each other would take turns for ever:
-// after as many failures as there are agents the order is drawn anew.
+// Prioritised planning (Erdmann and Lozano-Perez 1987; Silver 2005). Paths of agents planned
+// earlier are obstacles, including their rest at the end, and an agent may not come to rest where
+// one of these still passes. So an agent fails if the obstacles enclose it, mostly because of a few
+// agents that were planned too late.
 //
-// Where what is there took long it is not given up for one failure: only those that are in the way
-// of the agent's own best path are planned anew, after it, unless it fails again. The plans are a
-// little dearer: on room-64-64-8 with 100 agents and 300 tasks, scenarios 2, 3 and 5, by 0.4 to
-// 3 %, and found no sooner there.
+// *Order after a failure.* The agent that fails is moved to the front, and planning restarts
+// (Bennewitz et al. 2002 do so with random exchanges; measured, moving to the front succeeds on far
+// denser instances than random orders). Two agents that enclose each other would alternate for
+// ever, so after as many failures as there are agents the order is shuffled.
 //
-// To prove that an agent is shut in can take a hundred times what any path took. So a call that
-// takes many times the most that one with a path took counts as failed - of more after each draw,
-// lest an agent that is hard to plan be taken for one that cannot be.
+// *Partial re-planning.* If the current order took many labels (planning_labels_to_keep), a first
+// failure of an agent does not restart it. Only the agents that block its individual path are
+// planned again, after it. If the agent fails again, planning restarts. The plans cost a little
+// more: on room-64-64-8, 100 agents, 300 tasks, scenarios 2, 3 and 5, 0.4 to 3 %, and they are
+// found no sooner there.
 //
-// The heuristic knows nothing of those planned before. Where the agent's way is long and they are
-// many, so are the labels with f below the cost of its best path: the last agents of 1,000 on a map
-// of 256x256 cells took a million each, all before them a thousand or two. So the best path is
-// looked for with some patience only, then any, greedily. Mostly it is an agent whose destination
-// others pass long after its own cost.
+// *Label limit.* A proof that an agent is enclosed can take a hundred times the labels of any path
+// found. So a call fails after many times the maximum labels of a call with a path. The limit
+// doubles whenever there have been as many failures as agents, so that an agent that is hard to
+// plan is not taken for one that cannot be planned.
+//
+// *Greedy search.* The heuristic ignores the agents planned before. With a long distance and many
+// such agents, many labels have f below the cost of the best path: on a map of 256x256 cells with
+// 1,000 agents, the last agents took a million labels each, all before them a thousand or two. So
+// the exact search has a lower label limit; after it, a greedy search (kGreedPercent) looks for any
+// path. Mostly it is needed for an agent whose destination others pass long after the agent's
+// individual cost.
 #include "primal/prioritized_planning.h"
 
 #include <algorithm>
@@ -97,7 +102,8 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
   return Outcome::kWorking;
 }
 
-// Who is in the way of the agent's own best path loses its path, and comes after it.
+// Removes the paths of the agents that block the agent's individual path, and moves these agents
+// behind it in the order.
 void PrioritizedPlanning::remove_blocking_agents(AgentIndex agent) {
   has_failed_[agent] = true;
   std::vector<bool> gone(order_.size(), false);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A first plan: one agent after the other.
+// Prioritised planning: finds a first plan, one agent after the other.
 #pragma once
 
 #include <cstdint>
@@ -13,32 +13,33 @@
 
 namespace grove::detail {
 
-// Plans the agents in an order, each around those before it, and begins again in another order when
-// one of them has no path. The argument for the other order is at the head of the .cpp.
+// Plans the agents in an order, each around the agents before it. Restarts with another order when
+// an agent finds no path. How the order is chosen is at the head of the .cpp. One thread at a time.
 class PrioritizedPlanning {
  public:
   enum class Outcome : std::uint8_t {
     kWorking,
     kDone,     // all agents have a path
-    kPutOff,   // the call took too long
-    kStopped,  // a limit struck; step() may be called again
+    kPutOff,   // the call reached `patience`
+    kStopped,  // a limit was reached; step() may be called again
   };
 
-  // All must outlive this.
+  // All references must outlive this.
   PrioritizedPlanning(const World& world, PrimalLowLevel& router, PlannedPaths& paths,
                       Random& random, const Tuning& tuning)
       : world_(world), router_(router), paths_(paths), random_(random), tuning_(tuning) {}
 
-  // Takes all paths away and begins; agents must have been met.
+  // Removes all paths and starts with `order`. All agents must have individual paths
+  // (PrimalLowLevel::meet()).
   void begin(std::vector<AgentIndex> order);
-  // Plans one agent. A call of the low level that takes more than `patience` labels is put off to
-  // the next step, where it begins again. Not to be called after kDone.
+  // Plans one agent. A low-level call of more than `patience` labels is postponed to the next step,
+  // where it starts again. Must not be called after kDone.
   Outcome step(const Limits& limits,
                std::int64_t patience = std::numeric_limits<std::int64_t>::max());
 
-  // Orders begun so far.
+  // Orders started so far.
   std::int64_t attempts() const { return attempts_; }
-  // Agents that had no path, since begin().
+  // Failures to find a path since begin().
   std::int64_t failures() const { return failures_; }
 
  private:
@@ -57,13 +58,13 @@ class PrioritizedPlanning {
   std::vector<AgentIndex> order_;
   std::size_t next_ = 0;  // in order_
   std::int64_t attempts_ = 0;
-  bool greedily_ = false;             // the next call looks for any path
-  std::int64_t labels_of_order_ = 0;  // since this order was begun
-  std::vector<bool> has_failed_;      // by AgentIndex, since then
+  bool greedily_ = false;             // the next call searches greedily
+  std::int64_t labels_of_order_ = 0;  // labels since this order was started
+  std::vector<bool> has_failed_;      // by AgentIndex: failed in this order
   std::int64_t failures_ = 0;         // since begin()
-  std::int64_t labels_of_exact_ = 0;  // of all calls that found the best path
-  std::int64_t found_exactly_ = 0;    // such calls
-  std::int64_t labels_of_found_ = 0;  // the most that a call with a path took
+  std::int64_t labels_of_exact_ = 0;  // labels of all exact calls that found a path
+  std::int64_t found_exactly_ = 0;    // number of these calls
+  std::int64_t labels_of_found_ = 0;  // maximum labels of a call that found a path
   Path path_;
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Agents wait for a path in a queue. The first one gets the best path around those that have one;
-// if there is none, or none is found in many times the labels that it needs alone, those in the way
-// of its own best path lose theirs and join the queue at its end. Two that shut out each other
-// would take turns for ever: so after many failures an agent also pushes away those that it would
-// run into if it were late, and the number of failures is limited.
+// Repair by a queue of agents without a path. The first agent in the queue gets the best path
+// around the agents that have one. If there is no path, or none is found within the label limit,
+// the agents that block its individual path lose theirs and are appended to the queue. Two agents
+// that enclose each other would alternate for ever. So after many failures an agent also removes
+// those with which it would collide if it were late, and the number of failures is limited.
 #include "primal/repair.h"
 
 #include <algorithm>
@@ -18,9 +18,9 @@ namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kFailuresPerAgent = 4;
-constexpr std::int64_t kLabels = 10'000;   // a call may take so many,
-constexpr std::int64_t kLabelsOfOwn = 50;  // and so many for each step of the agent's own path
-constexpr int kLatest = 8;                 // steps late that those are looked for who give way
+constexpr std::int64_t kLabels = 10'000;   // label limit of a call: this many,
+constexpr std::int64_t kLabelsOfOwn = 50;  // and this many per step of the individual path
+constexpr int kLatest = 8;  // maximum delay, in steps, in the search for blocking agents
 
 class Repair {
  public:
@@ -75,7 +75,7 @@ class Repair {
     };
     for_each_blocking_agent(world, paths_.reservations(), agent, router_.individual_path(agent), 0,
                             note);
-    // Again and again: it is more than those.
+    // After many failures, removing these agents is not sufficient.
     if (failures > agents_ / 2 || gone.empty())
       for_each_blocking_agent(world, paths_.reservations(), agent, router_.individual_path(agent),
                               static_cast<Time>(1 + random_.below(kLatest)), note);

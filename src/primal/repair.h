@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A plan from the paths of another one that some agents cannot keep.
+// Repair: a plan from the paths of another plan that some agents cannot keep.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,17 @@
 
 namespace grove::detail {
 
-// Plans the agents without a path (an empty one in `paths`, by AgentIndex) around the others, whose
-// paths must be valid for `problem` and collide with none. Where there is no way around, those in
-// the way of what an agent would do alone give way and are planned anew themselves: as few agents
-// as need be get other paths. Proves nothing, and gives up after some tries: no plan, as when a
-// limit strikes. The same seed makes the same plan, limits aside.
+// Plans the agents without a path around the others. `paths`, by AgentIndex: empty for these
+// agents; the other paths must be valid for `problem` and must not collide. If an agent finds no
+// path, the agents that block its individual path are re-planned too, so that few agents get other
+// paths. Heuristic: returns nullopt after a number of failures, which proves nothing, or if a limit
+// was reached. Deterministic: the same seed makes the same plan, limits excepted.
 std::optional<Plan> repaired(const Problem& problem, AgentStopsCache& stops,
                              const std::vector<Path>& paths, std::uint64_t seed,
                              const Limits& limits);
 
-// What the agents would cost if each were alone: no plan costs less. Of those met before a limit
-// strikes, the others counting nothing.
+// Sum of lower bounds on the agents' individual costs: no plan costs less. Agents that are not
+// planned before a limit is reached count 0.
 Cost sum_of_individual_costs(const Problem& problem, AgentStopsCache& stops, const Limits& limits);
 
 }  // namespace grove::detail

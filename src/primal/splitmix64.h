@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Dice for tie-breaking: fast, and the same everywhere.
+// SplitMix64: fast random numbers for tie-breaking, identical on every machine.
 #pragma once
 
 #include <cstdint>

@@ -1,25 +1,29 @@
 // SPDX-License-Identifier: MIT
-// Priority inheritance alone pushes the weaker of two agents ahead through a corridor, into a dead
-// end at worst, though that one wants to go the other way. The remedy is that of LaCAM* (Okumura,
-// IJCAI 2023), after Push and Swap (Luna and Bekris, IJCAI 2011): the stronger one backs off to the
-// next junction and pulls the other along; there one can step aside. To see whether, two walks
-// along cells with one way on:
+// *Problem.* In a corridor, priority inheritance only pushes the agent of lower priority ahead, at
+// worst into a dead end, although it heads the other way. The remedy is the swap of LaCAM*
+// (Okumura, IJCAI 2023), after Push and Swap (Luna and Bekris, IJCAI 2011): the agent of higher
+// priority backs off to the next junction and pulls the other along; there one of them can step
+// aside. Two walks along cells with one way on decide whether to swap.
 //
-// Needed: the pusher pushes the other before it as long as that takes it nearer to its next stop.
-// At a junction the other can step aside: no need. Where the pusher comes to rest, the other may
-// want to get out behind it: they have to pass. And if the way ends, with the pusher still wanting
-// to go there (others have their stops where somebody rests), the other must come out first.
+// *Is a swap needed?* The pusher pushes the other agent ahead as long as that brings the pusher
+// nearer to its next stop.
+// - At a junction the other can step aside: no swap.
+// - If the pusher may rest where the walk ends, and the other heads for where the pusher comes
+//   from, they must pass.
+// - If the corridor ends and the pusher still heads there (an agent may have its stops where
+//   another one rests), the other must come out first.
 //
-// Possible: pulled backwards, they come to a junction before they come round to where they were.
+// *Is a swap possible?* Yes if the two, pulled backwards, reach a junction before they return to
+// their starting cell. In both walks a dead end of one cell where an agent rests does not count as
+// a way on.
 //
-// A dead end of one cell where somebody rests makes no junction.
+// *When an agent backs off.* For an agent ahead of it that has not chosen yet, so has lower
+// priority; for an agent behind it that must pass; and for an agent behind it that heads for the
+// end of the corridor, only if that agent has chosen, so has higher priority. Otherwise two agents
+// that both head there would let each other pass for ever.
 //
-// An agent backs off for one ahead of it that has not chosen yet, so is weaker; for one behind that
-// has to pass; and for one behind that wants to get to the end of the way only if that one has
-// chosen, so is stronger: else two that both want to go there would let each other pass for ever.
-//
-// All of this takes it that every step can be undone and that a state is its place: only in plain
-// worlds.
+// *Condition.* Every step can be undone, and a state is its place: only in plain worlds
+// (World::is_plain()).
 #include "primal/swaps.h"
 
 namespace grove::detail {
@@ -71,14 +75,14 @@ bool Swaps::is_possible(Pair pair, std::span<const Standing> from) const {
   return false;
 }
 
-// Is this a dead end of one cell where somebody rests?
+// Is this a dead end of one cell where an agent rests?
 bool Swaps::is_plugged(State cell, std::span<const Standing> from) const {
   const AgentIndex there = now_[cell];
   return world_.neighbors(cell).size() == 1 && there != kNobody &&
          agents_[there].may_rest(from[there].stage, cell);
 }
 
-// How many ways lead on from the front, and one of them.
+// The number of ways on from the front; `way` becomes one of them.
 int Swaps::ways_on(Pair pair, std::span<const Standing> from, State& way) const {
   int ways = 0;
   for (State cell : world_.neighbors(pair.front)) {

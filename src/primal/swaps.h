@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two agents that meet where neither can step aside.
+// Swaps: two agents that must exchange places in a corridor.
 #pragma once
 
 #include <span>
@@ -9,30 +9,31 @@
 
 namespace grove::detail {
 
-// Sees which pairs of neighbours must change places and where. A view of one configuration.
+// Finds pairs of neighbouring agents that must swap, and where they can. A view of one
+// configuration. One thread at a time.
 class Swaps {
  public:
   static constexpr AgentIndex kNobody = -1;
 
-  // All must outlive this. `now`: by place, who is there. `to`: by agent, the next state; kNoState
-  // while it is not decided.
+  // All references must outlive this. `now`: by place, the agent that is there. `to`: by agent, the
+  // next state, or kNoState while it is not decided.
   Swaps(const World& world, const std::vector<VisitStages>& agents,
         const std::vector<AgentIndex>& now, const std::vector<State>& to)
       : world_(world), agents_(agents), now_(now), to_(to) {}
 
-  // Whom `agent`, which would like to move to `wish`, should pull along backwards instead, so that
-  // the two can change places at a junction behind it; kNobody. A partner whose next cell is
-  // decided cannot be pulled: then backing off is all there is to do.
+  // The agent that `agent`, which prefers to move to `wish`, should pull along backwards instead,
+  // so that the two can swap at a junction behind `agent`. Returns kNobody if there is none. A
+  // partner whose next state is decided cannot be pulled; then `agent` only backs off.
   AgentIndex partner(AgentIndex agent, State wish, std::span<const Standing> from) const;
 
  private:
   enum class Need : std::uint8_t {
     kNone,
-    kToPass,     // each wants to go where the other comes from
-    kToGetAtEnd  // one wants to go on, the other has nowhere to go
+    kToPass,     // each heads for where the other comes from
+    kToGetAtEnd  // one heads further on, the other is at a dead end
   };
 
-  // An agent on `back` that faces one on `front`.
+  // An agent on `back` faces an agent on `front`.
   struct Pair {
     State back;
     State front;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Agents that all take a shortest way jam where these meet, and a jam costs more than the way
-// around it. What tells where is the traffic of a plan, waits included: so distances in which it is
-// dear make the next plan (guided_search.cpp). (Guidance by traffic: Chen, Harabor, Li and Stuckey,
-// AAAI 2024, who count ways that are planned beforehand; a plan's own traffic does as well,
-// measured, and knows of waits.) Moves against a stream are dearer than those along it, so streams
-// part.
+// Agents that all take a shortest path jam where the paths meet, and a jam costs more than a
+// detour. The traffic of a plan, waits included, shows where: the next plan
+// (traffic_guided_lacam.cpp) uses distances in which traffic costs more. Source: Chen, Harabor, Li
+// and Stuckey, AAAI 2024, who count paths that are planned beforehand. Measured, a plan's own
+// traffic does as well, and it includes waits. Moves against a stream cost more than moves along
+// it, so opposite streams separate.
 #include "primal/traffic.h"
 
 #include <algorithm>
@@ -53,7 +53,7 @@ void Traffic::set_prices() {
     }
 }
 
-// Calls visit(before, price) for each state that a move leads from to this one.
+// Calls visit(before, cost) for each state from which a move leads to `state`.
 template <class Visit>
 void Traffic::visit_before(State state, Visit visit) const {
   const auto states = world_.moves_to(state);
@@ -69,7 +69,7 @@ void Traffic::visit_before(State state, Visit visit) const {
   }
 }
 
-// Dijkstra with a bucket for each dearness, used again and again.
+// Dijkstra's algorithm with one bucket per cost modulo kBuckets.
 DistanceField Traffic::field(DistanceView distance) {
   DistanceField dearness(static_cast<std::size_t>(world_.state_count()), kNever);
   std::size_t left = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where many agents pass, and ways around it.
+// Traffic of plans, and distances that include its congestion costs.
 #pragma once
 
 #include <cstdint>
@@ -13,29 +13,31 @@
 
 namespace grove::detail {
 
-// Counts who is on a place and who moves from one to another, whenever that is, and makes distances
-// in which steps are the dearer the more traffic they go through, or against. For one thread.
+// Counts the visits of places and the moves between them, at any time, and computes distances in
+// which a step costs more the more traffic it meets, on the place or in the opposite direction. One
+// thread at a time.
 class Traffic {
  public:
-  // `world` and `tuning` must outlive this. `usual`: traffic of so much makes a step twice as dear,
-  // or more by the tuned numbers.
+  // `world` and `tuning` must outlive this. `defaults`: the amount of traffic that raises the cost
+  // of a step by traffic_there (traffic on the place) or traffic_against (in the opposite
+  // direction) times its cost without traffic.
   Traffic(const World& world, double defaults, const Tuning& tuning);
 
-  // What is known counts for so many times what it did.
+  // Multiplies all counts by `left`.
   void fade(double left);
   void add(const Path& path, double weight);
-  // From now on field() knows what was added.
+  // Computes the costs that field() uses from the current counts.
   void set_prices();
 
-  // The dearness of the cheapest way from every state to one that is 0 in `distance`; kNever where
-  // there is none. O(states).
+  // The least cost, congestion included, in units of 1 / kStep step, from every state to a state
+  // that is 0 in `distance`; kNever if there is no path. O(states).
   DistanceField field(DistanceView distance);
 
  private:
-  using Move = std::size_t;         // between places, by the first place
-  static constexpr Time kStep = 8;  // the price of a step without traffic
+  using Move = std::size_t;         // index of a move between places, grouped by its origin
+  static constexpr Time kStep = 8;  // cost of a step without traffic
   static constexpr double kMostDearness = 60;
-  static constexpr std::size_t kBuckets = 512;  // more than any price
+  static constexpr std::size_t kBuckets = 512;  // more than any edge cost
   static_assert(kStep * (1 + kMostDearness) < kBuckets);
 
   Move move(Place from, Place to) const;
@@ -46,9 +48,9 @@ class Traffic {
   const double usual_;
   const Tuning& tuning_;
   std::vector<Move> first_;       // by place
-  std::vector<double> there_;     // by place: steps that agents end there
+  std::vector<double> there_;     // by place: steps that end there
   std::vector<double> moving_;    // by move
-  std::vector<Time> price_back_;  // by move: the price of that in the other direction
+  std::vector<Time> price_back_;  // by move: cost of the reverse move
   std::vector<std::vector<State>> buckets_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a plan to one in which agents keep out of each other's way: by configuration search again.
+// Traffic-guided LaCAM: improves a plan by LaCAM with distances that avoid the plan's congestion.
 #pragma once
 
 #include <cstdint>
@@ -18,29 +18,30 @@
 
 namespace grove::detail {
 
-// Goes round by round: the traffic of the plans so far makes distances, and a search by these makes
-// a plan. In slices as short as one likes. The same calls make the same plans, limits aside.
+// Works in rounds: the traffic of the plans so far gives distances, and LaCAM guided by these makes
+// the next plan. Slices may have any length. Deterministic: the same calls make the same plans,
+// limits excepted. One thread at a time.
 class TrafficGuidedLacam {
  public:
   enum class Outcome : std::uint8_t {
-    kFound,    // a round has ended with a plan(): the next one wants to learn
-    kFailed,   // without one
+    kFound,    // the round has ended with a plan(); call learn() before the next run()
+    kFailed,   // the round has ended without a plan
     kWorking,  // the slice is used up
-    kStopped,  // a limit struck, or so little memory is left that going on would make one strike
+    kStopped,  // a limit was reached, or so little memory is left that continuing would reach one
   };
 
-  // `orders` as for LacamWithRestarts. `problem` and `tuning` must outlive this. `mean_cost`: of
-  // an agent that is alone.
+  // `orders` as for LacamWithRestarts. `problem` and `tuning` must outlive this. `mean_cost`: mean
+  // individual cost of an agent.
   TrafficGuidedLacam(const Problem& problem, std::vector<Sequence> orders, double mean_cost,
                      std::uint64_t seed, const Tuning& tuning);
 
-  // Begins a round after the traffic of this plan, too.
+  // Adds the traffic of a plan and begins a round.
   void learn(const Plan& plan);
-  // To be called after learn(), and after kFailed, which begins another round.
+  // Continues the round; call learn() first. After kFailed it begins another round.
   Outcome run(const Limits& limits, std::int64_t slice);
 
   const Plan& plan() const { return plan_; }
-  // As that of a PrimalSearch.
+  // As PrimalSearch::work().
   std::int64_t work() const { return work_; }
   std::int64_t joint_steps() const { return joint_steps_; }
 
@@ -52,10 +53,10 @@ class TrafficGuidedLacam {
   const Problem& problem_;
   const Tuning& tuning_;
   std::vector<Sequence> orders_;
-  SplitMix64 dice_;  // the seeds
+  SplitMix64 dice_;  // generates the seeds
   Traffic traffic_;
-  std::int64_t learnt_ = 0;                       // plans
-  std::map<DistanceView, DistanceField> fields_;  // by the distances that they stand for
+  std::int64_t learnt_ = 0;                       // plans learnt
+  std::map<DistanceView, DistanceField> fields_;  // by the distances in steps that they replace
   std::map<DistanceView, DistanceField>::iterator next_field_;
   std::unique_ptr<Lacam> lacam_;
   std::int64_t steps_left_ = 0;

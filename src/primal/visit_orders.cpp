@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Agents without a destination must not all head for the same stop, nor for another's destination.
-// Which of them ends where is a matching of agents with cells, found by augmenting paths (Kuhn's
-// algorithm) that ask for the end of the cheapest sequence first.
+// Agents without a destination must not all head for the same last stop, nor for another agent's
+// destination. Their last stops are a matching of agents and cells, found by augmenting paths
+// (Kuhn's algorithm) that try the last stop of the cheapest sequence first.
 #include "primal/visit_orders.h"
 
 #include <algorithm>
@@ -34,7 +34,8 @@ std::optional<Sequence> cheapest_order(const CostMatrix& matrix, const Limits& l
   }
 }
 
-// Gives each agent without a destination a last stop of its own that is nobody's destination.
+// Gives each agent without a destination, if possible, a last stop that is no other agent's last
+// stop or destination.
 class LastStops {
  public:
   LastStops(const Instance& instance, std::vector<Sequence>& orders)

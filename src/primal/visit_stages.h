@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One agent that heads for its stops in a given order and counts those it meets before.
+// Visit stages: an agent that heads for its stops in a given order and also counts stops met
+// earlier.
 #pragma once
 
 #include <algorithm>
@@ -13,23 +14,24 @@
 
 namespace grove::detail {
 
-// By which agents find their ways, instead of by the distances in steps.
+// Distance fields that guide agents in place of distances in steps.
 struct LegFields {
   std::vector<DistanceView> to_task;  // by TaskIndex
   std::vector<DistanceView> to_rest;  // by AgentIndex, as DistanceFields::to_rest
 };
 
-// What an agent has still to visit, as numbered stages, made when first met. For one thread.
+// The sets of stops left of one agent, as numbered stages that are created when first met. One
+// thread at a time.
 class VisitStages {
  public:
   using Stage = std::int32_t;
 
-  // `problem` must outlive this, and the fields of `guide`; null: steps. Throws
-  // std::invalid_argument if `order` is no complete sequence.
+  // `problem` and the fields of `guide` must outlive this. `guide` == nullptr: distances in steps.
+  // Throws std::invalid_argument if `order` is not a complete sequence.
   VisitStages(const Problem& problem, AgentIndex agent, Sequence order,
               const LegFields* guide = nullptr);
 
-  // Everything is left but what is on the start.
+  // The first stage: all stops are left except one at the start.
   Stage first() { return after(all_, start_); }
   // The stage of an agent of `stage` once it is in `state`.
   Stage after(Stage stage, State state) {
@@ -39,7 +41,8 @@ class VisitStages {
         return after_stop(stage, static_cast<int>(stop));
     return stage;
   }
-  // May an agent of this stage go there? Not to work on what is done or not its own.
+  // May an agent of this stage enter the state? It may not work on a task that it has completed or
+  // that is not its own.
   bool may_enter(Stage stage, State state) const {
     const World& world = instance_.world();
     if (!world.is_working(state)) return true;
@@ -47,14 +50,14 @@ class VisitStages {
     return stop < std::ssize(stops()) && (entries_[stage].left >> stop & 1) != 0;
   }
 
-  // From `state` through all that is left, in order, to where it is to rest, by the guide or in
-  // steps; kNever or more when there is no way.
+  // Distance from `state` through all stops left, in order, to the place of rest, by the guide or
+  // in steps; kNever or more if there is no path.
   Time distance(Stage stage, State state) const {
     const Entry& entry = entries_[stage];
     return entry.to_next[state] + entry.onward;
   }
 
-  // From now on there is no guide.
+  // Replaces the guide by distances in steps.
   void go_by_steps();
 
   // May an agent of this stage rest in `state`?
@@ -63,14 +66,14 @@ class VisitStages {
   }
 
  private:
-  // Where there is to go.
+  // Distance fields to all targets.
   struct Targets {
     std::vector<DistanceView> to_stop;
     DistanceView to_rest;
   };
   struct Entry {
     StopSet left;
-    DistanceView to_next;  // the first stop left; the place to rest if none is
+    DistanceView to_next;  // to the first stop left, or to the place of rest
     Time onward;           // from there through all others; less than kNever
   };
 
