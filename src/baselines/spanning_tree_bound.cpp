@@ -18,7 +18,7 @@ Time SpanningTreeBound::operator()(StopSet left, int at) {
   return known_[number];
 }
 
-// Prim's algorithm, from any goal on.
+// Prim's algorithm, from any goal.
 Time SpanningTreeBound::tree(StopSet left, int at) {
   outside_.clear();
   if (at != kNowhere) outside_.push_back(at);
