@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Counts of active constraints. "A rest P T" implies "B bar P T inf" for each other agent B. These
-// are not counted one by one, but by two counts: `others`, the number of such constraints on any
-// agent, and `own`, the number of those on the agent itself. (Agents outside the proof are
-// included. That is harmless: no lemma that the proof may name has a constraint on them.)
+// Counts of active constraints. A side "A rest P T" implies "B bar P T inf" for each other agent B.
+// These are not counted one by one, but by two counts per (P, T): `others`, the number of active
+// sides "rest P T" of any agent, and `own`, the number of those of one agent. "B bar P T inf" is
+// implied if `others` exceeds the `own` of B. (So it is also implied for agents outside the proof.
+// That is harmless: no lemma that the proof may name has a constraint on them.)
 #include "proof/active_constraints.h"
 
 #include "model/hash.h"

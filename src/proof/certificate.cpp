@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Makes a certificate in three passes.
 //
-// 1. Read all logs and compute for each node the bound that it proves: the maximum of the sum of
-// its agents' least costs, that sum with what lemmas add, and the lesser of the bounds of its two
-// branches (proof_records.h, split_tree.h).
+// 1. The first pass reads all logs and computes for each node the bound that it proves. This is the
+// maximum of the sum of its agents' least costs, that sum with what lemmas add, and the lesser of
+// the bounds of its two branches (proof_records.h, split_tree.h).
 //
-// 2. Descend from the root as far as the bound requires (proof_forest.h), and record the lemmas
-// that the leaves need. Of the lemmas that a leaf could name, drop one after another as long as the
-// rest suffices, beginning with those that no other leaf has needed yet.
+// 2. The second pass descends from the root as far as the bound requires (proof_forest.h), and
+// records the lemmas that the leaves need. Of the lemmas that a leaf could name, it drops one after
+// another as long as the rest suffices, beginning with those that no other leaf has needed yet.
 //
-// 3. Write.
+// 3. The third pass writes.
 //
 // Soundness does not depend on this code: a checker verifies the result.
 #include "proof/certificate.h"

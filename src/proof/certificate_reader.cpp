@@ -50,7 +50,7 @@ class Reader {
   }
 
  private:
-  // --- lines and words ---
+  // --- lines and tokens ---
 
   void take_line() {
     ++line_;
@@ -115,7 +115,7 @@ class Reader {
     return true;
   }
 
-  // --- numbers of things ---
+  // --- numbers ---
 
   std::int32_t small(std::string_view what, std::uint64_t below) {
     return static_cast<std::int32_t>(number(what, below));
@@ -154,7 +154,7 @@ class Reader {
     return static_cast<std::int64_t>(number("a price", static_cast<std::uint64_t>(kInfiniteCost)));
   }
 
-  // --- what lines say ---
+  // --- grammar ---
 
   void take_head() {
     take_line();
@@ -193,8 +193,8 @@ class Reader {
     using DemandKind = CertificateDemand::Kind;
     CertificateDemand demand;
     demand.agent = agent();
-    demand.kind = static_cast<DemandKind>(
-        one_of({"bar", "move", "norest", "rest", "pass", "stop", "nostop"}));
+    demand.kind =
+        static_cast<DemandKind>(one_of({"bar", "move", "norest", "rest", "pass", "stop", "nostop"}));
     switch (demand.kind) {
       case DemandKind::kVertexOrEdge:
         demand.p = place();
@@ -323,8 +323,7 @@ class Reader {
   LineStream lines_;
   const Instance* const instance_;
   CertificateVisitor& visitor_;
-  const std::uint64_t agents_, places_,
-      tasks_;                              // numbers of agents, places and tasks, or upper limits
+  const std::uint64_t agents_, places_, tasks_;  // numbers of these, or upper limits
   std::optional<std::string_view> words_;  // rest of the line; nullopt: at its end
   std::vector<LemmaNumber> named_;
   std::int64_t line_ = 0;

@@ -23,8 +23,8 @@ struct TrimmedCertificate {
 // theorem to `to`, which may equal `from`. The file is written completely or not at all, and
 // compressed if `from` was. If the certificate was valid, it still is. Reads the file three times.
 // Keeps in memory a byte for each split, all lemmas without their proofs, and the constraints that
-// are active at the current line. Throws InputError, also if this process holds more than `memory`
-// bytes meanwhile: a few compressed bytes can be any number of lines.
+// are active at the current line. Throws InputError, also if this process then holds more than
+// `memory` bytes: a few compressed bytes can be any number of lines.
 TrimmedCertificate trim_certificate(const std::filesystem::path& from,
                                     const std::filesystem::path& to,
                                     std::size_t memory = std::numeric_limits<std::size_t>::max());

@@ -16,7 +16,7 @@ class SplitTree {
   // `entries` must outlive this. value() stores in them what the nodes prove.
   explicit SplitTree(ProofEntries& entries) : entries_(entries) {}
 
-  // Returns the bound that the node proves if its agents cost `cost`.
+  // Returns the bound that the node proves if its agents' costs sum to `cost`.
   Cost value(ProofKey root, Cost cost);
 
   // Calls leaf(entry or nullptr) and split(entry) in the order of the certificate. nullptr: the

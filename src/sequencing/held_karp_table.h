@@ -17,7 +17,7 @@
 
 namespace grove::detail {
 
-inline constexpr int kMostTableStops = 26;  // 3.5 GB; no caller needs a larger table
+inline constexpr int kMostTableStops = 26;  // 3.5 GB of 16-bit entries; no caller needs more
 
 // Marks an unreachable state. Twice this value still fits, so no sum overflows; every true cost is
 // below it.

@@ -19,7 +19,7 @@ class OneTreeRelaxation {
     std::int64_t tree = 0;      // fixed point; all but the first and the last leg
     int nearest_to_end = 0;     // the stop with the cheapest last leg
     int second_to_end = 0;      // the stop with the next cheapest; the same if there is no other
-    std::int64_t last_leg = 0;  // their last legs
+    std::int64_t last_leg = 0;  // costs of these two last legs
     std::int64_t second_leg = 0;
   };
 
@@ -69,12 +69,10 @@ class OneTreeRelaxation {
 
   int stops_;
   int ports_;
-  std::vector<std::int64_t> costs_;  // in fixed point, laid out as the matrix
-  std::vector<std::int64_t> shift_;  // by row of the matrix
-  std::vector<std::int64_t>
-      legs_;  // from a row to a stop or the end: least over the ports of the stop
-  std::vector<std::int64_t>
-      edges_;  // from a stop or the start to a stop or the end: least over all ports
+  std::vector<std::int64_t> costs_;      // in fixed point, laid out as the matrix
+  std::vector<std::int64_t> shift_;      // by row of the matrix
+  std::vector<std::int64_t> legs_;       // from a row to a stop or the end, over its ports
+  std::vector<std::int64_t> edges_;      // the same from a stop or the start, over all ports
   std::vector<std::int64_t> apart_;      // between two stops, in the cheaper direction
   std::vector<std::int64_t> potential_;  // by stop, in fixed point
   std::vector<std::int64_t> weight_;     // edges between stops, both potentials added

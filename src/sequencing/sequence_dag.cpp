@@ -10,7 +10,7 @@
 // weaker b is available at no extra cost from the tree of S + v. About 95 % of the dropped states
 // are dropped by it, and no tree is built for their sets.
 //
-// *Claim: every state of a sequence that costs <= reach is kept.* Proof, by induction along the
+// *Invariant: every state of a sequence that costs <= reach is kept.* Proof, by induction along the
 // sequence: the predecessor of the state is kept, so g is at most the cost of the sequence up to
 // the state. b is at most the cost of its remainder. So g + b <= reach.
 //

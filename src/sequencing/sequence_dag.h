@@ -92,7 +92,7 @@ class SequenceDag {
   template <int kPorts>
   friend class SequenceDagBuilder;
 
-  // The states with the same set `left`: one per stop in `at`, ascending, at indices `first`, ....
+  // The states with the same set `left`: one per stop in `at`, ascending, from index `first` on.
   struct Node {
     StopSet left = 0;
     StopSet at = 0;
