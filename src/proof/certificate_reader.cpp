@@ -324,7 +324,7 @@ class Reader {
   const Instance* const instance_;
   CertificateVisitor& visitor_;
   const std::uint64_t agents_, places_, tasks_;  // numbers of these, or upper limits
-  std::optional<std::string_view> words_;  // rest of the line; nullopt: at its end
+  std::optional<std::string_view> words_;        // rest of the line; nullopt: at its end
   std::vector<LemmaNumber> named_;
   std::int64_t line_ = 0;
   std::uint64_t lemmas_ = 0;  // lemmas read so far
