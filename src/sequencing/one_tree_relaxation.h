@@ -72,7 +72,7 @@ class OneTreeRelaxation {
   std::vector<std::int64_t> costs_;      // in fixed point, laid out as the matrix
   std::vector<std::int64_t> shift_;      // by row of the matrix
   std::vector<std::int64_t> legs_;       // from a row to a stop or the end: least over its ports
-  std::vector<std::int64_t> edges_;      // the same from a stop or the start: least over its ports too
+  std::vector<std::int64_t> edges_;      // from a stop or the start: least over its ports too
   std::vector<std::int64_t> apart_;      // between two stops, in the cheaper direction
   std::vector<std::int64_t> potential_;  // by stop, in fixed point
   std::vector<std::int64_t> weight_;     // edges between stops, both potentials added
