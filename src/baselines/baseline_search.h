@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the low levels of published methods have in common: what they cannot do.
+// Base class of the low levels of published methods. It rejects queries that they do not support.
 #pragma once
 
 #include "planning/agent_planner.h"
@@ -12,7 +12,7 @@ class BaselineSearch : public AgentPlanner {
                    Path& path) final;
 
  private:
-  // A path through all of `stops`. The constraints are bars.
+  // Finds a path through all of `stops`. All constraints are vertex or edge constraints.
   virtual PathOutcome search(const AgentStops& stops, const PathQuery& query, const Limits& limits,
                              Path& path) = 0;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From one goal to the next: the lower level of HCBS and MGCBS.
+// Interface of the leg planners of HCBS and MGCBS: paths from one goal to the next.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@
 
 namespace grove::detail {
 
-// As many labels as their numbers can tell apart; who needs more throws std::bad_alloc, as one does
-// who is refused memory.
+// Maximum number of labels: all that a 32-bit number can identify. A search that needs more throws
+// std::bad_alloc, as if memory were refused.
 inline constexpr std::size_t kMostLabels = std::numeric_limits<std::int32_t>::max();
 
-// What one agent's legs take. Workspace of one thread.
+// Finds the legs of one agent. One thread at a time.
 class Legs {
  public:
   Legs() = default;
@@ -27,25 +27,26 @@ class Legs {
   Legs& operator=(const Legs&) = delete;
   virtual ~Legs() = default;
 
-  // Turns to one agent and what is demanded of it. All are used until the next call.
+  // Starts with one agent and its constraints. All arguments must stay valid until the next call.
   virtual void begin(const AgentStops& stops, const SafeIntervals& intervals,
                      std::span<const Constraint> constraints) = 0;
 
-  // A safe interval of the cell of a goal: of a stop, or, with number stops.count(), of the
+  // A safe interval of the cell of a goal. The goal is a stop, or, with number stops.count(), the
   // destination.
   struct Target {
     int goal;
     int slot;
   };
-  // The first time from `time` on at which an agent that is on `from` at `time` can be in the
-  // target, on whatever way; kNever: there is none, or a limit struck (which `limits` then says).
+  // Returns the first time >= `time` at which an agent that is on `from` at `time` can be in the
+  // target, over all paths. Returns kNever if there is none, or if a limit was reached (then
+  // limits.stop_requested()).
   virtual Time arrival(Cell from, Time time, Target target, const Limits& limits) = 0;
 
-  // Appends where the agent is at time + 1, time + 2, ... on such a way. Only after arrival() has
-  // found it, under the same constraints.
+  // Appends the agent's cells at time + 1, time + 2, ... on such a path. Call only after arrival()
+  // has found it, under the same constraints.
   virtual void append(Cell from, Time time, Target target, Path& path) = 0;
 
-  // Labels expanded so far.
+  // Number of labels expanded so far.
   virtual std::int64_t expanded() const = 0;
 };
 

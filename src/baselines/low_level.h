@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The low levels of published methods, to compare with: CBS with one of them in place of Grove's
-// own and no technique beside is that method.
+// Low levels of published methods, for comparison. CBS with one of them instead of Grove's own low
+// level, and without any other technique, is that method.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace grove::detail {
 
-// What plans a single agent that chooses the order of its tasks.
+// Planner of a single agent that chooses the order of its tasks.
 enum class LowLevel : std::uint8_t {
   kOwn,                 // Grove's: FreeOrderSipp
   kVisitedSets,         // Optimal-CBS: A* over (cell, time, tasks visited); visited_set_search.cpp
@@ -20,10 +20,13 @@ enum class LowLevel : std::uint8_t {
                         // a forest of trees; time_interval_forest.cpp
 };
 
-// `world` must outlive what is returned. All but Grove's own know no constraints but bars, no
-// reservations and no class but that of all sequences (std::invalid_argument), heed nothing of a
-// query but constraints and cutoff, and throw std::bad_alloc for want of memory. The stops of one
-// agent must be the same at every call.
+// Makes the planner. `world` must outlive it. All except kOwn
+// - support only vertex and edge constraints, no reservations, and only the class of all sequences
+//   (otherwise std::invalid_argument),
+// - ignore everything in a query except constraints and cutoff,
+// - throw std::bad_alloc if memory is insufficient.
+//
+// The stops of one agent must be the same in every call.
 std::unique_ptr<AgentPlanner> make_agent_planner(LowLevel low_level, const World& world);
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Space-time step by step, as A* over (cell, time) sees it.
+// Successors in space-time, for A* over (cell, time).
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,11 @@
 
 namespace grove::detail {
 
-// How often the searches look at the limits: every tenth of a millisecond or so.
+// Number of expansions between two checks of the limits: about a tenth of a millisecond.
 inline constexpr std::int64_t kExpansionsPerPoll = 512;
 
-// From this time on nothing changes any more: a cell or a move is barred then and at every later
-// time, or never again.
+// Returns a time from which on the constraints are constant: a cell or move is then either
+// forbidden at this and every later time, or never again.
 inline Time settled_from(std::span<const Constraint> constraints) {
   Time settled = 0;
   for (const Constraint& c : constraints)
@@ -23,7 +23,8 @@ inline Time settled_from(std::span<const Constraint> constraints) {
   return settled;
 }
 
-// The slot of `cell` at `time`; -1: barred. Not with other constraints than bars.
+// Returns the slot of `cell` at `time`, -1 if the cell is forbidden then. Only with vertex and edge
+// constraints.
 inline int slot_at(const SafeIntervals& intervals, Cell cell, Time time) {
   if (intervals.unconstrained(cell)) return cell;
   for (int slot = intervals.first_slot(cell); slot < intervals.end_slot(cell); ++slot)
@@ -31,7 +32,7 @@ inline int slot_at(const SafeIntervals& intervals, Cell cell, Time time) {
   return -1;
 }
 
-// Calls reach(cell) for every cell where an agent that is on `from` at `time` may be one step
+// Calls reach(cell) for every cell where an agent that is on `from` at `time` can be one step
 // later.
 template <class Reach>
 void for_each_step(const World& world, const SafeIntervals& intervals, Cell from, Time time,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A* over (cell, time). From the time on at which nothing changes any more, all times are one, of
-// which the earliest is kept: so the space is finite, and a leg that does not exist is found not
-// to. f = max(time + distance, begin of the target): consistent.
+// Space-time A* for one leg, over (cell, time). From the time on at which the constraints are
+// constant, all times are one state, which keeps the earliest time. So the space is finite, and the
+// search proves that a leg does not exist. f = max(time + distance, begin of the target), which is
+// consistent.
 #include "baselines/space_time_legs.h"
 
 #include <algorithm>
@@ -41,7 +42,8 @@ void SpaceTimeLegs::append(Cell from, Time time, Target target, Path& path) {
   }
 }
 
-// The label of the first moment in the target; kNone: there is none, or a limit struck.
+// Returns the label of the earliest arrival in the target, kNone if there is none or a limit was
+// reached.
 std::int32_t SpaceTimeLegs::find(Cell from, Time time, Target target, const Limits& limits) {
   forget();
   first_ = std::min(time, settled_);

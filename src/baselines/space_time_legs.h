@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bottom of HCBS (Surynek, AAAI 2021): a space-time A* for every single leg.
+// Leg planner of HCBS (Surynek, AAAI 2021): one space-time A* per leg.
 #pragma once
 
 #include <cstdint>
@@ -41,13 +41,13 @@ class SpaceTimeLegs : public Legs {
   BucketQueue queue_;
   std::int64_t expanded_ = 0;
 
-  // Of begin().
+  // Set by begin().
   const AgentStops* stops_ = nullptr;
   const SafeIntervals* intervals_ = nullptr;
   Time settled_ = 0;
 
-  // Of the leg under way.
-  Time first_ = 0;             // of the first row
+  // Of the leg in progress.
+  Time first_ = 0;             // time of the first row
   std::vector<Label> labels_;  // by time - first_, then cell; the last row is all times from
                                // settled_ on
   std::uint32_t stamp_ = 0;

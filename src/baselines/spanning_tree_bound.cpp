@@ -18,7 +18,7 @@ Time SpanningTreeBound::operator()(StopSet left, int at) {
   return known_[number];
 }
 
-// Prim's algorithm, from any goal on.
+// Prim's algorithm, from any goal.
 Time SpanningTreeBound::tree(StopSet left, int at) {
   outside_.clear();
   if (at != kNowhere) outside_.push_back(at);
@@ -27,7 +27,7 @@ Time SpanningTreeBound::tree(StopSet left, int at) {
   nearest_.assign(outside_.size(), kNever);
   Time total = 0;
   for (std::size_t last = outside_.size(); last > 1; --last) {
-    const int added = outside_[last - 1];  // to the tree
+    const int added = outside_[last - 1];  // joins the tree
     std::size_t next = 0;
     for (std::size_t i = 0; i + 1 < last; ++i) {
       nearest_[i] = std::min(nearest_[i], distance(added, outside_[i]));

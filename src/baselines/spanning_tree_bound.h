@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far an agent has to go at least: the heuristic of the baselines.
+// Minimum-spanning-tree heuristic of the baselines.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,10 @@
 
 namespace grove::detail {
 
-// The least spanning tree of the goals that an agent has yet to visit, by shortest distances: a
-// path through all of them is a spanning tree, so none is shorter. Consistent: a leg from i to j
-// and the tree from j on span what the tree from i does. Remembers every set it was asked for.
+// Weight of the minimum spanning tree of the goals that an agent has yet to visit, by shortest
+// distances. A lower bound, because a path through all of them contains a spanning tree.
+// Consistent: a leg from i to j together with the tree from j spans what the tree from i spans.
+// Caches the weight of every set.
 class SpanningTreeBound {
  public:
   static constexpr int kNowhere = -1;
@@ -19,8 +20,8 @@ class SpanningTreeBound {
   // `stops` must outlive this.
   explicit SpanningTreeBound(const AgentStops& stops);
 
-  // Over the stops `left`, the destination if there is one, and the stop `at` if it is one; kNever
-  // if they cannot be connected.
+  // The tree over the stops `left`, the destination if there is one, and the stop `at` unless it is
+  // kNowhere. Returns kNever if they cannot be connected.
   Time operator()(StopSet left, int at);
 
  private:
@@ -28,10 +29,10 @@ class SpanningTreeBound {
   Time distance(int from, int to) const;
 
   const AgentStops& stops_;
-  const int destination_;            // its number among the goals; kNowhere: there is none
-  std::vector<StopSetIndex> index_;  // by `at` + 1: into known_
+  const int destination_;  // number of the destination among the goals; kNowhere: there is none
+  std::vector<StopSetIndex> index_;  // by `at` + 1: indices into known_
   std::vector<Time> known_;
-  std::vector<int> outside_;  // the tree, and how far each is from it
+  std::vector<int> outside_;  // goals outside the tree, and (nearest_) their distances to it
   std::vector<Time> nearest_;
 };
 

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The time-interval space forest of MGCBS. For one safe interval of a goal, how many steps does it
-// take at least to be there, from each cell at each time? A breadth-first search backwards, in
-// pieces (cell, an interval of times) of equal answers: from a piece of k steps at times [b, e],
-// every neighbor - and the cell itself, by waiting - takes k + 1 steps at the times of [b - 1, e -
-// 1] at which it is safe and the move not barred, where nothing shorter is known. So each piece is
-// settled when it is made, pieces come in order of their steps, and where no constraint is near a
-// cell is one piece. A tree does not depend on when the leg begins nor on what was visited before:
-// all legs of one low-level call to the same target share it.
+// The time-interval space forest of MGCBS.
 //
-// Waiting for an interval that begins late makes a piece for every time step before, as in the
-// published code: on each cell one for each step up to that begin.
+// *Problem.* For one safe interval of a goal: the least number of steps to reach it, from each cell
+// at each time.
+//
+// *Method.* Backward breadth-first search in pieces (cell, interval of times) of equal answers.
+// From a piece of k steps at times [b, e], each neighbor, and the cell itself by waiting, takes k +
+// 1 steps at those times of [b - 1, e - 1] at which it is safe, the move is not forbidden, and
+// nothing shorter is known. So each piece is final when it is made, pieces are made in order of
+// their steps, and a cell without a constraint nearby is one piece. A tree depends neither on the
+// time when the leg begins nor on what was visited before, so all legs of one low-level call to the
+// same target share it.
+//
+// *Limits.* Waiting for an interval that begins late makes one piece per cell for every time step
+// before its begin, as in the published code.
 #include "baselines/time_interval_forest.h"
 
 #include <algorithm>
@@ -21,7 +25,7 @@ namespace {
 
 constexpr std::size_t kPiecesPerPoll = 512;
 
-// One step earlier.
+// Returns `time` - 1, or kNever for kNever.
 Time before(Time time) {
   return time == kNever ? kNever : time - 1;
 }
@@ -56,7 +60,7 @@ void TimeIntervalForest::append(Cell from, Time time, Target target, Path& path)
   }
 }
 
-// Null: a limit struck.
+// Returns the tree of the target. Returns nullptr if a limit was reached.
 const TimeIntervalForest::Tree* TimeIntervalForest::tree_to(Target target, const Limits& limits) {
   std::int32_t& number = tree_of_[target.slot];
   if (number == kNone) {
@@ -85,7 +89,7 @@ bool TimeIntervalForest::grow(Tree& tree, int slot, const Limits& limits) {
   return true;
 }
 
-// From a neighbor, when the move is not barred.
+// Covers the neighbor `from` at the times at which the move is not forbidden.
 void TimeIntervalForest::reach_by_move(Tree& tree, Cell from, std::int32_t next) {
   const Piece piece = tree.pieces[next];
   const Time end = before(piece.end);
@@ -103,7 +107,7 @@ void TimeIntervalForest::reach_by_move(Tree& tree, Cell from, std::int32_t next)
   cover(tree, from, begin, end, next);
 }
 
-// Makes pieces of what is still open in these times.
+// Makes pieces for the times of [begin, end] that no piece covers yet.
 void TimeIntervalForest::cover(Tree& tree, Cell cell, Time begin, Time end, std::int32_t next) {
   if (begin > end) return;
   if (first_gap_[cell] == kUnseen) open_gaps(cell);
@@ -120,7 +124,7 @@ void TimeIntervalForest::cover(Tree& tree, Cell cell, Time begin, Time end, std:
       continue;
     }
     tree.pieces.push_back({cell, std::max(begin, g.begin), std::min(end, g.end), steps, next});
-    if (g.begin < begin) {  // what is left in front
+    if (g.begin < begin) {  // a part before `begin` remains
       gaps_[gap].end = begin - 1;
       previous = gap;
       if (g.end > end) {
@@ -128,7 +132,7 @@ void TimeIntervalForest::cover(Tree& tree, Cell cell, Time begin, Time end, std:
         gaps_[gap].next = static_cast<std::int32_t>(gaps_.size()) - 1;
         return;
       }
-    } else if (g.end > end) {  // behind
+    } else if (g.end > end) {  // a part after `end` remains
       gaps_[gap].begin = end + 1;
       return;
     } else {
@@ -162,7 +166,8 @@ void TimeIntervalForest::sort_pieces(Tree& tree) const {
               });
 }
 
-// The piece that holds this time; null: the target cannot be reached from there.
+// Returns the piece of `cell` that contains `time`, nullptr if the target cannot be reached from
+// there.
 const TimeIntervalForest::Piece* TimeIntervalForest::find(const Tree& tree, Cell cell,
                                                           Time time) const {
   const auto first = tree.by_cell.begin() + tree.first_of[cell];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The bottom of MGCBS (Tang et al., IJCAI 2024): one tree of time intervals for each goal's safe
-// interval, which answers for every leg to it.
+// Leg planner of MGCBS (Tang et al., IJCAI 2024): one tree of time intervals for each safe interval
+// of a goal, used for every leg to it.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace grove::detail {
 
-// The essay is at the head of time_interval_forest.cpp.
+// Described in time_interval_forest.cpp.
 class TimeIntervalForest : public Legs {
  public:
   // `world` must outlive this.
@@ -23,8 +23,8 @@ class TimeIntervalForest : public Legs {
   std::int64_t expanded() const override { return expanded_; }
 
  private:
-  // Whoever is on `cell` at a time in [begin, end] needs `steps` steps to the target, the first of
-  // them into the piece `next`.
+  // An agent that is on `cell` at a time in [begin, end] needs `steps` steps to the target, the
+  // first of them into the piece `next`.
   struct Piece {
     Cell cell;
     Time begin;
@@ -34,17 +34,17 @@ class TimeIntervalForest : public Legs {
   };
   struct Tree {
     std::vector<Piece> pieces;           // by steps
-    std::vector<std::int32_t> by_cell;   // pieces, by cell and begin
-    std::vector<std::int32_t> first_of;  // by cell: where its pieces begin in by_cell
+    std::vector<std::int32_t> by_cell;   // pieces, sorted by cell and begin
+    std::vector<std::int32_t> first_of;  // by cell: index of its first piece in by_cell
   };
-  // Times at which a move is barred, by arrival.
+  // Arrival times at which a move is forbidden.
   struct BarredMove {
     Cell to;
     Cell from;
     Time begin;
     Time end;
   };
-  // Safe times of a cell that are in no piece yet.
+  // Safe times of a cell that no piece covers yet.
   struct Gap {
     Time begin;
     Time end;
@@ -65,14 +65,14 @@ class TimeIntervalForest : public Legs {
   const World& world_;
   std::int64_t expanded_ = 0;
 
-  // Of begin().
+  // Set by begin().
   const SafeIntervals* intervals_ = nullptr;
   std::vector<BarredMove> barred_moves_;  // by (to, from, begin)
-  std::vector<Tree> trees_;               // those in use first
+  std::vector<Tree> trees_;               // the first used_ are in use
   std::size_t used_ = 0;
-  std::vector<std::int32_t> tree_of_;  // by slot: its tree, if it is grown
+  std::vector<std::int32_t> tree_of_;  // by slot: its tree, or kNone
 
-  // Of the tree being grown.
+  // Of the tree under construction.
   std::vector<Gap> gaps_;
   std::vector<std::int32_t> first_gap_;  // by cell
 };

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Optimal-CBS (the first baseline of the paper, section V; "CBS + A*" in Tang et al. 2024): the low
-// level is one A* over (cell, time, tasks left). A task is visited as soon as the agent is on it:
-// that is free and takes away no continuation. The search is exact for that alone; all there is to
-// show is
+// Low level of Optimal-CBS (the first baseline of the paper, section V; "CBS + A*" in Tang et al.
+// 2024): one A* over (cell, time, tasks left).
 //
-// - *The heuristic.* The way to the nearest task left, and from there a path through all that is
-//   left (and the destination): at least the least spanning tree of these. A step changes the
-//   distance by one at most, and visiting task i, where the distance is 0, replaces the tree by
-//   the one without i, to which an edge from i to the nearest one left adds i: consistent. When
-//   nothing is left: the way to the destination, or to any own task.
-// - *The end.* On the destination, or without one on any own task, where nothing bars the agent
-//   later.
-// - *Finitely many states.* From the time on at which no constraint changes any more, all times are
-//   one, of which the earliest is kept. So an agent without a path is found to have none.
+// A task is visited as soon as the agent is on it. This costs nothing and excludes no continuation,
+// so it keeps the search exact. What remains to be shown:
+//
+// - *Heuristic.* The distance to the nearest task left, and from there a path through all that is
+//   left (and the destination), which is at least their minimum spanning tree. Consistent: a step
+//   changes the distance by at most one. Visiting task i, where the distance is 0, replaces the
+//   tree by the tree without i, and adding an edge from i to the nearest task left to the latter
+//   connects i again. If nothing is left: the distance to the destination, or to any own task.
+// - *End.* On the destination, or, if there is none, on any own task, where no constraint forbids
+//   the agent to stay for ever.
+// - *Finitely many states.* From the time on at which the constraints are constant, all times are
+//   one state, which keeps the earliest time. So the search proves that an agent has no path.
 #include "baselines/visited_set_search.h"
 
 #include <algorithm>
@@ -89,7 +90,7 @@ void VisitedSetSearch::reach(Cell cell, Time time, StopSet left, std::int32_t pa
               {.slot = static_cast<std::int32_t>(id), .time = time});
 }
 
-// From there on, at least.
+// Lower bound on the cost from there.
 Time VisitedSetSearch::least_cost(Cell cell, StopSet left) {
   if (left == 0 && stops_->destination()) return stops_->to_rest(cell);
   Time nearest = kNever;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The low level of Optimal-CBS: A* over (cell, time, tasks visited).
+// Low level of Optimal-CBS: A* over (cell, time, tasks visited).
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace grove::detail {
 
-// The essay is at the head of visited_set_search.cpp.
+// Described in visited_set_search.cpp.
 class VisitedSetSearch : public BaselineSearch {
  public:
   // `world` must outlive this.
@@ -45,11 +45,11 @@ class VisitedSetSearch : public BaselineSearch {
   BucketQueue queue_;
   std::int64_t expanded_ = 0;
 
-  // Of the call under way.
+  // Of the call in progress.
   const AgentStops* stops_ = nullptr;
   SpanningTreeBound* bound_ = nullptr;
   Time settled_ = 0;
-  StopSetIndex sets_;   // numbers the sets met
+  StopSetIndex sets_;   // numbers of the sets found
   StopSetIndex index_;  // (number of the set, time, cell) as one key: into labels_
   std::vector<Label> labels_;
 };

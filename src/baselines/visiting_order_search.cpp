@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: MIT
-// In which order does one agent visit its goals? An A* whose labels are (goals left, the goal that
-// it stands on, the safe interval in which it does), each with the earliest time known; an edge is
-// a leg, whose time the lower level tells (legs.h). The heuristic is the least spanning tree of
-// what is left.
+// A* over the visiting orders of one agent. A label is (goals left, goal that the agent stands on,
+// safe interval in which it stands there), with the earliest known time. An edge is a leg, whose
+// duration the leg planner returns (legs.h). The heuristic is the minimum spanning tree of the
+// goals left.
 //
-// As published, the middle level of HCBS (Surynek, AAAI 2021) has one label for (goals left, goal)
-// and takes each leg's earliest arrival. That is neither optimal nor complete: whoever arrives
-// early may be caught in front of a bar that a later arrival waits out elsewhere. Tang et al.
-// (2024) see this and make the goal's safe interval part of the label: their MGCBS. Both are exact
-// here, with the labels of MGCBS, and differ in how legs are found.
+// *Source.* As published, the middle level of HCBS (Surynek, AAAI 2021) has one label per (goals
+// left, goal) and uses each leg's earliest arrival. This is neither optimal nor complete: an agent
+// that arrives early may be trapped before a constraint begins that an agent arriving later avoids
+// by waiting elsewhere. Tang et al. (2024) observe this and make the goal's safe interval part of
+// the label: their MGCBS. Here both methods are exact, with the labels of MGCBS, and differ only in
+// how legs are found.
 //
-// Why one time per label is enough: inside a safe interval the agent may wait, so whatever a later
-// arrival does, an earlier one does after waiting. Why all legs may start from a goal: cut a path
-// where it is on its goals, once on each, in any order that these moments allow; each piece is a
-// leg between two of them. A leg may pass other goals, which are then visited once more, or are
-// counted there by another order. So the agent's best path is a chain of legs; and every chain is a
-// path.
+// *Claim: one time per label is enough.* Inside a safe interval the agent may wait, so an earlier
+// arrival can do, after waiting, whatever a later one does.
 //
-// The end. With a destination, the leg to it comes when no stop is left. Without, the agent rests
-// on a stop of its own; let it be counted last. So the last goal must be reached in an interval in
-// which it may stay for ever, and all that matters of others is that they are reached.
+// *Claim: it is enough to start each leg from a goal.* Cut a path where it is on its goals, once on
+// each, in any order that these moments allow: each piece is a leg between two of them. A leg may
+// pass other goals. These are then visited once more, or another order counts them there. So the
+// agent's best path is a sequence of legs, and every sequence of legs is a path.
+//
+// *End.* With a destination, the leg to it comes when no stop is left. Without one, the agent rests
+// on a stop of its own, which is counted last. So the last goal must be reached in an interval in
+// which the agent may stay for ever. The other goals only have to be reached.
 #include "baselines/visiting_order_search.h"
 
 #include <algorithm>
@@ -39,7 +41,7 @@ PathOutcome VisitingOrderSearch::search(const AgentStops& stops, const PathQuery
   return run(query.cutoff, limits, path);
 }
 
-// False when there is plainly no path.
+// Returns false if the start is forbidden at time 0, so that there is no path.
 bool VisitingOrderSearch::prepare(const AgentStops& stops,
                                   std::span<const Constraint> constraints) {
   stops_ = &stops;
@@ -119,7 +121,7 @@ void VisitingOrderSearch::expand(std::int32_t id, const Limits& limits) {
   if (left == 0 && !ends_anywhere) go_to(stops_->count(), 0, id, true, limits);
 }
 
-// The legs to one goal. `to_rest`: it is the last.
+// Adds the legs to one goal. `to_rest`: it is the last goal.
 void VisitingOrderSearch::go_to(int goal, StopSet left, std::int32_t from, bool to_rest,
                                 const Limits& limits) {
   const std::int32_t row = row_of(left);

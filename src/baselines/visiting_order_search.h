@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A* over visiting orders: the middle level of HCBS and MGCBS.
+// Middle level of HCBS and MGCBS: A* over visiting orders.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace grove::detail {
 
-// The essay is at the head of visiting_order_search.cpp.
+// Described in visiting_order_search.cpp.
 class VisitingOrderSearch : public BaselineSearch {
  public:
   // `world` must outlive this.
@@ -42,8 +42,8 @@ class VisitingOrderSearch : public BaselineSearch {
   bool is_finish(std::int32_t id) const;
   void write_path(std::int32_t finish, Path& path);
 
-  // A label is a row, what is left to visit, and a column, the target it stands on; column 0 is the
-  // start.
+  // A label is a row (the set of stops left) and a column (the target that the agent stands on).
+  // Column 0 is the start.
   std::int32_t row_of(StopSet left);
   StopSet left_of(std::int32_t id) const { return lefts_[id / columns()]; }
   int column_of(std::int32_t id) const { return id % columns(); }
@@ -59,7 +59,7 @@ class VisitingOrderSearch : public BaselineSearch {
   BucketQueue queue_;
   std::int64_t expanded_ = 0;
 
-  // Of the call under way.
+  // Of the call in progress.
   const AgentStops* stops_ = nullptr;
   std::vector<Legs::Target> targets_;  // by column
   std::vector<int> first_target_;      // by goal: its targets are [first, next goal's first)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// "A rest P T" brings "B bar P T inf" for each other agent. They are not counted one by one: by
-// `others`, how often anybody rests so, and `own`, how often the agent itself does. (For agents of
-// whom the proof is not, too: of those no lemma that it may name demands anything.)
+// Counts of active constraints. A side "A rest P T" implies "B bar P T inf" for each other agent B.
+// These are not counted one by one, but by two counts per (P, T): `others`, the number of active
+// sides "rest P T" of any agent, and `own`, the number of those of one agent. "B bar P T inf" is
+// implied if `others` exceeds the `own` of B. (So it is also implied for agents outside the proof.
+// That is harmless: no lemma that the proof may name has a constraint on them.)
 #include "proof/active_constraints.h"
 
 #include "model/hash.h"
@@ -37,7 +39,7 @@ bool ActiveConstraints::has(const CertificateDemand& demand) const {
 }
 
 bool ActiveConstraints::has_side(const CertificateDemand& side) const {
-  // One of a lemma has brought nothing for others.
+  // A "rest" of a lemma implies nothing for other agents, so it does not count here.
   if (side.kind == Kind::kRest) return times(own(side.agent, side.p, side.begin)) > 0;
   return has(side);
 }
@@ -47,7 +49,7 @@ bool ActiveConstraints::is_of(const CertificateDemand& demand,
   if (side.kind == Kind::kRest && is_for_ever(demand))
     return demand.p == side.p && demand.begin == side.begin && demand.agent != side.agent;
   if (side.p != kSomeGoal) return demand == side;
-  // What nothing else demands must be of the goal.
+  // A constraint that nothing else imposes must be that on the goal.
   return demand.kind == Kind::kNoRest && demand.agent == side.agent && demand.end == side.end &&
          !has(demand);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is demanded at a place in a proof, as the lines above it tell (docs/proof.md, section 4).
+// Constraints that are active at a place in a proof, given by the lines above it (docs/proof.md,
+// section 4).
 #pragma once
 
 #include <cstdint>
@@ -9,24 +10,26 @@
 
 namespace grove::detail {
 
-// A side of "later" demands a rest on a goal that only the instance knows: here on no place.
+// A side of "later" forbids its agent to rest on its goal, which only the instance contains. Here
+// that constraint has the place kSomeGoal.
 inline constexpr std::int32_t kSomeGoal = -1;
 CertificateDemand demand_of(const CertificateLate& side);
 
 class ActiveConstraints {
  public:
-  // Of a lemma.
+  // Adds a constraint of a lemma.
   void add(const CertificateDemand& demand) { ++counts_[demand]; }
-  // A side of a split, with what it brings for other agents.
+  // Adds a side of a split, with the constraints that it implies for other agents.
   void assume(const CertificateDemand& side) { count(side, 1); }
   void undo(const CertificateDemand& side) { count(side, -1); }
   void clear() { counts_.clear(); }
 
-  // If not, it may still be demanded by a side of "later".
+  // Whether `demand` is active. If it returns false, a side of "later" may still impose it.
   bool has(const CertificateDemand& demand) const;
-  // Nothing more would be demanded with this side.
+  // Whether `side` would add no constraint.
   bool has_side(const CertificateDemand& side) const;
-  // Does this side demand it, where these are in force without the side? Of a proof that holds.
+  // Whether `side` imposes `demand`, if *this holds the constraints that are active without the
+  // side. For valid proofs only.
   bool is_of(const CertificateDemand& demand, const CertificateDemand& side) const;
 
  private:

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Three walks. The first reads all that was written down and finds for each node what it proves:
-// its agents' least costs, or those with what lemmas add, or the lesser of what its two sides
-// prove (written_down.h, split_tree.h). The second goes down from the root as far as the bound asks
-// for (proof_forest.h), and notes which lemmas the leaves need: of those that a leaf could name, it
-// leaves out one after the other for as long as the rest are enough, the ones that no other leaf
-// has needed yet first. The third writes.
+// Makes a certificate in three passes.
 //
-// Nothing here has to be right for what is proven: a checker sees to that.
+// 1. The first pass reads all logs and computes for each node the bound that it proves. This is the
+// maximum of the sum of its agents' least costs, that sum with what lemmas add, and the lesser of
+// the bounds of its two branches (proof_records.h, split_tree.h).
+//
+// 2. The second pass descends from the root as far as the bound requires (proof_forest.h), and
+// records the lemmas that the leaves need. Of the lemmas that a leaf could name, it drops one after
+// another as long as the rest suffices, beginning with those that no other leaf has needed yet.
+//
+// 3. The third pass writes.
+//
+// Soundness does not depend on this code: a checker verifies the result.
 #include "proof/certificate.h"
 
 #include <fmt/format.h>
@@ -26,7 +31,7 @@
 namespace grove::detail {
 namespace {
 
-// Notes which lemmas are needed.
+// Collects the lemmas that are needed.
 class Choosing : public ForestVisitor {
  public:
   explicit Choosing(Cost bound) : bound_(bound) {}
@@ -117,8 +122,8 @@ class Making {
   }
 
  private:
-  // There was no search. Why is not written down, so whoever wants to know looks at all that the
-  // agents can do.
+  // Whether the instance was infeasible without any search. The reason is not logged, so the
+  // certificate says `joint`: a checker searches all joint paths.
   bool is_evidently_infeasible(Cost claimed) const {
     return claimed >= kInfiniteCost && written_.trees.empty();
   }

@@ -11,26 +11,26 @@
 
 namespace grove::detail {
 
-// Of a certificate that was written.
+// Statistics of a written certificate.
 struct Certificate {
-  Cost bound = 0;  // what it proves; kInfiniteCost: there is no plan
+  Cost bound = 0;  // the proven lower bound; kInfiniteCost: there is no plan
   std::int64_t splits = 0;
   std::int64_t leaves = 0;
   std::int64_t lemmas = 0;
   std::int64_t bytes = 0;
-  bool by_joint_search = false;  // nothing but `joint`: a checker does all the search again
+  bool by_joint_search = false;  // only `joint`: a checker repeats the whole search
 };
 
-// Makes a certificate of what was written down in these files (proof_parts.h), for a bound of
-// `claimed` or, where they do not have the reasons for that, of as much as they have; and of no
-// more than it takes: of the tree and of the lemmas what that bound needs. Written whole or not at
-// all, compressed. Throws InputError. Holds about a hundred bytes for each split and each bound
-// that was written down.
+// Makes a certificate from the proof logs `parts` (proof_parts.h). It proves the bound `claimed`,
+// or, if the logs do not suffice for that, the greatest bound that they prove. It contains only
+// those parts of the tree and of the lemmas that this bound needs. The compressed file is written
+// completely or not at all. Throws InputError. Uses about a hundred bytes of memory for each logged
+// split and bound.
 Certificate write_certificate(const Instance& instance,
                               std::span<const std::filesystem::path> parts, Cost claimed,
                               const std::filesystem::path& file);
 
-// The checksum by which a certificate names its instance (docs/proof.md, section 6).
+// Returns the checksum by which a certificate identifies its instance (docs/proof.md, section 6).
 std::uint64_t certificate_checksum(const Instance& instance);
 
 }  // namespace grove::detail

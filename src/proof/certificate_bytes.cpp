@@ -9,7 +9,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::string_view kZstd = "\x28\xB5\x2F\xFD";  // what is compressed begins with it
+constexpr std::string_view kZstd = "\x28\xB5\x2F\xFD";  // magic number of a zstd frame
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The file of a certificate, decompressed if need be.
+// Reads the file of a certificate and decompresses it if it is compressed.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ class CertificateBytes {
   // Throws InputError, as read() does.
   explicit CertificateBytes(const std::filesystem::path& path);
 
-  // Up to so many bytes; none at the end.
+  // Reads up to `size` bytes and returns their number, 0 at the end.
   std::size_t read(char* buffer, std::size_t size);
   bool compressed() const { return stream_.has_value(); }
 
@@ -26,7 +26,7 @@ class CertificateBytes {
 
   const std::filesystem::path path_;
   const FileDescriptor file_;
-  std::string first_;  // bytes of the file, of which these are not told yet
+  std::string first_;  // first bytes of the file, not yet returned by read()
   std::optional<ZstdDecompressor> stream_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A certificate under way into its file, which appears whole or not at all.
+// Writes a certificate to its file, which appears completely or not at all.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class CertificateOutput {
   CertificateOutput(const std::filesystem::path& file, bool compressed);
 
   void line(std::string_view text);
-  // To be called once, last. How many bytes the file has.
+  // Completes the file and returns its size in bytes. Call once, last.
   std::int64_t commit();
 
  private:
@@ -26,7 +26,7 @@ class CertificateOutput {
   AtomicFile file_;
   std::int64_t bytes_ = 0;
   std::optional<ZstdCompressor> compressor_;
-  std::string plain_;  // what is not compressed goes out in large pieces
+  std::string plain_;  // buffer that makes uncompressed writes large
 };
 
 }  // namespace grove::detail

@@ -17,7 +17,7 @@ namespace grove::detail {
 namespace {
 
 constexpr std::uint64_t kTimes = std::uint64_t{1} << 31;
-constexpr std::uint64_t kMostAgents = std::uint64_t{1} << 20;  // of an instance that is not known
+constexpr std::uint64_t kMostAgents = std::uint64_t{1} << 20;  // if there is no instance
 constexpr std::string_view kDigits = "0123456789abcdef";
 constexpr std::size_t kSumDigits = 16;
 
@@ -50,7 +50,7 @@ class Reader {
   }
 
  private:
-  // --- lines and words ---
+  // --- lines and tokens ---
 
   void take_line() {
     ++line_;
@@ -67,8 +67,8 @@ class Reader {
     words_ = lines_.line();
     visitor_.line(lines_.line());
   }
-  // Parted by one blank: two of them have an empty word between them, and what is behind the last
-  // word is no word.
+  // Words are separated by one blank. Two blanks have an empty word between them, and a blank at
+  // the end of the line is followed by an empty word.
   std::optional<std::string_view> next_word() {
     if (!words_) return std::nullopt;
     const std::string_view all = *words_;
@@ -95,7 +95,7 @@ class Reader {
     const auto found = next_word();
     if (found != expected) fail_at(found, fmt::format("'{}'", expected));
   }
-  // Its number among them.
+  // Takes one of `words` and returns its index.
   int one_of(std::initializer_list<std::string_view> words) {
     const auto found = next_word();
     const auto at = found ? std::ranges::find(words, *found) : words.end();
@@ -115,7 +115,7 @@ class Reader {
     return true;
   }
 
-  // --- numbers of things ---
+  // --- numbers ---
 
   std::int32_t small(std::string_view what, std::uint64_t below) {
     return static_cast<std::int32_t>(number(what, below));
@@ -127,7 +127,7 @@ class Reader {
     return static_cast<LemmaNumber>(number("the number of an earlier lemma", lemmas_));
   }
   std::int32_t time() { return small("a time", kTimes); }
-  // From when until when.
+  // A time interval: begin, end.
   void span(CertificateDemand& demand) {
     demand.begin = time();
     demand.end = take_inf() ? CertificateDemand::kForEver : small("a time or inf", kTimes);
@@ -154,7 +154,7 @@ class Reader {
     return static_cast<std::int64_t>(number("a price", static_cast<std::uint64_t>(kInfiniteCost)));
   }
 
-  // --- what lines say ---
+  // --- grammar ---
 
   void take_head() {
     take_line();
@@ -219,7 +219,7 @@ class Reader {
     return demand;
   }
 
-  // Behind the word "lemma"; and the first word of what comes after it.
+  // Takes the rest of a lemma after the word "lemma", and the line after its proof.
   void take_lemma() {
     const Cost proven = bound();
     std::vector<AgentIndex> whose{agent()};
@@ -245,13 +245,14 @@ class Reader {
     take_line();
   }
 
-  // Its first line is taken. As deep as it is long, so without recursion.
+  // Takes a proof whose first line is already taken. Proofs may be as deep as they are long, so
+  // there is no recursion.
   void take_proof_from_here() {
     for (std::int64_t open = 1 + step(); open > 0; open += step()) take_line();
     visitor_.proven();
   }
 
-  // By how much it changes the number of proofs that are still to come.
+  // Takes a step of a proof. Returns the change in the number of open subproofs.
   int step() {
     switch (one_of({"leaf", "split", "later", "joint", "prices"})) {
       case 0:
@@ -322,11 +323,11 @@ class Reader {
   LineStream lines_;
   const Instance* const instance_;
   CertificateVisitor& visitor_;
-  const std::uint64_t agents_, places_, tasks_;  // how many there are, or could be
-  std::optional<std::string_view> words_;        // what is left of the line; none: it has ended
+  const std::uint64_t agents_, places_, tasks_;  // numbers of these, or upper limits
+  std::optional<std::string_view> words_;        // rest of the line; nullopt: at its end
   std::vector<LemmaNumber> named_;
   std::int64_t line_ = 0;
-  std::uint64_t lemmas_ = 0;  // so far
+  std::uint64_t lemmas_ = 0;  // lemmas read so far
 };
 
 }  // namespace

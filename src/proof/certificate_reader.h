@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Certificates line by line: the grammar of docs/proof.md, section 3, checked strictly; not that
-// anything is proven.
+// Parser of certificates, line by line. Checks the grammar of docs/proof.md, section 3, strictly,
+// but not whether anything is proven.
 #pragma once
 
 #include <compare>
@@ -29,7 +29,7 @@ struct CertificateDemand {
   friend auto operator<=>(const CertificateDemand&, const CertificateDemand&) = default;
 };
 
-// "later": one of its sides.
+// One side of "later".
 struct CertificateLate {
   AgentIndex agent = 0;
   std::int32_t time = 0;
@@ -37,7 +37,7 @@ struct CertificateLate {
 
 using LemmaNumber = std::uint32_t;
 
-// Is told of each line, and then of what it says.
+// Callbacks: line() for each line, then the one for its content.
 class CertificateVisitor {
  public:
   virtual ~CertificateVisitor() = default;
@@ -45,7 +45,7 @@ class CertificateVisitor {
   virtual void line(std::string_view /*text*/) {}
   virtual void head() {}  // one of the first three lines
   virtual void following(bool /*may_follow*/) {}
-  // What comes up to proven() is its own.
+  // All callbacks up to proven() belong to this lemma.
   virtual void lemma(Cost /*bound*/, std::span<const AgentIndex> /*agents*/) {}
   virtual void demand(const CertificateDemand& /*of_lemma*/) {}
   virtual void theorem(Cost /*bound*/) {}
@@ -61,8 +61,8 @@ class CertificateVisitor {
   virtual void end() {}
 };
 
-// Of this instance, by its checksum and the numbers that occur; or of any, if there is none. Holds
-// no more than a line or two. Throws InputError, which names `file`.
+// Parses a certificate of `instance` (checks its checksum and that the numbers exist), or of any
+// instance if that is nullptr. Buffers only a line or two. Throws InputError, which names `file`.
 void read_certificate_lines(const std::string& file, ByteSource bytes, const Instance* instance,
                             CertificateVisitor& visitor);
 

@@ -30,7 +30,7 @@ std::string text_of(const std::filesystem::path& path) {
   return text;
 }
 
-// What of it is told beside its lines.
+// Collects all results except the lines.
 class Summary : public CertificateVisitor {
  public:
   explicit Summary(CertificateText& read) : read_(read) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Certificates as they are read: docs/proof.md, section 3.
+// Reads a whole certificate as text, for display: docs/proof.md, section 3.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@
 namespace grove::detail {
 
 struct CertificateText {
-  std::string lines;       // all of them, uncompressed, ended by LF
-  Cost bound = 0;          // of the theorem; kInfiniteCost: there is no plan
-  bool may_follow = true;  // false: it speaks of the instance without following
+  std::string lines;       // all lines, uncompressed, each ended by LF
+  Cost bound = 0;          // bound of the theorem; kInfiniteCost: there is no plan
+  bool may_follow = true;  // false: it is for the instance without following
 };
 
-// Of this instance, by its checksum and the numbers that occur; with at most so many splits, those
-// of lemmas included. That its lines are as the grammar has them is checked, strictly; not that
-// they prove anything. Throws InputError.
+// Reads a certificate of `instance` (checks its checksum and that the numbers exist) with at most
+// `most_splits` splits, including those of lemmas. Checks strictly that the lines match the
+// grammar, but not that they prove anything. Throws InputError.
 CertificateText read_certificate(const std::filesystem::path& path, const Instance& instance,
                                  std::int64_t most_splits);
 

@@ -1,27 +1,30 @@
 // SPDX-License-Identifier: MIT
-// What of a certificate can be left out without knowing what agents cost under any demands, so
-// without the instance. The proofs that then are left are those of docs/proof.md again, and need
-// only what was there before:
+// Trims certificates without the instance, hence without knowledge of what agents cost under any
+// constraints.
 //
-// A split one of whose sides demands what is in force already: what is below that side proves the
-// node as it stands, for its demands are the same.
+// The proofs that remain are proofs in the sense of docs/proof.md, and need only what was present
+// before. The following is removed:
 //
-// A split one of whose sides nobody below it needs. A leaf whose costs count may need all that is
-// demanded there, and so may a joint search. But one that lemmas prove, whatever agents cost
-// (lemma_table.cpp), needs no more than that what these lemmas demand be in force, and "later" that
-// its lemma be; a proof that has no others needs what these need and none of its splits in between
-// provides. If all of that is in force without the side (with "rest" comes more than its own
-// demand, demands_in_force.cpp), what is below it proves the node. Where something else demands
-// the same, it is that which is needed, and what it belongs to stays: needs are added up from below
-// after what was left out there.
+// - *Splits with a redundant side.* One side of the split adds only constraints that are already
+//   active. The proof below that side proves the node, because its constraints are the same.
+// - *Splits with an unused side.* Nothing below one side needs that side; then the proof below it
+//   proves the node. A leaf whose costs count may need all active constraints, and so may a joint
+//   search and `prices`. But a leaf that is proven by lemmas alone, whatever agents cost
+//   (lemma_table.cpp), only needs the constraints of these lemmas to be active, and "later" those
+//   of its lemma. So a proof with no other leaves needs what these need, minus what its own splits
+//   provide. The side is unused if all of that is active without it. ("rest" implies more than its
+//   own constraint: active_constraints.cpp.) If something else imposes the same constraint, the
+//   proof needs that, and the split or lemma to which it belongs stays: needs are added up from
+//   below, after the removals there.
+// - *Constraints of a lemma* that its proof does not need, by the same argument. The lemma then
+//   says more.
+// - *Lemmas* that say no more than an earlier one of the same agents and constraints.
+// - *Names* of lemmas that a leaf does not need.
+// - *Rows* of `prices` with price 0.
+// - In the end, each lemma that nothing left names.
 //
-// A demand of a lemma whose proof, by the same token, does not need it: the lemma then says more.
-// And a lemma that says no more than an earlier one of the same agents and demands; names of lemmas
-// that a leaf does without; rows of prices that charge nothing; and in the end each lemma that
-// nothing that is left names.
-//
-// Three walks: the first decides what of each split stays, the second notes which lemmas are named
-// by what stays, the third writes.
+// Three passes: the first decides what stays of each split, the second records the lemmas that the
+// remaining parts name, the third writes.
 #include "proof/certificate_trim.h"
 
 #include <fmt/format.h>
@@ -50,7 +53,7 @@ namespace {
 namespace fs = std::filesystem;
 
 using Demands = std::vector<CertificateDemand>;  // ascending
-using Needs = std::optional<Demands>;            // none: perhaps all
+using Needs = std::optional<Demands>;            // nullopt: perhaps all active constraints
 
 Demands united(const Demands& a, const Demands& b) {
   Demands all;
@@ -89,7 +92,7 @@ class Deciding : public KeptParts {
  private:
   struct Level {
     Fork fork;
-    Needs first;  // of its first side
+    Needs first;  // needs of its first side
   };
 
   Keep opened(std::size_t number, const Fork& fork) override {
@@ -122,13 +125,13 @@ class Deciding : public KeptParts {
     }
     levels_.pop_back();
   }
-  // What is below a side, now that this is not demanded.
+  // Whether the proof below a side proves the node, now that the side is not active.
   bool proves_the_node() const {
     return needs_ && std::ranges::all_of(*needs_, [&](const CertificateDemand& demand) {
              return in_force_.has(demand);
            });
   }
-  // Of a split both of whose sides stay, the second one's being at hand.
+  // Returns the needs of a split of which both sides stay. needs_ holds those of its second side.
   Needs needs_of(const Level& level) const {
     if (!level.first || !needs_) return std::nullopt;
     Demands all =
@@ -159,10 +162,10 @@ class Deciding : public KeptParts {
   bool is_theorem_ = false;
   ActiveConstraints in_force_;
   std::deque<Level> levels_;
-  Needs needs_;  // of the proof that ended last
+  Needs needs_;  // of the last complete proof
 };
 
-// What was decided, once more.
+// Walks the certificate again, according to the decisions.
 class Decided : public KeptParts {
  public:
   Decided(const LemmaTable& lemmas, const std::vector<Keep>& keeps)
@@ -207,7 +210,7 @@ class Naming : public Decided {
   Naming(const LemmaTable& lemmas, const std::vector<Keep>& keeps)
       : Decided(lemmas, keeps), names_(lemmas.size()), needed_(lemmas.size()) {}
 
-  // By lemma, once all was read.
+  // Returns for each lemma whether it is needed. Call after the whole certificate was read.
   std::vector<bool> needed() && {
     for (std::size_t lemma = needed_.size(); lemma-- > 0;)
       if (needed_[lemma])
@@ -238,8 +241,8 @@ class Naming : public Decided {
     of_lemma_->shrink_to_fit();
   }
 
-  std::vector<std::vector<LemmaNumber>> names_;  // by lemma: what its proof names
-  std::vector<bool> needed_;                     // by the theorem
+  std::vector<std::vector<LemmaNumber>> names_;  // by lemma: the lemmas that its proof names
+  std::vector<bool> needed_;                     // by lemma: needed by the theorem
   std::vector<LemmaNumber>* of_lemma_ = nullptr;
 };
 
@@ -296,15 +299,15 @@ class Writing : public Decided {
   }
 
   const std::vector<bool>& needed_;
-  std::vector<LemmaNumber> numbers_;  // by lemma, if it is needed
+  std::vector<LemmaNumber> numbers_;  // by lemma: its new number, if it is needed
   CertificateOutput& output_;
-  std::string_view text_;  // of the line that is told of
-  bool is_needed_ = true;  // what it is a part of
-  Demands demands_;        // of the lemma, that are still to come
+  std::string_view text_;  // of the current line
+  bool is_needed_ = true;  // whether the current lemma or theorem is needed
+  Demands demands_;        // constraints of the lemma that are not yet written
 };
 
-// Whether it is compressed. The memory is looked at before each piece of some 64 kB, and what grows
-// by much at once is kept in deques.
+// Reads the file once. Returns whether it is compressed. Checks the memory before each piece of
+// about 64 kB; data that may grow by much at once is kept in deques.
 bool walk(const fs::path& file, CertificateVisitor& visitor, const Limits& limits) {
   CertificateBytes bytes(file);
   const ByteSource source = [&](char* buffer, std::size_t size) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Certificates without what their theorem does not need.
+// Trimming of certificates: removes what the theorem does not need.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace grove::detail {
 
-// Of a certificate's file, before and after.
+// Sizes of a certificate, before and after.
 struct CertificateSizes {
   std::int64_t lines = 0;  // uncompressed
   std::int64_t bytes = 0;
@@ -19,11 +19,12 @@ struct TrimmedCertificate {
   CertificateSizes after;
 };
 
-// Reads one, of anybody and any instance, and writes what of it proves the theorem: to the same
-// file or another, whole or not at all, compressed if it was. If it was proven, it still is. Throws
-// InputError. Reads the file three times, and holds a byte for each split, all lemmas but for their
-// proofs, and what is demanded on the way down to where it is. Throws InputError too when this
-// process then holds more than `memory` bytes: a few compressed bytes can be any number of lines.
+// Reads a certificate, by any author and for any instance, and writes the parts that prove the
+// theorem to `to`, which may equal `from`. The file is written completely or not at all, and
+// compressed if `from` was. If the certificate was valid, it still is. Reads the file three times.
+// Keeps in memory a byte for each split, all lemmas without their proofs, and the constraints that
+// are active at the current line. Throws InputError, also if this process then holds more than
+// `memory` bytes: a few compressed bytes can be any number of lines.
 TrimmedCertificate trim_certificate(const std::filesystem::path& from,
                                     const std::filesystem::path& to,
                                     std::size_t memory = std::numeric_limits<std::size_t>::max());

@@ -53,7 +53,7 @@ void KeptParts::begin(int which) {
     begin_side(which);
 }
 
-// A proof has ended, and with it perhaps some that it is a part of.
+// Ends a proof, and all proofs that end with it.
 void KeptParts::close() {
   if (passes_over() && --passed_over_ > 0) return;
   while (!levels_.empty()) {

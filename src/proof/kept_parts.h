@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Goes through proofs and passes over those sides of splits that are left out.
+// Visitor of proofs that skips the removed branches of splits.
 #pragma once
 
 #include <array>
@@ -13,12 +13,13 @@
 
 namespace grove::detail {
 
-// Of a split: all of it, or what is below one of its sides in its stead.
+// What stays of a split: the split with both sides, or the proof below one side in place of the
+// split.
 enum class Keep : std::uint8_t { kBoth, kFirst, kSecond };
 
 struct Fork {
   std::array<CertificateDemand, 2> sides;
-  std::optional<LemmaNumber> why;  // of "later"
+  std::optional<LemmaNumber> why;  // only of "later": its lemma
 };
 
 class KeptParts : public CertificateVisitor {
@@ -32,7 +33,7 @@ class KeptParts : public CertificateVisitor {
   void rows_end() final;
 
  protected:
-  // Of splits that are not passed over. Their numbers count all.
+  // Called for splits that are not skipped. `number` counts all splits.
   virtual Keep opened(std::size_t number, const Fork& fork) = 0;
   virtual void begin_side(int /*which*/) {}
   virtual Keep first_done(std::size_t number) = 0;
@@ -57,7 +58,7 @@ class KeptParts : public CertificateVisitor {
 
   std::size_t splits_ = 0;
   std::deque<Level> levels_;
-  std::int64_t passed_over_ = 0;  // proofs that are still to come of what is left out here
+  std::int64_t passed_over_ = 0;  // number of open subproofs of the skipped side
 };
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which of the lemmas that a leaf could name it needs.
+// Selects the lemmas that a leaf needs among those that it could name.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace grove::detail {
 
-// What these say together (search/covering.h), and how hard to look for it: with 0 steps, what
-// statements without a common agent add up to.
+// Returns the excess that `excesses` imply together (search/covering.h). `steps` limits the effort.
+// With 0 steps it only adds statements without a common agent.
 inline constexpr std::int64_t kCoveringSteps = 100'000;
 Cost covered(std::span<const ProofExcess> excesses, std::int64_t steps = kCoveringSteps);
 
-// Leaves out one after the other, the last ones first, for as long as the rest cover `wanted`.
+// Removes excesses one after another, the last ones first, as long as the rest covers `wanted`.
 void leave_out(std::vector<ProofExcess>& excesses, Cost wanted,
                std::int64_t steps = kCoveringSteps);
 

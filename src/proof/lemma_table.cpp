@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// A leaf is proven by lemmas alone if agents that cost no less than 0, and in groups no less than
-// the lemmas say, cost enough together: that is a covering, as where a search chooses what to name
-// (lemma_choice.h), with nothing but 0 known of each agent. Only lemmas without a common agent are
-// added up here, for that every checker finds.
+// Which lemmas a leaf needs.
 //
-// Where what agents cost is needed too, a leaf can do without a lemma that another one implies: one
-// of some of its agents with a bound that is no less. For what the others cost is not less than 0;
-// and c + x of the smaller group being enough, that of the larger one is.
+// A leaf is proven by lemmas alone if agents that cost at least 0 each, and in groups at least what
+// the lemmas say, cost enough together. This is a covering problem, as where a search chooses the
+// lemmas to name (lemma_choice.h), with only the lower bound 0 on each agent. Only lemmas without a
+// common agent are added up here, because every checker finds that sum.
+//
+// If the costs of agents are needed too, a leaf does not need a lemma that another one implies: a
+// lemma of a subset of its agents with a bound that is no less. The cost of the other agents is at
+// least 0, so if c + x of the smaller group is enough, that of the larger group is.
 #include "proof/lemma_table.h"
 
 #include <algorithm>
@@ -18,7 +20,8 @@
 namespace grove::detail {
 namespace {
 
-// Of a leaf that names more all are taken to be needed: each is compared with each.
+// If a leaf names more lemmas than this, all are assumed to be needed, because each lemma is
+// compared with each other one.
 constexpr std::size_t kMostNames = 1000;
 constexpr std::int64_t kNoSteps = 0;
 
@@ -48,7 +51,7 @@ void LemmaTable::add(TableLemma lemma) {
 LemmaTable::Leaf LemmaTable::leaf(std::span<const LemmaNumber> named, Cost bound) const {
   Leaf leaf{worth_naming(named), false};
   if (leaf.names.size() > kMostNames) return leaf;
-  // Those that demand most are left out first.
+  // Lemmas with most constraints are removed first.
   std::ranges::stable_sort(leaf.names, {},
                            [&](LemmaNumber name) { return lemmas_[name].demands.size(); });
   std::vector<ProofExcess> excesses;
@@ -73,7 +76,7 @@ LemmaTable::Leaf LemmaTable::leaf(std::span<const LemmaNumber> named, Cost bound
   return leaf;
 }
 
-// Once each, and none that says nothing.
+// Returns the named lemmas without duplicates and without those whose bound is 0.
 std::vector<LemmaNumber> LemmaTable::worth_naming(std::span<const LemmaNumber> named) const {
   std::vector<LemmaNumber> names;
   for (const LemmaNumber name : named)
@@ -83,7 +86,8 @@ std::vector<LemmaNumber> LemmaTable::worth_naming(std::span<const LemmaNumber> n
   return names;
 }
 
-// Of two that imply each other, the earlier one does.
+// Whether `stronger` implies `weaker`. Of two that imply each other, only the earlier one counts as
+// stronger.
 bool LemmaTable::implies(LemmaNumber stronger, LemmaNumber weaker) const {
   const TableLemma& one = lemmas_[stronger];
   const TableLemma& other = lemmas_[weaker];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The lemmas of a certificate, but for their proofs, and what its leaves need of them.
+// The lemmas of a certificate without their proofs, and the lemmas that its leaves need.
 #pragma once
 
 #include <deque>
@@ -15,8 +15,8 @@ namespace grove::detail {
 struct TableLemma {
   std::vector<AgentIndex> agents;
   Cost bound = 0;
-  std::vector<CertificateDemand> demands;  // that its proof needs, ascending
-  LemmaNumber same_as = 0;                 // an earlier one that says as much, or itself
+  std::vector<CertificateDemand> demands;  // that its proof needs; ascending
+  LemmaNumber same_as = 0;                 // an earlier lemma that implies this one, or itself
 };
 
 class LemmaTable {
@@ -25,12 +25,13 @@ class LemmaTable {
   LemmaTable(const LemmaTable&) = delete;
   LemmaTable& operator=(const LemmaTable&) = delete;
 
-  // As the next one.
+  // Appends a lemma.
   void add(TableLemma lemma);
   const TableLemma& operator[](LemmaNumber number) const { return lemmas_[number]; }
   std::size_t size() const { return lemmas_.size(); }
 
-  // What a leaf must name, ascending; and whether that proves its bound whatever agents cost.
+  // The lemmas that a leaf must name, ascending, and whether they prove its bound whatever agents
+  // cost.
   struct Leaf {
     std::vector<LemmaNumber> names;
     bool by_lemmas = false;
@@ -47,7 +48,7 @@ class LemmaTable {
   bool implies(LemmaNumber stronger, LemmaNumber weaker) const;
 
   std::deque<TableLemma> lemmas_;
-  std::set<LemmaNumber, Before> distinct_{Before{*this}};  // by agents and demands
+  std::set<LemmaNumber, Before> distinct_{Before{*this}};  // ordered by agents and constraints
 };
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes those lemmas of what was written down that are needed, and numbers them.
+// Writes the lemmas that are needed from a proof log, and numbers them.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace grove::detail {
 
 class LemmaWriter : public ProofLog {
  public:
-  // All must outlive this.
+  // All arguments must outlive this.
   LemmaWriter(const Instance& instance, const std::unordered_set<ProofKey>& needed,
               CertificateOutput& output)
       : instance_(instance), needed_(needed), output_(output) {}

@@ -31,7 +31,7 @@ std::string_view LineStream::line() const {
   return std::string_view(text_).substr(begin_, end_ - begin_ - 1);
 }
 
-// Behind what there is of the line, which goes to the front.
+// Moves the begun line to the front and reads more text after it.
 bool LineStream::take_more() {
   std::memmove(text_.data(), text_.data() + begin_, size_ - begin_);
   size_ -= std::exchange(begin_, 0);

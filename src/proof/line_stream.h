@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines of a text that comes piece by piece.
+// Splits a text that arrives in pieces into lines.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 
 namespace grove::detail {
 
-// The bytes of a text: up to as many as the buffer has. None: no more.
+// Source of a text: writes up to `size` bytes to `buffer` and returns their number, 0 at the end.
 using ByteSource = std::function<std::size_t(char* buffer, std::size_t size)>;
 
-// Holds a line, and some that follow.
+// Buffers the current line and some text after it.
 class LineStream {
  public:
   static constexpr std::size_t kLongest = std::size_t{1} << 22;
@@ -22,7 +22,7 @@ class LineStream {
   explicit LineStream(ByteSource source);
 
   Next next();
-  // Without its end; until the next one.
+  // The current line without its LF. Valid until the next call of next().
   std::string_view line() const;
 
  private:
@@ -30,7 +30,7 @@ class LineStream {
 
   ByteSource source_;
   std::string text_;
-  std::size_t size_ = 0;  // of what is there
+  std::size_t size_ = 0;  // number of bytes in text_
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
 };

@@ -19,9 +19,10 @@ void ProofForest::visit(Cost bound, ForestVisitor& visitor) {
   visit(all, 0, 0, visitor);
 }
 
-// These trees have the first stops of the first agents in common: down to tree after tree, stop
-// after stop, by "it is the next one of the first of these trees, or it is not". Where there are
-// none of them the agents' own costs are enough, for so it is in all sequences without a tree.
+// Visits the proof of `trees`, which share all stops before stop `number` of `agent`. Splits on
+// "the stop is that of the first of these trees" or "it is not", stop after stop, until one tree is
+// left. If `trees` is empty, the agents' individual costs suffice, because that holds for all joint
+// sequences without a tree.
 void ProofForest::visit(const Trees& trees, std::size_t agent, std::size_t number,
                         ForestVisitor& visitor) {
   if (trees.empty()) return visitor.leaf(nullptr);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The trees of all joint sequences as one proof: splits by what the next stops are, and below them
-// each tree, as far down as the bound asks for.
+// The constraint trees of all joint sequences, combined into one proof. Its upper part splits on
+// what the next stops are; below these splits is each tree, down to where the bound is proven.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,11 @@
 
 namespace grove::detail {
 
-// What is done with it, leaf by leaf and split by split, in the order of the certificate.
+// Callbacks for each leaf and split, in the order of the certificate.
 class ForestVisitor {
  public:
   virtual ~ForestVisitor() = default;
-  // Null: the agents' own costs are enough.
+  // nullptr: the agents' individual costs suffice.
   virtual void leaf(ProofEntry* entry) = 0;
   virtual void split(const ProofEntry& entry) = 0;
   virtual void split(const Split& on_sequence) = 0;
@@ -27,7 +27,7 @@ class ProofForest {
   // `written` must outlive this.
   explicit ProofForest(ProofRecords& written) : written_(written), tree_(written.entries) {}
 
-  // What it proves, up to `claimed`.
+  // Returns the bound that the trees prove, at most `claimed`.
   Cost value(Cost claimed);
   void visit(Cost bound, ForestVisitor& visitor);
 

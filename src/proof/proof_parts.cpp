@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The file is a row of numbers of 8 bytes, compressed; each entry is its kind, how many numbers
-// follow, and these. Most bytes are zero, and cost next to nothing.
+// Format: a zstd-compressed sequence of 8-byte integers. Each entry is its kind, the number of
+// integers that follow, and these integers. Most bytes are zero and compress to almost nothing.
 #include "proof/proof_parts.h"
 
 #include <fcntl.h>
@@ -18,7 +18,7 @@ namespace grove::detail {
 namespace {
 
 enum PartKind : std::int64_t { kSplit = 1, kBound = 2, kLemma = 3, kPrices = 4, kJoint = 5, kTree = 6 };
-constexpr std::int64_t kMostNumbers = std::int64_t{1} << 28;  // of an entry
+constexpr std::int64_t kMostNumbers = std::int64_t{1} << 28;  // maximum length of an entry
 
 using Numbers = std::vector<std::int64_t>;
 
@@ -55,7 +55,7 @@ class Taking {
   bool is_over() const { return at_ == numbers_.size(); }
   ProofKey key() { return static_cast<ProofKey>(number()); }
   std::int32_t small() { return static_cast<std::int32_t>(number()); }
-  // How many of something follow.
+  // Takes the number of items that follow.
   std::int64_t count() {
     const std::int64_t count = number();
     if (count < 0 || std::cmp_greater(count, numbers_.size() - at_)) refuse();
@@ -197,7 +197,7 @@ class ProofRecorder::Stream {
   FileDescriptor file_;
   std::mutex mutex_;  // guards:
   ZstdCompressor compressor_;
-  std::string failure_;  // why nothing more is recorded
+  std::string failure_;  // nonempty: why nothing more is logged
 };
 
 ProofRecorder::ProofRecorder(std::filesystem::path path)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What processes write down while they search, until a certificate is made of it.
+// Proof log files: each process writes one while it searches, and a certificate is made from all.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,12 @@
 
 namespace grove::detail {
 
-// Writes all that it is told to a file, compressed, as it comes; holds no more than some hundred
-// kilobytes. When the disk is full, it removes the file and records nothing more: the search goes
-// on, and its plan needs the space. A certificate without this file proves less, never too much.
+// Logs all calls to a compressed file, in order. Thread-safe. Buffers only some hundred kilobytes.
+// If the disk is full, it removes the file and logs nothing more: the search continues, and its
+// plan needs the space. A certificate without this file proves less, never too much.
 class ProofRecorder : public ProofLog {
  public:
-  // Throws InputError when the file cannot be created.
+  // Throws InputError if the file cannot be created.
   explicit ProofRecorder(std::filesystem::path path);
   ~ProofRecorder() override;
 
@@ -27,7 +27,8 @@ class ProofRecorder : public ProofLog {
   void prices(Cost bound, std::span<const RowMultiplier> rows) override;
   void joint(Cost bound) override;
 
-  // All that was said so far is in the file then. Returns why it is not: empty if it is.
+  // Writes everything logged so far to the file. Returns the error message if that failed, else an
+  // empty string.
   std::string flush();
 
  private:
@@ -35,9 +36,9 @@ class ProofRecorder : public ProofLog {
   const std::unique_ptr<Stream> stream_;
 };
 
-// Tells `log` again what a file has, in the order in which it was written. A file that ends within
-// something - its process was killed - is read up to there. Throws InputError for one that cannot
-// be read, or was not written by a recorder.
+// Replays a file to `log`, in the order in which it was written. A file that ends within an entry,
+// because its process was killed, is read up to that entry. Throws InputError if the file cannot be
+// read or was not written by a ProofRecorder.
 void read_proof_part(const std::filesystem::path& path, ProofLog& log);
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What searches wrote down of why their bounds hold, by what it speaks of.
+// Contents of proof logs, indexed by node: why the bounds of the searches hold.
 #pragma once
 
 #include <optional>
@@ -11,26 +11,26 @@
 
 namespace grove::detail {
 
-// What is known of a node by its name.
+// Record of one node.
 struct ProofEntry {
-  Cost cost = 0;   // of its agents, each by itself
-  Cost bound = 0;  // with what lemmas add
+  Cost cost = 0;   // sum of its agents' individual costs
+  Cost bound = 0;  // `cost` plus what lemmas add
   std::vector<ProofExcess> excesses;
   std::optional<ProofSplit> split;
-  std::optional<Cost> value;  // that it proves
+  std::optional<Cost> value;  // the bound that it proves
 };
 
 using ProofEntries = std::unordered_map<ProofKey, ProofEntry>;
 
-// All of it, but for the lemmas, of which only the names are kept.
+// All records. Of lemmas only the keys are kept.
 class ProofRecords : public ProofLog {
  public:
   ProofEntries entries;
   std::unordered_set<ProofKey> lemmas;
   std::vector<ProofTree> trees;
-  Cost priced = 0;  // what prices say, and joint search
+  Cost priced = 0;  // bound proven by `prices`
   std::vector<RowMultiplier> priced_rows;
-  Cost joined = 0;
+  Cost joined = 0;  // bound proven by joint search
 
   void tree(const ProofTree& tree) override;
   void split(const ProofSplit& split) override;
@@ -39,7 +39,8 @@ class ProofRecords : public ProofLog {
   void prices(Cost bound, std::span<const RowMultiplier> rows) override;
   void joint(Cost bound) override;
 
-  // Takes out what names lemmas that are not there: a process was killed over them.
+  // Removes records that name lemmas that are missing, because a process was killed before it wrote
+  // them.
   void drop_what_lacks_lemmas();
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What certificates are written in.
+// Text of constraints, splits, rows and costs in certificates.
 #pragma once
 
 #include <string>

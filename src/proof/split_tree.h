@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A tree of splits that was written down, from its root down to where nothing more is asked for.
-// Without recursion: it may be as deep as it has nodes.
+// A logged tree of splits, from its root down to where the bound is proven. Without recursion: a
+// tree may be as deep as it has nodes.
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@ namespace grove::detail {
 
 class SplitTree {
  public:
-  // `entries` must outlive this, which notes in them what nodes prove.
+  // `entries` must outlive this. value() stores in them what the nodes prove.
   explicit SplitTree(ProofEntries& entries) : entries_(entries) {}
 
-  // What the node proves if its agents cost so much.
+  // Returns the bound that the node proves if its agents' costs sum to `cost`.
   Cost value(ProofKey root, Cost cost);
 
-  // Calls leaf(entry or null) and split(entry) in the order of the certificate. Null: the agents'
-  // own costs are enough.
+  // Calls leaf(entry or nullptr) and split(entry) in the order of the certificate. nullptr: the
+  // agents' individual costs suffice.
   template <class Leaf, class Split>
   void walk(ProofKey root, Cost cost, Cost bound, Leaf leaf, Split split) {
     std::vector<std::pair<ProofKey, Cost>> left{{root, cost}};

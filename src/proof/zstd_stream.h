@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bytes, compressed and back (Zstandard, RFC 8878), piece by piece.
+// Streaming compression and decompression (Zstandard, RFC 8878).
 #pragma once
 
 #include <zstd.h>
@@ -13,14 +13,14 @@ namespace grove::detail {
 
 class ZstdCompressor {
  public:
-  // Is given what comes out.
+  // Receives the compressed bytes.
   using Sink = std::function<void(std::string_view)>;
   explicit ZstdCompressor(Sink sink);
 
   void add(std::string_view bytes);
-  // Whoever has all that came out so far can have all that went in.
+  // Passes on enough output to decompress all input so far.
   void flush() { put({}, ZSTD_e_flush); }
-  // The stream ends with it; what is added behind it begins another one.
+  // Ends the frame. Bytes added later begin a new frame.
   void end() { put({}, ZSTD_e_end); }
 
  private:
@@ -33,13 +33,15 @@ class ZstdCompressor {
 
 class ZstdDecompressor {
  public:
-  // Is given what goes in: up to as many bytes as the buffer has. None: no more.
+  // Source of compressed bytes: writes up to `size` bytes to `buffer` and returns their number, 0
+  // at the end.
   using Source = std::function<std::size_t(char* buffer, std::size_t size)>;
   explicit ZstdDecompressor(Source source);
 
-  // Up to so many bytes; fewer only at the end, or where the stream breaks off.
+  // Reads up to `size` bytes and returns their number. Fewer only at the end, or where the stream
+  // is truncated.
   std::size_t read(char* bytes, std::size_t size);
-  // What came is no such stream.
+  // Whether the input is not a valid stream.
   bool broken() const { return broken_; }
 
  private:

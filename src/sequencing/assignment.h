@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The assignment problem.
+// Linear assignment problem.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,12 @@
 
 namespace grove::detail {
 
-// For rows that must not have a column.
+// Cost of a pair (row, column) that is not allowed.
 inline constexpr std::int64_t kForbidden = std::int64_t{1} << 60;
 
-// A column for every row, no two the same, at least total cost; none if there is no such
-// assignment. cost[row][column]: not negative and below 1e15, or kForbidden; all rows of one
-// length. O(rows^2 * columns).
+// Returns the column of each row in an assignment of least total cost, no two rows with the same
+// column. Returns nullopt if there is no such assignment. cost[row][column]: from 0 to below 1e15,
+// or kForbidden; all rows have the same length. O(rows^2 * columns).
 std::optional<std::vector<int>> least_cost_assignment(
     const std::vector<std::vector<std::int64_t>>& cost);
 

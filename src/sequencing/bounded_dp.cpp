@@ -1,27 +1,29 @@
 // SPDX-License-Identifier: MIT
-// rTSPs through a sequence graph that grows on demand.
+// rTSPs by bounded dynamic programming over a sequence graph that grows on demand.
 //
-// The graph (sequence_dag.cpp) holds every sequence cheaper than its beyond(). Let `value` be the
-// best member of a class inside the graph, kNever without one. It is the cost of a real sequence,
-// and every member outside costs at least beyond(); so value <= beyond() proves `value` optimal.
-// Else the optimum is at least beyond(): above the cutoff, or the graph is built anew, wider.
+// *Exactness.* The graph (sequence_dag.cpp) holds every sequence cheaper than its beyond(). Let
+// `value` be the cost of the best member of a class inside the graph, kNever if there is none. It
+// is the cost of a real sequence, and every member outside costs at least beyond(). So if value <=
+// beyond(), `value` is optimal. Otherwise the optimum is at least beyond(): it exceeds the cutoff,
+// or the graph is rebuilt with a greater cost limit.
 //
-// How much wider is a matter of speed alone, as in iterative deepening with controlled growth
-// (Sarkar et al. 1991): far enough to let in about as many states as there are, so that all builds
-// together cost little more than the last. No heuristic upper bound is needed: the first reach is
-// the relaxation's bound, and widening ends as soon as the question is answered.
+// *Growth.* The size of the increase affects only speed, as in iterative deepening with controlled
+// growth (Sarkar et al. 1991). It admits about as many new states as there are, so that all builds
+// together cost little more than the last one. No heuristic upper bound is needed: the first limit
+// is the bound of the relaxation, and the graph stops growing as soon as the query is answered.
 //
-// The relaxation of the class itself comes first. It settles without any graph what is hopeless,
-// and keeps one hopeless class from widening the graph for all.
+// *Relaxation.* The relaxation of the class itself is tried first. It decides hopeless classes
+// without any graph, and so prevents one hopeless class from enlarging the graph for all.
 //
-// Where many stops lie in a row, sequences of the same cost are so many that no graph holds them.
-// If the graph exceeds most_states_, one of the canonical sequences of the class in question
-// (passed_stops.cpp) takes its place, built for each class: a cheapest member is among them, which
-// is all that is asked. If that becomes too large as well, the answer is kStopped, of this and of
-// every later class that the relaxation does not settle: no memory is taken in vain again.
+// *Canonical sequences.* If many stops lie in a row, there are so many sequences of the same cost
+// that no graph holds them. If the graph exceeds most_states_, a graph of the canonical sequences
+// (passed_stops.cpp) of the queried class replaces it, and is built separately for each class. They
+// include a cheapest member, which is all that a query needs. If that graph becomes too large as
+// well, the answer is kStopped, for this class and for every later class that the relaxation does
+// not decide, so that no further memory is wasted.
 //
-// Measured on 32x32 maps and den312d, CTS and MG, one core: the best of 36 stops in 2 to 120 ms,
-// from graphs of at most 2,800 states.
+// *Measured* on 32x32 maps and den312d, CTS and MG, one core: the best sequence of 36 stops takes 2
+// to 120 ms, with graphs of at most 2,800 states.
 #include <optional>
 
 #include "sequencing/one_tree_relaxation.h"
@@ -71,7 +73,8 @@ class BoundedDp : public RtspSolver {
   using End = SequenceDag::End;
   static constexpr std::size_t kMostCanonicalStates = std::size_t{1} << 21;
 
-  // By relaxation alone: settles classes that are hopeless or complete without a graph.
+  // Bound by the relaxation only. Exact for complete classes; kNever for classes without a next
+  // stop.
   Time class_bound(const ClassRoot& root) const {
     if (root.left == 0) return add_costs(root.cost, matrix_.to_end(root.last));
     if (root.next == 0) return kNever;
@@ -79,7 +82,7 @@ class BoundedDp : public RtspSolver {
                      relaxation_.bound(relaxation_.tail(root.left), root.next, root.last));
   }
 
-  // A graph of canonical sequences serves one class.
+  // A graph of canonical sequences serves only one class.
   void turn_to(const SequenceClass& work, Time relaxed) {
     if (work == class_) return;
     class_ = work;
@@ -112,8 +115,8 @@ class BoundedDp : public RtspSolver {
   const std::size_t most_states_;  // of the graph of all sequences
   OneTreeRelaxation relaxation_;
   SequenceDag dag_;
-  std::optional<PassedStops> passed_;  // once the graph of all sequences was too large
-  SequenceClass class_;                // that the graph of canonical sequences is of
+  std::optional<PassedStops> passed_;  // set once the graph of all sequences was too large
+  SequenceClass class_;                // class of the graph of canonical sequences
   bool too_large_ = false;
 };
 

@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: MIT
-// rTSPs as integer programs, solved by CBC: the paper's way, kept as an independent check of the
-// dynamic programs and as the method for cost structures that they do not cover.
+// rTSPs as integer programs, solved by CBC: the method of the paper. Grove keeps it as an
+// independent check of the dynamic programs, and for cost structures that they do not cover.
 //
-// A class is contracted first: its prefix becomes the start, stops that may not come next lose
-// their leg from it. What remains is a Hamiltonian path from the start through all stops to the
-// end, or, with start and end as one place "outside", a cycle through all places:
+// *Formulation.* A class is contracted first: its prefix becomes the start, and stops that may not
+// come next lose their leg from the start. What remains is a Hamiltonian path from the start
+// through all stops to the end, or, with start and end merged into one place "outside", a cycle
+// through all places:
 //
 //   minimize  sum of cost(i, j) * x(i, j)      over 0-1 variables for legs that exist,
 //   every place is left once and entered once,
 //   sum of x within C <= |C| - 1               for sets C of stops.
 //
-// Of the exponentially many last rows only the pairs are there from the beginning (Dantzig,
-// Fulkerson and Johnson 1954): the rest are added *between* solves, for the cycles that avoid the
-// outside in the solution - first of the linear relaxation, until it is connected, then of the
-// integer program. A solution without such a cycle is optimal for the full program, since it solves
-// one with fewer rows. Cuts from callbacks inside CBC would be lost to its presolve and its
-// restarts.
+// *Subtour elimination.* Of the exponentially many last rows only those of pairs are present from
+// the beginning (Dantzig, Fulkerson and Johnson 1954). The others are added *between* solves, for
+// the cycles in the solution that avoid the outside: first for the linear relaxation, until it is
+// connected, then for the integer program. A solution without such a cycle is optimal for the full
+// program, because it solves a program with fewer rows. Cuts from callbacks inside CBC would be
+// lost to its presolve and its restarts.
 //
-// What makes a MIP's word a proof: both gaps are 0, the answer is checked to be an integral path
-// and its cost is added up again in integers. What stops early, stops as "unknown". CBC is not safe
-// for threads: the whole process solves one program at a time. Only its classes are used; the
-// driver (CbcMain) would install signal handlers and print.
+// *Exactness.* Both gaps are 0. The answer is checked to be an integral path, and its cost is
+// computed again in integers. A solve that stops early is reported as "unknown".
+//
+// *Threads.* CBC is not thread-safe, so the whole process solves one program at a time. Only the
+// classes of CBC are used: its driver (CbcMain) would install signal handlers and print.
 #include <CbcEventHandler.hpp>
 #include <CbcModel.hpp>
 #include <ClpEventHandler.hpp>
@@ -43,9 +45,10 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kIntegral = 1e-5;  // further from an integer is a failure of the solver
+constexpr double kIntegral = 1e-5;  // tolerance; a value further from an integer is an error
 
-// Taken for every program. Waits with an eye on the limits; false when one struck.
+// Lock that is held while a program is solved. The constructor waits for it and polls the limits;
+// mine() is false if a limit was reached first.
 class SolverTurn {
  public:
   explicit SolverTurn(const Limits& limits) : lock_(mutex(), std::defer_lock) {
@@ -62,7 +65,7 @@ class SolverTurn {
   std::unique_lock<std::mutex> lock_;
 };
 
-// Stops the tree search between nodes,
+// Stops the tree search between nodes when a limit is reached.
 class StopTree : public CbcEventHandler {
  public:
   explicit StopTree(const Limits& limits) : limits_(&limits) {}
@@ -73,8 +76,8 @@ class StopTree : public CbcEventHandler {
   const Limits* limits_;
 };
 
-// and a linear program between iterations. What CBC makes of such a stop does not matter: nothing
-// it says after a limit struck is believed.
+// Stops a linear program between iterations. The result that CBC reports after such a stop is never
+// used.
 class StopLinear : public ClpEventHandler {
  public:
   explicit StopLinear(const Limits& limits) : limits_(&limits) {}
@@ -108,7 +111,7 @@ Contracted contract(const CostMatrix& matrix, const ClassRoot& root) {
   return result;
 }
 
-// The integer program of one contracted class. Places are its stops; the last one is outside.
+// The integer program of one contracted class. Its places are the stops and, last, the outside.
 class PathProgram {
  public:
   enum class Outcome : std::uint8_t { kOptimal, kInfeasible, kStopped };
@@ -135,7 +138,7 @@ class PathProgram {
     return outcome;
   }
 
-  // The path that the solution describes. Throws std::runtime_error when it does not describe one.
+  // Returns the path that the solution describes. Throws std::runtime_error if it describes none.
   Sequence path() const {
     std::vector<int> next(places_, -1);
     for (std::size_t i = 0; i < legs_.size(); ++i) {
@@ -165,8 +168,8 @@ class PathProgram {
   int outside() const { return places_ - 1; }
   bool stopped() const { return limits_.stop_requested(); }
 
-  // One column for each leg: a 1 in the row of leaving its place, in that of entering its place,
-  // and in that of its pair of stops.
+  // Loads one column per leg, with a 1 in three rows: leaving its first place, entering its second,
+  // and its pair of stops.
   void load() {
     std::vector<int> rows;
     std::vector<int> columns;
@@ -205,7 +208,8 @@ class PathProgram {
     solver_.addRow(row, -solver_.getInfinity(), std::popcount(stops) - 1);
   }
 
-  // Adds the row of every component of the solution's legs that is not tied to the outside.
+  // Adds the row of every component of the solution's legs that does not contain the outside.
+  // Returns whether there was one.
   bool cut_off_cycles(const double* x) {
     std::vector<int> component(places_);
     std::iota(component.begin(), component.end(), 0);
@@ -234,7 +238,7 @@ class PathProgram {
     model.solver()->messageHandler()->setLogLevel(0);
     model.setAllowableGap(0);
     model.setAllowableFractionGap(0);
-    model.setNumberThreads(0);  // in the caller's thread
+    model.setNumberThreads(0);  // runs in the calling thread
     StopTree handler(limits_);
     model.passInEventHandler(&handler);
     if (limits_.seconds_left() < 1e6) model.setMaximumSeconds(limits_.seconds_left());
@@ -294,7 +298,7 @@ class CbcRtsp : public RtspSolver {
   Time root_bound() const override { return root_bound_; }
 
  private:
-  using Key = std::pair<std::string, StopSet>;  // a prefix, and what must not come next
+  using Key = std::pair<std::string, StopSet>;  // prefix, forbidden next stops
 
   static Key key(const SequenceClass& work) {
     return {{work.prefix.begin(), work.prefix.end()}, work.forbidden_next};

@@ -8,7 +8,7 @@
 namespace grove::detail {
 namespace {
 
-// What keeps the distances to an agent's ports below 16 MB.
+// Keeps the distances to an agent's ports below 16 MB.
 constexpr int kMostPortStates = 1 << 20;
 
 }  // namespace
@@ -29,7 +29,7 @@ CostMatrix cost_matrix(const Instance& instance, AgentIndex agent,
   for (Eigen::Index stop = 0; stop < n; ++stop)
     fill_column(stop, distances.to_task(who.stops[stop]));
   if (!instance.rests_on_last_stop(agent)) fill_column(n, distances.to_rest(agent));
-  // Work that is under way is completed first.
+  // Work in progress is completed first.
   if (world.is_working(who.start))
     for (Eigen::Index stop = 0; stop < n; ++stop)
       if (who.stops[stop] != world.work(who.start).task) matrix.cost(n, stop) = kNever;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The table (held_karp.cpp) is all or nothing. The graph (sequence_dag.cpp) is built anew, wider,
-// each time more is asked: far enough to let in about as many states as it had, so that all builds
-// together cost little more than the last. Each build holds every sequence up to its reach, so a
-// greater reach never has a smaller beyond().
+// Stores of costs to go: table, graph, graph by direct legs.
 //
-// Where the graph of all sequences becomes too large, one by direct legs takes its place, which
-// holds all that a path of the class can come to within the reach. So its beyond() bounds paths
-// instead of sequences, and what it says of a state is a bound on the paths that go on from there.
-// If that becomes too large as well, nothing more is known: widen() fails, now and whenever as much
-// is asked again, so that no time and no memory is taken in vain.
+// The table (held_karp.cpp) holds all states or none. The graph (sequence_dag.cpp) is rebuilt with
+// a greater cost limit each time more is needed. The limit admits about as many new states as there
+// were, so that all builds together cost little more than the last one. Each build holds every
+// sequence up to its limit, so a greater limit never has a smaller beyond().
+//
+// If the graph of all sequences becomes too large, a graph by direct legs replaces it. It holds all
+// states that a path of the class can reach within the limit. So its beyond() is a lower bound on
+// paths instead of sequences, and its cost to go of a state is a lower bound on the paths that
+// continue from there. If that graph becomes too large as well, it is not extended further: widen()
+// fails, now and whenever as much is requested again, so that no time or memory is wasted.
 #include "sequencing/cost_to_go.h"
 
 #include <algorithm>
@@ -28,7 +30,7 @@
 
 namespace grove::detail {
 
-// Immutable, so that any number of Completions may share one.
+// One version of the known costs to go. Immutable: any number of CostToGo objects may share it.
 class CostToGo::Store {
  public:
   explicit Store(std::shared_ptr<const CostMatrix> matrix) : matrix_(std::move(matrix)) {}
@@ -38,10 +40,11 @@ class CostToGo::Store {
   virtual Time relaxed_bound() const = 0;
   virtual Time beyond() const = 0;
   virtual Time cost_to_go(StopSet left, int port) const = 0;
-  // One with a beyond() > reach; null when a limit struck. Only if this has not.
+  // Returns a store with beyond() > `reach`, or nullptr if it could not be built. Call only if this
+  // store has beyond() <= `reach`.
   virtual std::shared_ptr<const Store> widened(Time reach, const Limits& limits) const = 0;
   virtual bool knows_all_or_nothing() const { return false; }
-  // One of a class; null if this serves.
+  // Returns a store for a sequence class, or nullptr if this store serves it.
   virtual std::shared_ptr<const Store> of_class(const SequenceClass&) const { return nullptr; }
 
  protected:
@@ -95,7 +98,7 @@ class CostToGo::Graph : public Store {
     if (direct_) other->dag_ = nothing_known();
     return other;
   }
-  // If there are any.
+  // Does nothing if there are no direct legs.
   void turn_to_direct_legs() {
     if (make_direct_) direct_ = std::make_shared<const DirectLegs>(make_direct_(), matrix());
   }
@@ -136,13 +139,13 @@ class CostToGo::Graph : public Store {
   }
 
   std::shared_ptr<const OneTreeRelaxation> relaxation_;
-  MakeDirectLegs make_direct_;                // or none
+  MakeDirectLegs make_direct_;                // may be empty
   std::shared_ptr<const DirectLegs> direct_;  // once the graph of all sequences was too large
   SequenceClass work_;
   std::shared_ptr<const SequenceDag> dag_;
 };
 
-// What it costs to go on in a given order, leaving out what is visited already.
+// Costs to go along one given order, without the stops visited already.
 class CostToGo::Ordered : public Store {
  public:
   Ordered(std::shared_ptr<const CostMatrix> matrix, Sequence order)
@@ -198,7 +201,7 @@ class CostToGo::Ordered : public Store {
   }
 
   Sequence order_;
-  std::vector<StopSet> later_;  // by stop: those that come later
+  std::vector<StopSet> later_;  // by stop: the stops after it in the order
 };
 
 CostToGo::CostToGo(CostMatrix matrix, SharedArray table, MakeDirectLegs direct) {
@@ -281,7 +284,7 @@ bool CostToGo::widen(Time reach, const Limits& limits) {
   return true;
 }
 
-// Of a table all is known or nothing, and a search that knows nothing does nothing.
+// A table is kept: it is complete or empty, and a search does not run on an empty one.
 void CostToGo::reset() {
   if (store_->knows_all_or_nothing()) return;
   resets_ = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What it costs one agent to complete a sequence, for all the states that may matter.
+// Exact costs to go of one agent: the least cost of completing a sequence from a state.
 #pragma once
 
 #include <cstddef>
@@ -15,58 +15,59 @@
 
 namespace grove::detail {
 
-// Exact costs to go of one agent, for every sequence cheaper than beyond(). A table of all states
-// where that is small, else a sequence graph that grows on demand. At first there is nothing:
-// widen(). Any number of threads may read one that nobody widens. Copies share what is known, and
-// each is widened for itself: a copy may go to another thread.
+// Exact costs to go of one agent, for every sequence cheaper than beyond(). Small problems use a
+// table of all states, larger ones a sequence graph that grows on demand. Initially it is empty:
+// call widen(). Any number of threads may read an object while no thread widens it. Copies share
+// the stores built so far, and each copy is widened separately: a copy may be passed to another
+// thread.
 class CostToGo {
  public:
-  // Direct legs of the agent over the same stops (direct_legs.h), asked for once at most.
+  // Returns the direct legs of the agent over the same stops (direct_legs.h). Called at most once.
   using MakeDirectLegs = std::function<CostMatrix()>;
 
-  // The table, if there is one, is made in `table`, if there is room, or read from there.
-  // With `direct`, a graph that grows beyond kMostStates is replaced by one of what an agent can do
-  // that visits each stop it passes.
+  // A table, if one is used, is built in `table` if it has room, or read from there. With `direct`,
+  // a graph that grows beyond kMostStates is replaced by a graph of the routes of an agent that
+  // visits each stop that it passes.
   explicit CostToGo(CostMatrix matrix, SharedArray table = {}, MakeDirectLegs direct = {});
-  // Completions of a class of sequences, for a graph by direct legs is of one class alone. Returns
-  // nullopt if these serve every class.
+  // Returns the costs to go of one class of sequences, because a graph by direct legs is valid for
+  // one class only. Returns nullopt if *this serves every class.
   std::optional<CostToGo> of_class(const SequenceClass& work) const;
-  // The room that a table of so many stops with so many ports takes, in bytes, but of the largest
-  // costs; 0: there is none.
+  // Size in bytes of a table for `stops` stops with `ports` ports each, with 16-bit entries (the
+  // largest costs need wider ones). 0: no table is used.
   static std::size_t table_bytes(int stops, int ports);
-  // A graph however small a table were, and by direct legs if there are any: they must tell the
-  // same.
+  // For tests: uses a graph also if a table would do, and one by direct legs if `direct` is given.
+  // The results must be the same.
   static CostToGo as_graph(CostMatrix matrix, MakeDirectLegs direct = {});
-  // Of one complete sequence, to find a path and to prove nothing: beyond() is 0, and a state is
-  // known if its stop comes before all that is left, its completion being the cost of what is left
-  // in this order.
+  // Costs to go of one complete sequence, to find a path without a proof: beyond() is 0. A state is
+  // known if its stop precedes all stops left in `order`; its cost to go is the cost of visiting
+  // the stops left in this order.
   static CostToGo in_order(const CostMatrix& matrix, Sequence order);
   const CostMatrix& matrix() const;
 
-  // Proven: a sequence of the class with a state outside costs at least this, and by direct legs a
-  // path. kNever: there is none such.
+  // Proven lower bound on every sequence of the class with a state outside the store; for a graph
+  // by direct legs, on every such path. kNever: there is no such sequence or path.
   Time beyond() const;
-  // The least cost from a port (of a stop, which is the same where the matrix has none) through all
-  // of `left` (without the stop) to the end, over the ways known; kNever when there is none, or the
-  // state is outside.
+  // The least cost from `port` (equal to the stop if the matrix has one port per stop) through all
+  // stops of `left` (without the stop itself) to the end, over the known routes. Returns kNever if
+  // there is none, or if the state is outside.
   Time cost_to_go(StopSet left, int port) const;
 
-  // A lower bound on every complete sequence (relaxation_bound() in rtsp.h), whatever is known.
+  // A lower bound on every complete sequence (relaxation_bound() in rtsp.h), independent of the
+  // states known.
   Time relaxed_bound() const;
 
-  // Afterwards beyond() > reach, and never less than before. Returns false, and no more is known,
-  // if a limit of the run was reached, or the graph had more than kMostDirectStates states.
-  // `reach` < kNever.
+  // Extends the store. Afterwards beyond() > `reach`, and never less than before. Returns false and
+  // changes nothing if a limit of the run was reached, or if the graph had more than
+  // kMostDirectStates states. Requires `reach` < kNever.
   bool widen(Time reach, const Limits& limits);
 
-  // Takes back what widen() has made known since mark(), or since the beginning: what a search
-  // finds on its way depends on how much is known. Afterwards widen() does the same as before, and
-  // mostly from memory.
+  // Undoes widen() since mark(), or since the beginning, because the results of a search depend on
+  // how much is known. A later widen() does the same as before, mostly from memory.
   void reset();
-  // From now on reset() leads back to what is known now.
+  // Makes the present state the one that reset() restores.
   void mark() { marked_ = store_; }
 
-  static constexpr std::size_t kMostStates = std::size_t{1} << 15;  // some 0.1 s
+  static constexpr std::size_t kMostStates = std::size_t{1} << 15;  // about 0.1 s
   static constexpr std::size_t kMostDirectStates = std::size_t{1} << 16;
 
  private:
@@ -76,7 +77,7 @@ class CostToGo {
   class Ordered;
   template <class Entry>
   class Table;
-  // What widen() made of a store.
+  // Result of a widen(): `from`, extended to `reach`, became `to`.
   struct Widened {
     std::shared_ptr<const Store> from;
     Time reach;
@@ -86,9 +87,9 @@ class CostToGo {
 
   std::shared_ptr<const Store> store_;
   std::shared_ptr<const Store> marked_;
-  std::vector<Widened> widened_;  // the last ones in front; kept once reset() was called
+  std::vector<Widened> widened_;  // latest first; filled only once reset() was called
   bool resets_ = false;
-  Time refused_ = kNever;  // to widen to this or more was refused, by no limit of the run
+  Time refused_ = kNever;  // widen() to this or more failed without a limit of the run
 };
 
 }  // namespace grove::detail

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Breadth-first search from each port over the agent's world. A state on the place of a plain stop
-// is entered and not left, unless the search began on this stop. A leg that leaves a stop does so
-// in one of its base states: in the heading of the port, or where a stop has one port in any.
-// So every way from i to j that passes no other plain stop is found, and its length is at least the
-// depth of j. (Work that is not the agent's own is entered too, and states of work may be passed
-// through: that only makes depths smaller.)
+// Direct legs by breadth-first search.
 //
-// A start on a plain stop visits this stop at time 0, so all its legs but this one are kNever.
+// The search runs from each port over the agent's world. It enters a state on the place of a plain
+// stop but does not leave it, unless the search began on this stop. A leg that leaves a stop does
+// so in a base state of the stop: in the heading of the port, or, if a stop has one port, in any
+// heading. So every path from i to j that passes no other plain stop is found, and its length is at
+// least the depth of j. (The search also enters work that is not the agent's own, and passes
+// through states of work. That only makes depths smaller.)
+//
+// An agent that starts on a plain stop visits this stop at time 0, so all its other legs from the
+// start are kNever.
 #include "sequencing/direct_legs.h"
 
 #include <algorithm>

@@ -24,11 +24,12 @@ class LocalSearch {
   }
 
  private:
-  // Sums of legs without a way stay comparable: the more of them, the dearer.
+  // Sums of legs without a path stay comparable: the more of them, the higher the cost.
   std::int64_t leg(std::ptrdiff_t from, std::ptrdiff_t to) const {
     return matrix_.cost(row(from), row(to));
   }
-  // Of a position; before the first and behind the last one are the start and the end.
+  // The row of a position. Positions before the first and after the last stop are the start and the
+  // end.
   Eigen::Index row(std::ptrdiff_t position) const {
     return position < 0 || position >= std::ssize(sequence_) ? matrix_.stops()
                                                              : sequence_[position];
@@ -64,7 +65,7 @@ class LocalSearch {
     return sum;
   }
 
-  // Takes the first change that makes the sequence cheaper. False: there is none.
+  // Makes the first change that lowers the cost. Returns false if there is none.
   bool move_a_piece() {
     const std::ptrdiff_t n = std::ssize(sequence_);
     for (std::ptrdiff_t size = 1; size <= std::min(kLongestMove, n - 1); ++size)

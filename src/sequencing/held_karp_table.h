@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The Held-Karp table itself; the essay is at the head of held_karp.cpp.
+// The Held-Karp table; its recursion is described in held_karp.cpp.
 #pragma once
 
 #include <algorithm>
@@ -17,37 +17,39 @@
 
 namespace grove::detail {
 
-inline constexpr int kMostTableStops = 26;  // 3.5 GB; a table beyond is nobody's wish
+inline constexpr int kMostTableStops = 26;  // 3.5 GB of 16-bit entries; no caller needs more
 
-// Twice this value still fits, so that no sum overflows; every true cost is below it.
+// Marks an unreachable state. Twice this value still fits, so no sum overflows; every true cost is
+// below it.
 template <class Entry>
 inline constexpr Entry kUnreachable = std::numeric_limits<Entry>::max() / 2;
 
-// No finite cost of a sequence exceeds this: every row of the matrix has one leg in it.
+// Upper bound on every finite cost of a sequence: a sequence has one leg from each row of the
+// matrix.
 inline std::int64_t most_expensive(const CostMatrix& matrix) {
   std::int64_t sum = 0;
   for (Eigen::Index row = 0; row < matrix.cost.rows(); ++row) {
     Time most = 0;
     for (Time cost : matrix.cost.row(row))
       if (cost < kNever) most = std::max(most, cost);
-    sum += most;  // of all ports of a stop, though but one is passed
+    sum += most;  // counts all ports of a stop, although a sequence uses only one
   }
   return sum;
 }
 
-// May the table have 16-bit entries?
+// Whether every cost fits a table with 16-bit entries.
 inline bool fits_narrow_table(const CostMatrix& matrix) {
   return most_expensive(matrix) < kUnreachable<std::int16_t>;
 }
 
-// h[left][port], once built; ports of a stop, see CostMatrix. Immutable then; any thread may read
-// it.
+// h[left][port]; for ports see CostMatrix. Once built immutable: any thread may read it.
 template <class Entry>
 class HeldKarpTable {
  public:
   bool built() const { return table_ != nullptr; }
 
-  // Of a table, with what vectors of them spill over; 0: it would be too large.
+  // Number of entries of a table, including the overhang of the last vectors. 0: it would be too
+  // large.
   static std::size_t entries(int stops, int ports) {
     const int width = stops * ports;
     return stops > kMostTableStops || width > kMostLanes * kLanes
@@ -55,7 +57,8 @@ class HeldKarpTable {
                : (std::size_t{1} << stops) * width + kMostLanes * kLanes;
   }
 
-  // In `shared`, if there is room. False, and not built, when a limit struck.
+  // Builds the table, in `shared` if it has room. Returns false, and builds nothing, if a limit was
+  // reached.
   bool build(const CostMatrix& matrix, const Limits& limits, SharedArray shared = {}) {
     stops_ = matrix.stops();
     ports_ = matrix.ports;
@@ -77,7 +80,8 @@ class HeldKarpTable {
     return built();
   }
 
-  // The least cost from a port through all of `left` to the end; kNever when there is no way.
+  // The least cost from `port` through all stops of `left` to the end. Returns kNever if there is
+  // no path.
   Time cost_to_go(StopSet left, int port) const {
     const Entry cost = table_[left * static_cast<StopSet>(stops_ * ports_) + port];
     return cost == kUnreachable<Entry> ? kNever : Time{cost};
@@ -93,13 +97,13 @@ class HeldKarpTable {
     return own_ != nullptr;
   }
 
-  // False when a limit struck.
+  // Returns false if a limit was reached.
   bool fill(Entry* table, const CostMatrix& matrix, const Limits& limits) const {
     return ports_ == 1 ? fill_lanes<1>(table, matrix, limits)
                        : fill_lanes<4>(table, matrix, limits);
   }
 
-  // As many lanes as it takes.
+  // Selects the least number of vectors that hold a row.
   template <int kPorts, int kCount = 1>
   bool fill_lanes(Entry* table, const CostMatrix& matrix, const Limits& limits) const {
     if constexpr (kCount < kMostLanes)
@@ -145,7 +149,7 @@ class HeldKarpTable {
 
   int stops_ = 0;
   int ports_ = 1;
-  const Entry* table_ = nullptr;  // in own_, or in memory shared
+  const Entry* table_ = nullptr;  // in own_ or in shared memory
   std::unique_ptr<Entry[]> own_;
 };
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 // The K best joint sequences: one rank per agent, cheapest sum first (paper, Algorithm 3).
 //
-// Increasing any one rank of a vector costs nothing or more, so a best-first search from the vector
-// of zeros finds all vectors in order. The paper increases *every* rank of each vector and so
-// reaches {1,1,0} twice. Here a vector has exactly one parent, itself with its last nonzero rank
-// one less: the children of a vector whose last nonzero rank is agent j's increase the rank of j or
-// of an agent after j. A child that its agent's list does not hold is left out together with its
-// descendants, which the list does not hold either; nothing else is lost when a list ends.
+// *Enumeration.* Increasing any one rank of a vector never lowers its cost, so a best-first search
+// from the zero vector finds all vectors in order. The paper increases *every* rank of each vector
+// and so reaches {1,1,0} twice. Here a vector has exactly one parent: itself with its last nonzero
+// rank one less. So if agent j has the last nonzero rank of a vector, its children increase the
+// rank of j or of an agent after j. A child whose rank is beyond the end of its agent's list is
+// left out. All its descendants are beyond that end as well, so no other vector is lost.
 //
-// An entry is a delta: a vector returned (its base) plus the rank of one agent after the base's
-// last nonzero one. With b the base's cost, its key is b + (agent's bound on that rank) - (agent's
-// best), never above its true cost. Keys may grow stale as lists learn more; on top of the queue an
-// entry is brought up to date, resolved as far as its key, and returned only if its cost is known
-// and is the key. So the order is right, and the top's key is a proven lower bound on the next
-// cost.
+// *Entries.* An entry is a delta: a vector returned (its base) plus the rank of one agent after the
+// last nonzero rank of the base. With b the cost of the base, its key is b + (agent's bound on that
+// rank) - (cost of the agent's best), never above its true cost. Keys may become stale as the lists
+// learn more. When an entry is on top of the queue, it is brought up to date and resolved up to its
+// key. It is returned only if its cost is known and equals the key. So the order is right, and the
+// key of the top is a proven lower bound on the next cost.
 #include "sequencing/k_best_joint_sequences.h"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ class KBestJointSequences::Queue {
       const Cost bound = cost_bound(entry);
       if (bound == key && list.known(entry.rank)) return give(entry, key);
       if (bound < kInfiniteCost) queue_.push(bound, entry);
-      if (bound == key) break;  // neither known nor proven dearer: stopped
+      if (bound == key) break;  // neither known nor proven to cost more: a limit was reached
     }
     return std::nullopt;
   }
@@ -61,7 +61,8 @@ class KBestJointSequences::Queue {
   }
 
  private:
-  // The ranks of returned_[base], which are zero from `agent` on, but with this rank of `agent`.
+  // The ranks of returned_[base], which are zero from `agent` on, except that `agent` has rank
+  // `rank`.
   struct Entry {
     std::uint32_t base = 0;
     std::uint32_t agent = 0;
@@ -72,7 +73,7 @@ class KBestJointSequences::Queue {
     Entry entry;
   };
 
-  // Of the vector of zeros, from what the lists know.
+  // The cost of the zero vector, or a lower bound on it, from the bounds of the lists.
   Cost cost_of_best() const {
     Cost sum = 0;
     for (const KBestSequences& list : agents_) {
@@ -104,7 +105,7 @@ class KBestJointSequences::Queue {
     if (const Cost bound = cost_bound(entry); bound < kInfiniteCost) queue_.push(bound, entry);
   }
 
-  // One more for each agent from `begin` on, none of which has a rank in returned_[base].
+  // Adds rank 1 for each agent from `begin` on; none of them has a nonzero rank in returned_[base].
   void add_children(std::uint32_t base, std::uint32_t begin) {
     for (auto agent = begin; agent < agents_.size(); ++agent) add({base, agent, 1});
   }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Joint task sequences - one per agent - from the cheapest on (paper, Algorithm 3), as far as
-// asked.
+// K best joint task sequences, one sequence per agent (paper, Algorithm 3), computed lazily.
 #pragma once
 
 #include <cstddef>
@@ -17,28 +16,29 @@ namespace grove::detail {
 
 struct JointSequence {
   Cost cost = 0;                     // sum of the agents' sequence costs
-  std::vector<std::uint32_t> ranks;  // by AgentIndex: which of its K-best sequences
+  std::vector<std::uint32_t> ranks;  // by AgentIndex: rank among the agent's K best sequences
 };
 
-// Every combination of the agents' lists exactly once, by cost. Not for two threads at once.
+// Enumerates every combination of the agents' sequences exactly once, in order of cost. One thread
+// at a time.
 class KBestJointSequences {
  public:
-  // `limits` must outlive it, like what the lists refer to.
+  // `limits`, and all that `agents` refer to, must outlive this.
   KBestJointSequences(std::vector<KBestSequences> agents, const Limits& limits);
   ~KBestJointSequences();
   KBestJointSequences(KBestJointSequences&&) noexcept;
 
-  // A proven lower bound on the cost of the next joint sequence, without new work; kInfiniteCost
-  // when there is proven to be none. Never decreases.
+  // Returns a proven lower bound on the cost of the next joint sequence, without new work.
+  // kInfiniteCost: proven that there is none. Never decreases.
   Cost lower_bound() const;
-  // The next best joint sequence; none when all were returned (lower_bound() is then kInfiniteCost)
-  // or when a limit struck.
+  // Returns the next best joint sequence. Returns nullopt if all were returned (then lower_bound()
+  // is kInfiniteCost) or a limit was reached.
   std::optional<JointSequence> next();
 
-  // One agent's sequence of a rank that next() has returned.
+  // Returns the agent's sequence of a rank that next() has returned.
   const Sequence& sequence(AgentIndex agent, std::uint32_t rank);
 
-  // rTSPs solved so far, over all agents.
+  // Number of rTSPs solved so far, over all agents.
   std::int64_t rtsp_calls() const;
 
  private:

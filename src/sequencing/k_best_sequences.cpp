@@ -3,7 +3,7 @@
 //
 // Lawler (1972), after Murty (1968); the paper's Algorithm 2, with its branches indexed from the
 // start. The queue holds classes that partition all sequences not yet returned. The best member s
-// of the cheapest class is the next sequence; the class without s falls apart into
+// of the cheapest class is the next sequence. The class without s is split into
 //
 //   begins like s up to its i-th stop, then not s[i]   (and, at the class's own place, not what the
 //                                                       class forbade there already)
@@ -11,12 +11,13 @@
 // for each position i from the class's prefix on, so every sequence is returned exactly once. The
 // branch at the last position would forbid the only stop left: it is empty and never made.
 //
-// Laziness: a class enters the queue with nothing but a proven lower bound, its parent's cost. Only
-// when it comes to the top is the back end asked, with that bound as the cutoff; the answer is its
-// exact cost or a better bound, and either way it goes back to its new place. Keys never exceed the
-// true optimum of their class, and only an exact one is returned, when no key is smaller: so the
-// order is right, the top's key bounds whatever comes next, and the back ends never prove more than
-// the order requires. At equal keys exact classes go first: they need no more work.
+// *Laziness.* A class enters the queue only with a proven lower bound, the cost of its parent. When
+// it reaches the top, the back end is called with that bound as the cutoff. The answer is the exact
+// cost or a better bound, and in both cases the class is pushed again under it. Keys never exceed
+// the true optimum of their class, and a class is returned only if its key is exact and no key is
+// smaller. Hence the order is right, the key of the top is a lower bound on all later sequences,
+// and the back ends never prove more than the order requires. Among equal keys exact classes go
+// first, because they need no more work.
 #include "sequencing/k_best_sequences.h"
 
 #include <algorithm>
@@ -59,7 +60,8 @@ class KBestSequences::Partition {
   enum Knowledge : std::uint8_t { kExact, kBounded };
   using Key = std::pair<Time, Knowledge>;
 
-  // A class: the first `length` stops of a sequence found, then none of `forbidden`.
+  // A class: it begins with the first `length` stops of the sequence of rank `parent`, and the next
+  // stop is not in `forbidden`.
   struct Entry {
     StopSet forbidden;
     std::uint32_t parent;
@@ -71,7 +73,7 @@ class KBestSequences::Partition {
     Sequence sequence;
   };
 
-  // One step on the top of the queue. False when a limit struck.
+  // Processes the top of the queue. Returns false if a limit was reached.
   bool advance() {
     const auto [bound, knowledge] = queue_.top_key();
     const Entry entry = queue_.pop();
@@ -89,7 +91,7 @@ class KBestSequences::Partition {
     return answer.kind != RtspAnswer::Kind::kStopped;
   }
 
-  // The class of an entry, into class_ (which keeps its memory).
+  // Loads the class of an entry into class_, which keeps its memory.
   void load(const Entry& entry) {
     class_.forbidden_next = entry.forbidden;
     class_.prefix.clear();
@@ -98,7 +100,7 @@ class KBestSequences::Partition {
     class_.prefix.assign(parent.begin(), parent.begin() + entry.length);
   }
 
-  // Splits what is left of the entry's class without the sequence just found.
+  // Splits the rest of the entry's class, without the sequence just found.
   void branch(const Entry& entry, Time cost) {
     const Sequence& sequence = found_.back().sequence;
     const auto parent = static_cast<std::uint32_t>(found_.size() - 1);
@@ -119,7 +121,7 @@ class KBestSequences::Partition {
   const CostMatrix& matrix_;
   const Limits& limits_;
   KeyedStacks<Key, Entry> queue_;
-  std::deque<Found> found_;  // by rank; a deque, so that sequences stay where they are
+  std::deque<Found> found_;  // by rank; a deque, so that references to sequences stay valid
   SequenceClass class_;
   std::int64_t rtsp_calls_ = 0;
 };

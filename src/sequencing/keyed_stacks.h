@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A priority queue for many small entries on few distinct keys, of any kind: a stack for each.
+// Priority queue for many small entries with few distinct keys: one stack per key.
 #pragma once
 
 #include <map>
@@ -7,7 +7,7 @@
 
 namespace grove::detail {
 
-// Pops an entry of the least key; among equals the last one pushed.
+// Pops an entry of the least key; of several, the one pushed last.
 template <class Key, class Entry>
 class KeyedStacks {
  public:

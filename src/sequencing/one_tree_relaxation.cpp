@@ -1,41 +1,45 @@
 // SPDX-License-Identifier: MIT
-// Spanning trees under node potentials.
+// Held and Karp's 1-tree bound (1970, 1971) for a path instead of a tour: spanning trees under node
+// potentials.
 //
-// Held and Karp's bound (1970, 1971) for a path instead of a tour. A way from `from` through all
-// stops of a set S to the end is a first leg, a path that spans S, and a last leg. A spanning path
-// is a spanning tree, so
+// *Bound.* A path from `from` through all stops of a set S to the end consists of a first leg, a
+// path that spans S, and a last leg. A spanning path is a spanning tree, so
 //
 //   minimum spanning tree of S + min over u, w in S of (first leg to u + last leg from w)
 //
-// (u and w different stops unless S is a single one) bounds the way from below. Adding a potential
-// p(u) to every leg end at u changes the cost of every way alike, by 2 p(u) for each u in S,
-// because the way touches every stop of S twice; it does not change every *tree* alike. So for any
-// potentials
+// (u and w different stops unless |S| = 1) is a lower bound. Adding a potential p(u) to every leg
+// end at u changes the cost of every path by the same amount, 2 p(u) for each u in S, because the
+// path touches every stop of S twice. It does not change every *tree* by the same amount. So for
+// any potentials
 //
 //   min tree with potentials + first and last leg with theirs - 2 * sum of p over S
 //
-// is a bound too, and good potentials make it nearly tight. They come from subgradient ascent over
-// all stops: raise p where the tree branches, lower it where it ends. Potentials that serve the
-// whole set serve its subsets well enough, and the bound holds for any.
+// is a lower bound too, and good potentials make it nearly tight. They come from subgradient ascent
+// over all stops: raise p where the tree branches, lower it at leaves. Potentials that are good for
+// the whole set are good enough for its subsets, and the bound holds for any potentials.
 //
-// A way that begins at u in S, and goes through the rest of S to the end, is a path that spans S
-// too, from u, and a last leg from another stop. It touches u once less: so the minimum spanning
-// tree with potentials, the last leg with its own and p(u), less twice the sum, bounds it.
+// *First stop given.* A path that begins at u in S and visits the rest of S before the end consists
+// of a path that spans S, from u, and a last leg from another stop. It touches u once less. So the
+// minimum spanning tree with potentials, plus the last leg with its own potential, plus p(u), minus
+// twice the sum, is a lower bound.
 //
-// Everything is in fixed point: costs are integers times kScale, potentials are integers, so the
-// bound is computed exactly and rounding up to a multiple of kScale is sound, costs being integers.
-// Edges of the tree take the cheaper direction, so that a matrix need not be symmetric. But where
-// work takes time, each leg to a stop has that stop's work in it, and the cheaper direction knows
-// only the lesser of two. So legs are *balanced* first: a number s(u) is added to every leg from u
-// and taken off every leg to u. That changes no way through u; a way that begins at u costs s(u)
-// more then, which its bound is lowered by. With s(u) half of what legs to u cost more than those
-// from u, on the mean, work is shared evenly between the two legs of a stop.
+// *Fixed point.* Costs are integers times kScale and potentials are integers, so the bound is
+// computed exactly. Rounding it up to a multiple of kScale is sound, because costs are integers.
 //
-// Where stops have ports (cost_matrix.h), a leg of the relaxation takes the cheapest ports at both
-// its ends, so two legs that meet at a stop need not meet at one port: the turn between them is
-// lost. But s may differ from port to port: what a way adds at the port where it leaves a stop it
-// takes off where it came, and that is the same port. Where the relaxed way leaves a port more
-// often than it comes there, a greater s makes it dearer: the ascent moves s along with p.
+// *Balancing.* Edges of the tree take the cheaper direction, so the matrix need not be symmetric.
+// But if tasks take time, each leg to a stop includes the duration of that stop's task, and the
+// cheaper direction includes only the lesser of two durations. So legs are *balanced* first: a
+// number s(u) is added to every leg from u and subtracted from every leg to u. This changes no path
+// through u. A path that begins at u costs s(u) more, so its bound is lowered by s(u). With s(u)
+// equal to half of the mean excess of legs to u over legs from u, the duration is divided evenly
+// between the two legs at a stop.
+//
+// *Ports.* If stops have ports (cost_matrix.h), a leg of the relaxation takes the cheapest port at
+// each end. Two legs that meet at a stop need not meet at one port, so the turn between them is
+// lost. But s may differ from port to port: what a path adds at the port where it leaves a stop it
+// subtracts at the port where it came, and these are the same port. If the relaxed path leaves a
+// port more often than it enters it, a greater s raises its cost. So the ascent moves s together
+// with p.
 #include "sequencing/one_tree_relaxation.h"
 
 #include <algorithm>
@@ -50,13 +54,14 @@ namespace {
 
 constexpr int kSteps = 400;
 constexpr std::int64_t kScale = 256;
-// The leg that does not exist. Far above any sum of real legs and potentials (65 legs of 2^30 steps
-// times kScale are below 2^45, potentials are kept within kMostPotential), and 130 of them fit.
+// Cost of a leg that does not exist. It is far above any sum of real legs and potentials (65 legs
+// of 2^30 steps times kScale are below 2^45, potentials are kept within kMostPotential), and 130
+// times kNoLeg fits into 64 bits.
 constexpr std::int64_t kNoLeg = std::int64_t{1} << 54;
 constexpr std::int64_t kSurelyNoWay = kNoLeg / 2;
 constexpr std::int64_t kMostPotential = std::int64_t{1} << 43;
 
-// Both bounds are proven at every step, so what comes out must be a cost.
+// Rounds up: the true cost is an integer.
 Time to_cost(std::int64_t fixed_point) {
   if (fixed_point >= kSurelyNoWay) return kNever;
   return static_cast<Time>(std::max<std::int64_t>(0, fixed_point + kScale - 1) / kScale);
@@ -70,7 +75,7 @@ struct OneTreeRelaxation::Tree {
   std::int64_t weight = 0;
   int size = 0;
   std::array<Stop, kMaxTasksPerAgent> stops;
-  std::array<Stop, kMaxTasksPerAgent> joined;  // to which one, of those before
+  std::array<Stop, kMaxTasksPerAgent> joined;  // the earlier stop that it joined
 };
 
 // The cheapest pair of first and last leg, and the stops where they meet the tree.
@@ -144,7 +149,7 @@ void OneTreeRelaxation::weigh() {
 OneTreeRelaxation::Tree OneTreeRelaxation::tree(StopSet left) const {
   Tree tree;
   for_each_stop(left, [&](int stop) { tree.stops[tree.size++] = static_cast<Stop>(stop); });
-  // tree.stops[0 .. in_tree-1] are connected; the others wait with their cheapest edge to those.
+  // tree.stops[0 .. in_tree-1] are connected. edge[i] of the others is the cheapest edge to those.
   std::array<std::int64_t, kMaxTasksPerAgent> edge;
   const std::int64_t* row = &weight_[tree.stops[0] * stops_];
   for (int i = 1; i < tree.size; ++i) {
@@ -216,7 +221,7 @@ Time OneTreeRelaxation::bound_from(const Tail& tail, int first) const {
                  (stop == tail.nearest_to_end ? tail.second_leg : tail.last_leg) - shift_[first]);
 }
 
-// The cheapest ports of a leg between two rows of edges_.
+// Counts the cheapest ports of the leg between two rows of edges_.
 void OneTreeRelaxation::count_ports(int from, int to, Excess& excess) const {
   if (ports_ == 1) return;
   const int first = from * ports_;
@@ -230,7 +235,7 @@ void OneTreeRelaxation::count_ports(int from, int to, Excess& excess) const {
       }
 }
 
-// The bound from the start over all stops, and what the relaxed way has too much of.
+// Returns the bound from the start over all stops, and its subgradient.
 std::int64_t OneTreeRelaxation::bound_and_excess(Excess& excess) const {
   const StopSet all = stops_ == 64 ? ~StopSet{0} : bit(stops_) - 1;
   const Tree span = tree(all);
@@ -258,8 +263,8 @@ std::int64_t OneTreeRelaxation::bound_and_excess(Excess& excess) const {
   return tail.tree + ends.cost;
 }
 
-// Subgradient ascent with a step that shrinks geometrically and some of the last direction kept
-// (Volgenant and Jonker 1982). Any potentials and shifts are sound; the best ones met are kept.
+// Subgradient ascent with a geometrically decreasing step and a part of the last direction kept
+// (Volgenant and Jonker 1982). Any potentials and shifts are sound; the best ones found are kept.
 void OneTreeRelaxation::climb() {
   Excess excess;
   Excess last;
@@ -286,7 +291,7 @@ void OneTreeRelaxation::climb() {
       return std::ranges::all_of(counts, [](int count) { return count == 0; });
     };
     if (none(excess.of_stop) && (ports_ == 1 || none(excess.of_port)))
-      break;  // a path: nothing to gain
+      break;  // the relaxation is a path: the subgradient is 0
     move(potential_, excess.of_stop, last.of_stop, stops_, step);
     if (ports_ > 1) {
       move(shift_, excess.of_port, last.of_port, stops_ * ports_, step);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lower bounds on completing a sequence: spanning trees under node potentials (see the .cpp).
+// 1-tree lower bounds on completing a sequence: spanning trees under node potentials (Held and Karp
+// 1970; see the .cpp).
 #pragma once
 
 #include <cstdint>
@@ -10,39 +11,40 @@
 
 namespace grove::detail {
 
-// Immutable once built; holds its own copy of the costs.
+// Holds its own copy of the costs. Immutable once built: any thread may read it.
 class OneTreeRelaxation {
  public:
-  // What a bound over one set of stops has in common for every stop it may be reached from.
+  // The part of a bound over one set of stops that does not depend on where the agent comes from.
   struct Tail {
-    std::int64_t tree = 0;      // all but the first and the last leg
+    std::int64_t tree = 0;      // fixed point; all but the first and the last leg
     int nearest_to_end = 0;     // the stop with the cheapest last leg
-    int second_to_end = 0;      // the next one; the same if there is no other
-    std::int64_t last_leg = 0;  // their last legs
+    int second_to_end = 0;      // the stop with the next cheapest; the same if there is no other
+    std::int64_t last_leg = 0;  // costs of these two last legs
     std::int64_t second_leg = 0;
   };
 
-  // Works on potentials for some 400 spanning trees over all stops.
+  // Optimizes the potentials in about 400 iterations, each with a spanning tree over all stops.
   explicit OneTreeRelaxation(const CostMatrix& matrix);
 
-  // A proven lower bound on every complete sequence; kNever when there is proven to be none.
+  // A proven lower bound on every complete sequence. kNever: there is proven to be none.
   Time root_bound() const { return root_bound_; }
 
-  // Of a set that is not empty. O(|left|^2).
+  // Returns the tail of `left`, which must not be empty. O(|left|^2).
   Tail tail(StopSet left) const;
-  // A proven lower bound on the cost from `from` (a row of the matrix) through all stops of the
-  // tail to the end when one of `next`, a subset of them, comes first; kNever when there is proven
-  // to be no way. O(|next|).
+  // Returns a proven lower bound on the cost from `from` (a row of the matrix) through all stops of
+  // the tail to the end, if a stop of `next`, a subset of them, comes first. kNever: there is
+  // proven to be no such path. O(|next|).
   Time bound(const Tail& tail, StopSet next, int from) const;
-  // A proven lower bound on the cost from `first`, a port of a stop of the tail, through its other
-  // stops to the end. Weaker than bound() over the others' own tail, which need not be known. O(1).
+  // Returns a proven lower bound on the cost from `first`, a port of a stop of the tail, through
+  // the other stops of the tail to the end. Weaker than bound() over the tail of the other stops,
+  // but does not need that tail. O(1).
   Time bound_from(const Tail& tail, int first) const;
 
  private:
   struct Tree;
   struct EndLegs;
-  // Of the relaxed way: at each stop, how many legs touch it less two; at each port, how many begin
-  // there less those that end there.
+  // Subgradient of the relaxed path. of_stop: number of legs at the stop, minus two. of_port:
+  // number of legs that leave the port, minus the number that enter it.
   struct Excess {
     std::vector<int> of_stop;
     std::vector<int> of_port;
@@ -59,7 +61,7 @@ class OneTreeRelaxation {
   void count_ports(int from, int to, Excess& excess) const;
 
   int row_count() const { return stops_ * ports_ + 1; }
-  // The start, as a row; the end, as a column of costs_, not of legs_.
+  // Index of the start as a row, and of the end as a column of costs_ (not of legs_).
   int start_or_end() const { return stops_ * ports_; }
   std::int64_t shifted(int from, int to) const;
   std::int64_t leg(int from, int to) const { return legs_[from * (stops_ + 1) + to]; }
@@ -67,7 +69,7 @@ class OneTreeRelaxation {
 
   int stops_;
   int ports_;
-  std::vector<std::int64_t> costs_;      // in fixed point, as the matrix
+  std::vector<std::int64_t> costs_;      // in fixed point, laid out as the matrix
   std::vector<std::int64_t> shift_;      // by row of the matrix
   std::vector<std::int64_t> legs_;       // from a row to a stop or the end: least over its ports
   std::vector<std::int64_t> edges_;      // from a stop or the start: least over its ports too

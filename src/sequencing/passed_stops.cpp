@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Where many stops lie in a row, a sequence may visit each of them on the way in or on the way out,
-// at the same cost. Of all these one is enough for an optimum.
+// Canonical sequences: a restriction that keeps an optimum.
 //
-// Let detour(v, u, w) = cost(v, u) + cost(u, w) - cost(v, w), v being a stop or the start, w a stop
-// or the end, and least(u) the least detour of u over all such v and w. Stop u *is passed* on the
-// leg from v to a stop w if detour(v, u, w) = least(u) and (cost(v, u), u) < (cost(v, w), w), in
-// lexicographic order. A sequence of a class is *canonical* if none of its legs after the first
-// free stop passes a stop that comes later.
-// *Claim: of each class with a sequence of finite cost a cheapest member is canonical.* Take a
-// cheapest member, and the first leg (v, w) that passes a later stop u. Move u between v and w:
-// that takes a detour away that is least(u) or more, and adds one of least(u), so the sequence
-// costs no more; the prefix and the first free stop stay, so it is of the class. What comes next
-// after v has become smaller in the order above, and legs before have not changed. That order is
-// finite, so after some moves the leg from v passes nothing that comes later, and no move after
-// that changes it; then the same holds for the next leg, and so on. (If a leg from x to y does not
-// exist, and one from x over u to y does, the detour is far below zero; then so is least(u), which
-// no leg of a sequence of finite cost has.)
+// *Problem.* If many stops lie in a row, a sequence may visit each of them on the way in or on the
+// way out, at the same cost. One of all these sequences is enough for an optimum.
+//
+// *Definitions.* Let detour(v, u, w) = cost(v, u) + cost(u, w) - cost(v, w), where v is a stop or
+// the start, and w a stop or the end. Let least(u) be the least detour of u over all such v and w.
+// Stop u *is passed* on the leg from v to a stop w if detour(v, u, w) = least(u) and (cost(v, u),
+// u) < (cost(v, w), w), in lexicographic order. A sequence of a class is *canonical* if none of its
+// legs after the first free stop passes a stop that comes later.
+//
+// *Claim: each class with a sequence of finite cost has a cheapest member that is canonical.*
+// Proof: take a cheapest member, and the first leg (v, w) that passes a later stop u. Move u
+// between v and w. This removes a detour of least(u) or more, and adds a detour of least(u), so the
+// sequence costs no more. The prefix and the first free stop remain, so the sequence is of the
+// class. The successor of v is now smaller in the order above, and the legs before v have not
+// changed. That order is finite, so after finitely many moves the leg from v passes no later stop,
+// and no later move changes this leg. Then the same argument applies to the next leg, and so on.
+// (If a leg from x to y does not exist, but one from x over u to y does, the detour is far below
+// zero. Then so is least(u), and no leg of a sequence of finite cost has that detour.)
 #include "sequencing/passed_stops.h"
 
 #include <algorithm>

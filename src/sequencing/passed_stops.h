@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stops that an optimal sequence need not leave for later.
+// Stops that an optimal sequence need not postpone: it can visit them on a leg that passes them.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 
 namespace grove::detail {
 
-// For each leg of a matrix with one port a stop: the stops that lie on its way (see the .cpp).
-// Immutable; any thread may read it.
+// For each leg of a matrix with one port per stop: the stops that the leg passes (defined in the
+// .cpp). Immutable: any thread may read it.
 class PassedStops {
  public:
   explicit PassedStops(const CostMatrix& matrix);
 
-  // On the way from a row of the matrix to a stop.
+  // Returns the stops passed on the leg from a row of the matrix to a stop.
   StopSet on_leg(int from, int to) const {
     return passed_[static_cast<std::size_t>(from * stops_ + to)];
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The back ends behind make_rtsp_solver, each in the file of its name.
+// The back ends of make_rtsp_solver(), each in the file of its name.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@
 
 namespace grove::detail {
 
-// Up to here a table takes less than a millisecond and 0.5 MB (four times that with ports);
-// sequence graphs take about as long from here on, stay small, and only deep lists come from them
-// more slowly.
+// Largest number of stops for a table. Up to here a table takes less than a millisecond and 0.5 MB
+// (four times that with ports). For more stops, sequence graphs take about as long and stay small;
+// only long lists of sequences are slower with them.
 inline constexpr int kTableStops = 14;
 
 std::unique_ptr<RtspSolver> make_held_karp(const CostMatrix& matrix, const Limits& limits);
-// A graph of all sequences may have so many states, some 0.2 s; larger ones are of canonical
-// sequences alone.
+// Largest number of states in a graph of all sequences, about 0.2 s. Larger graphs hold only
+// canonical sequences.
 inline constexpr std::size_t kMostGraphStates = std::size_t{1} << 16;
 std::unique_ptr<RtspSolver> make_bounded_dp(const CostMatrix& matrix, const Limits& limits,
                                             std::size_t most_states = kMostGraphStates);

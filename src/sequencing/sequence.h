@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An agent's order of visits.
+// Visiting orders of one agent: stops, sets of stops, sequences.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +7,19 @@
 
 namespace grove::detail {
 
-// One of an agent's own tasks, as its position in Agent::tasks: 0 .. n-1.
+// One of an agent's own tasks, as its index in Agent::tasks: 0 .. n-1.
 using Stop = std::uint8_t;
 // A set of stops: bit s stands for stop s.
 using StopSet = std::uint64_t;
-// All of `stops`, at most 64.
+// The set of all of `stops` stops, at most 64.
 inline StopSet all_stops(int stops) {
   return stops == 64 ? ~StopSet{0} : (StopSet{1} << stops) - 1;
 }
-// Stops in the order of their visits; complete when it holds all n.
+// Stops in the order of their visits; complete if it holds all n.
 using Sequence = std::vector<Stop>;
 
-// See cost_matrix.h, which only those include who look into one: Eigen is a third of a compilation.
+// Defined in cost_matrix.h. Include that only to access a matrix: Eigen takes a third of the
+// compile time.
 struct CostMatrix;
 
 }  // namespace grove::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the dynamic programs share: a class is a place to continue from, and its best member follows
-// from the exact costs of completing (the "completion" of a stop, given what is left after it).
+// Best member of a sequence class, given exact costs to go. A class is a state to continue from.
+// Shared by the dynamic programs.
 #pragma once
 
 #include "model/assert.h"
@@ -10,12 +10,12 @@
 
 namespace grove::detail {
 
-// Where the members of a class part: after its prefix.
+// State at the end of the prefix of a class.
 struct ClassRoot {
-  Time cost = 0;     // of the prefix; kNever when it has a leg without a way
+  Time cost = 0;     // of the prefix; kNever if a leg of it has no path
   int last = 0;      // row of the cost matrix: the prefix's last stop, or the start
   StopSet left = 0;  // stops not in the prefix
-  StopSet next = 0;  // those of them that may come next
+  StopSet next = 0;  // stops of `left` that may come next
 };
 
 inline ClassRoot class_root(const CostMatrix& matrix, const SequenceClass& work) {
@@ -30,8 +30,8 @@ inline ClassRoot class_root(const CostMatrix& matrix, const SequenceClass& work)
   return root;
 }
 
-// The cheapest complete sequence of a class, given completion(left, stop): the least cost from
-// `stop` through all of `left` to the end.
+// Returns the cost of the cheapest complete sequence of a class, given cost_to_go(left, stop): the
+// least cost from `stop` through all stops of `left` to the end.
 template <class Completion>
 Time best_cost(const CostMatrix& matrix, const ClassRoot& root, const Completion& cost_to_go) {
   if (root.left == 0) return add_costs(root.cost, matrix.to_end(root.last));
@@ -43,7 +43,8 @@ Time best_cost(const CostMatrix& matrix, const ClassRoot& root, const Completion
   return add_costs(root.cost, best);
 }
 
-// A member of that cost: of several, the one whose stops come first. The class must not be empty.
+// Returns a member of that cost: of several, the first in lexicographic order. The class must not
+// be empty.
 template <class Completion>
 Sequence best_member(const CostMatrix& matrix, const SequenceClass& work,
                      const Completion& cost_to_go) {

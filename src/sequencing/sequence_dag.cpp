@@ -1,57 +1,62 @@
 // SPDX-License-Identifier: MIT
-// Bounded dynamic programming: the Held-Karp recursion, forward, over the states that matter.
+// Bounded dynamic programming: the forward Held-Karp recursion, restricted to states within a cost
+// limit.
 //
-// A state (S, v) - at stop v with the set S left - is kept iff g + b <= reach, where g is the least
-// cost of getting there through states kept and b a proven bound on completing
-// (path_relaxation.cpp; most of it depends on S alone, so it is paid once per set). All states with
-// the same S have as their predecessors only states with S + v left, so one pass over the layers of
-// equal size settles every g. A weaker b comes for nothing from the tree of S + v: some
-// 95 % of the states dropped are dropped for that, and no tree is made for their sets.
+// *Definitions.* A state (S, v) means: the agent is at stop v, and the set S of stops is left. g is
+// the least cost of reaching it through kept states. b is a proven lower bound on completing the
+// sequence from it (one_tree_relaxation.cpp; most of b depends only on S, so that part is computed
+// once per set). A state is kept iff g + b <= reach. All predecessors of the states with set S have
+// the set S + v left for some v, so one pass over the layers of equal |S| makes every g final. A
+// weaker b is available at no extra cost from the tree of S + v. About 95 % of the dropped states
+// are dropped by it, and no tree is built for their sets.
 //
-// Invariant: every state of a sequence that costs <= reach is kept. By induction along the
-// sequence: its state's predecessor is kept, so g is at most the cost of the sequence up to here; b
-// is at most the cost of its remainder; so g + b <= reach. Hence a sequence with a state that was
-// dropped has, at the first such state, g + b no greater than its own cost: the least g + b ever
-// dropped, beyond(), bounds all sequences outside the graph from below - and no reach below it adds
-// any.
+// *Invariant: every state of a sequence that costs <= reach is kept.* Proof, by induction along the
+// sequence: the predecessor of the state is kept, so g is at most the cost of the sequence up to
+// the state. b is at most the cost of its remainder. So g + b <= reach.
 //
-// Where stops have several ports (cost_matrix.h), a state has a g for each, and what is said of
-// states is said of their ports: each is kept or dropped by its own g + b.
+// *Consequence.* A sequence with a dropped state has, at the first such state, g + b no greater
+// than its own cost. So beyond(), the least g + b of any dropped state, is a lower bound on all
+// sequences outside the graph, and no reach below it adds any sequence.
 //
-// The backward pass then computes the exact cost to go within the graph. For a sequence below
-// beyond() that is its exact cost to go.
+// *Ports.* If stops have several ports (cost_matrix.h), a state has one g per port. The statements
+// above then hold per port: each port is kept or dropped by its own g + b.
 //
-// On a grid all ways between two cells have the same parity, so all complete sequences have the
-// same one too, and so they have with work that takes time. Where the matrix shows that (verified,
-// not assumed), g + b is rounded up to that parity.
+// *Backward pass.* It computes the exact cost to go within the graph. For a sequence below beyond()
+// this is its exact cost to go.
 //
-// *Direct legs.* In an aisle a sequence may skip any stops on the way in and visit them on the way
-// out, at the same cost: 2^n states lie on optimal sequences. But an agent that passes a plain stop
-// visits it. So with direct legs (direct_legs.h) the graph holds what agents can do instead of all
-// sequences. Definitions: a path of a class *counts* a stop when it is first on its place (or has
-// completed its work there), once the prefix and the first free stop are counted; so it realizes a
-// sequence of the class (planning/sequence_stages.cpp). c(S, v, w) is the least sum of direct legs
-// from v over stops outside S to w. *Claim: a path from v to w that counts none of S between costs
-// at least c(S, v, w).* Its places of plain stops, in their order, are all outside S, and cut it
-// into ways that pass no other plain stop; each costs at least its direct leg. So with c(S, v, w)
-// for the cost of going on to w, g of a state is at most what a path pays that comes there, and the
-// invariant holds for paths: every state of a path that costs <= reach is kept, and beyond() bounds
-// all paths with a state outside. b stays a bound, for no direct leg costs less than the matrix
-// has. Legs of the prefix, and the one to the first free stop, may pass anything: they cost what
-// the matrix has. The graph is then of this class alone: another prefix reaches states that no path
-// of this class can.
+// *Parity.* On a grid all paths between two cells have the same parity, hence so have all complete
+// sequences, also if tasks take time. If the matrix has this property (verified, not assumed), g +
+// b is rounded up to that parity.
 //
-// *Passed stops.* Where sequences alone matter, and of these a cheapest member of one class, the
-// graph holds its canonical sequences (passed_stops.cpp): the invariant and beyond() are of these,
-// and one of them is a cheapest member.
+// *Direct legs.* Problem: in an aisle a sequence may skip any stops on the way in and visit them on
+// the way out, at the same cost, so 2^n states lie on optimal sequences. But an agent that passes a
+// plain stop visits it. So with direct legs (direct_legs.h) the graph holds what agents can do
+// instead of all sequences. Definitions: a path of a class *counts* a stop when it is first on the
+// place of the stop (or has completed its work there), once the prefix and the first free stop are
+// counted. So the path realizes a sequence of the class (planning/sequence_stages.cpp). c(S, v, w)
+// is the least sum of direct legs from v over stops outside S to w. *Claim: a path from v to w that
+// counts no stop of S in between costs at least c(S, v, w).* Proof: the places of plain stops on
+// the path are all outside S. In their order they cut the path into segments that pass no other
+// plain stop, and each segment costs at least its direct leg. Consequence: with c(S, v, w) as the
+// cost from v to w, g of a state is at most what a path to this state pays. So the invariant holds
+// for paths: every state of a path that costs <= reach is kept, and beyond() is a lower bound on
+// all paths with a state outside. b remains a lower bound, because no direct leg costs less than
+// the leg of the matrix. Legs of the prefix, and the leg to the first free stop, may pass any stop:
+// they cost what the matrix has. The graph is then valid only for this class: another prefix
+// reaches states that no path of this class can reach.
 //
-// *Pairs.* In a row the relaxation is far from the truth for states that leave gaps; so by direct
-// legs b is at least the cost of going by any two stops left, in the better order, to the end. Each
-// part of that is the least cost of a real part of the path: from a state on one stop to the next
-// of the two, or to the end. (So the last part must be that of any path. Late costs have one that
-// is of the last stop of a sequence alone: late_goals.cpp puts the other into its direct legs.)
+// *Passed stops.* If only sequences matter, and only a cheapest member of one class, the graph
+// holds the canonical sequences of the class (passed_stops.cpp). The invariant and beyond() then
+// refer to canonical sequences, and one of them is a cheapest member.
 //
-// A hop from v over a stop u is useless if every stop is as near directly as by u
+// *Pairs.* For stops in a row the relaxation is weak for states that leave gaps. So with direct
+// legs b is at least the cost of visiting any two stops left, in the better order, and then going
+// to the end. Each part of that sum is the least cost of a real part of the path: from the state's
+// stop to one of the two, from that to the other, or to the end. (So the last part must be valid
+// for any path. Late costs have a leg to the end that is valid only for the last stop of a
+// sequence; late_goals.cpp puts the other one into its direct legs.)
+//
+// *Hops.* A hop from v over a stop u is useless if every stop is at least as near directly as by u
 // (DirectLegs::hops): the direct leg that replaces it passes no stop at all.
 #include "sequencing/sequence_dag.h"
 
@@ -69,17 +74,17 @@ namespace grove::detail {
 namespace {
 
 constexpr std::size_t kPollInterval = 32;     // sets; each takes a few microseconds
-constexpr std::size_t kCountedExcess = 4096;  // costs this far above the reach are not counted
+constexpr std::size_t kCountedExcess = 4096;  // costs this far above `reach` are not counted
 
-// The parity of every complete sequence, or -1 when they need not share one. They do if the parity
-// of each leg is a sum of one number of where it begins and one of where it ends: each stop is
-// entered once and left once.
+// Returns the parity of every complete sequence, or -1 if they need not share one. They share one
+// if the parity of each leg is the sum of a number of its first stop and a number of its last stop,
+// because each stop is entered once and left once.
 int common_parity(const CostMatrix& matrix) {
   if (matrix.ports > 1) return -1;
   const int n = matrix.stops();
   const auto odd = [&](int row, int column) { return matrix.cost(row, column) & 1; };
   const auto sum = [&](int from, int to) { return odd(from, n) ^ odd(n, to); };
-  const int more = n > 1 ? odd(0, 1) ^ sum(0, 1) : 0;  // of each leg between stops
+  const int more = n > 1 ? odd(0, 1) ^ sum(0, 1) : 0;  // added for each leg between stops
   int parity = (n - 1) * more & 1;
   for (int stop = 0; stop < n; ++stop) {
     parity ^= sum(stop, stop);
@@ -159,7 +164,7 @@ class SequenceDagBuilder {
  private:
   using PortCosts = std::array<Time, kPorts>;
 
-  // A set of the layer that is being reached, and a state in it.
+  // A set of the layer under construction, and below a state of that layer.
   struct Group {
     SequenceDag::Node node;
     OneTreeRelaxation::Tail tail;
@@ -170,7 +175,7 @@ class SequenceDagBuilder {
     Stop stop;
   };
 
-  // Those of the first free stops after the prefix; returns how many free stops there are.
+  // Adds the states of the first free stop after the prefix. Returns the number of free stops.
   int reach_first_states() {
     constexpr int kStart = -1;
     int last = kStart;
@@ -205,8 +210,8 @@ class SequenceDagBuilder {
 
   static Time least(const PortCosts& costs) { return *std::ranges::min_element(costs); }
 
-  // Keeps the state (left, stop), reached at these costs, if it lies on a way within reach; of its
-  // ports those that do.
+  // Keeps the state (left, stop), reached at `costs`, if it lies on a route within `reach_`. Of its
+  // ports it keeps those that do.
   void reach_state(StopSet left, int stop, PortCosts costs) {
     if (least(costs) >= kNever) return;
     const std::uint32_t number =
@@ -240,7 +245,7 @@ class SequenceDagBuilder {
       cost = kNever;
     }
   }
-  // The greatest, over two stops left, of the lesser of going by them in either order.
+  // Returns the maximum over pairs of stops left of the cheaper of the two orders.
   Time bound_of_pairs(StopSet left, int from) const {
     Time bound = 0;
     for_each_stop(left, [&](int one) {
@@ -257,7 +262,8 @@ class SequenceDagBuilder {
     });
     return bound;
   }
-  // The least legs of the matrix, the last ones being those of any way to the end.
+  // The least legs over the ports. The last column, to the end, is that of the direct legs, which
+  // holds for any path.
   static CostMatrix ways(const CostMatrix& matrix, const DirectLegs* direct) {
     if (direct == nullptr) return {};
     CostMatrix any = matrix;
@@ -273,7 +279,8 @@ class SequenceDagBuilder {
     ++dropped_[excess];
   }
 
-  // Where the states dropped would be half as many as those kept: what follows on them comes too.
+  // The cost limit up to which half as many dropped costs were counted as are stored. States that
+  // follow on these are then admitted too.
   Time next_reach() const {
     std::size_t count = 0;
     for (std::size_t excess = 0; excess < dropped_.size(); ++excess)
@@ -288,8 +295,8 @@ class SequenceDagBuilder {
 
   Time* costs_of(std::uint32_t state) { return &dag_.completions_[state * std::size_t{kPorts}]; }
 
-  // Moves the groups that hold a state into the graph. Until the backward pass, "completions" are
-  // the costs of getting there.
+  // Moves the groups that hold a state into the graph. Until the backward pass, completions_ holds
+  // the costs of reaching the states.
   void close_layer() {
     tails_.clear();
     auto first = static_cast<std::uint32_t>(dag_.state_count());
@@ -312,7 +319,7 @@ class SequenceDagBuilder {
     group_index_ = {};
   }
 
-  // From every node of [begin, end) to every stop left. False when a limit struck.
+  // Expands every node of [begin, end) to every stop left. Returns false if a limit was reached.
   bool expand(std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (i % kPollInterval == 0 && !may_go_on()) return false;
@@ -321,7 +328,7 @@ class SequenceDagBuilder {
       for_each_stop(node.left, [&](int next) {
         const PortCosts costs =
             direct_ != nullptr ? costs_of_walking_to(next) : costs_of_reaching(next, node);
-        // Few pass: spares the others a tail of their own.
+        // Few states pass this test. It avoids computing a tail for the others.
         Time whole = kNever;
         for (int port = 0; port < kPorts; ++port)
           whole = std::min(
@@ -339,8 +346,8 @@ class SequenceDagBuilder {
 
   StopSet visited(const SequenceDag::Node& node) const { return matrix_.all() & ~node.left; }
 
-  // The least costs of getting to each port of a visited stop, by direct legs from where the node's
-  // states are.
+  // Computes the least cost of reaching each port of a visited stop, by direct legs from the stops
+  // of the node's states.
   void walk(const SequenceDag::Node& node) {
     walked_.fill(kNever);
     walkers_.clear();
@@ -385,7 +392,7 @@ class SequenceDagBuilder {
     return costs;
   }
 
-  // Whatever grows next may double: asks for that much before it happens.
+  // Any vector may double when it grows next, so this requests as much memory again beforehand.
   bool may_go_on() {
     const std::size_t bytes = dag_.nodes_.capacity() * sizeof(SequenceDag::Node) +
                               dag_.completions_.capacity() * sizeof(Time) + dag_.index_.bytes() +
@@ -409,7 +416,7 @@ class SequenceDagBuilder {
     return true;
   }
 
-  // From each port of a visited stop by direct legs, until nothing changes.
+  // Computes the cost to go from each port of a visited stop by direct legs, to a fixed point.
   void settle_walks(const SequenceDag::Node& node) {
     walked_.fill(kNever);
     std::array<Time, kMaxTasksPerAgent * kPorts> onward;
@@ -446,7 +453,8 @@ class SequenceDagBuilder {
     });
   }
 
-  // Ports that were dropped get the cost of their ways inside the graph too: those are real ways.
+  // Dropped ports also get the cost of their routes inside the graph, because these routes are
+  // real.
   void settle(const SequenceDag::Node& node) {
     Time onward[kMaxTasksPerAgent * kPorts];
     for_each_stop(node.left, [&](int next) {
@@ -476,17 +484,18 @@ class SequenceDagBuilder {
   const std::size_t most_states_;
   const Time reach_;
   const Limits& limits_;
-  const CostMatrix ways_;  // by stop, if there are direct legs
+  const CostMatrix ways_;  // by stop; empty without direct legs
   const int parity_;
 
   SequenceDag dag_{kNever};
   std::vector<Group> groups_;
-  std::vector<OneTreeRelaxation::Tail> tails_;  // of the last layer's nodes
+  std::vector<OneTreeRelaxation::Tail> tails_;  // of the nodes of the last layer
   std::vector<State> states_;
-  std::vector<std::size_t> dropped_;  // by how much they exceed the reach, less 1
+  std::vector<std::size_t> dropped_;  // counts, by excess over `reach_`, less 1
   StopSetIndex group_index_;
   std::size_t asked_bytes_ = 0;
-  // By port of a visited stop, of the node under way; and the ports that have a cost, some twice.
+  // Of the node in progress, by port of a visited stop; and the ports with a cost, some of them
+  // twice.
   std::array<Time, kMaxTasksPerAgent * kPorts> walked_;
   std::vector<int> walkers_;
 };

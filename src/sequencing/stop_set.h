@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small arithmetic that every back end needs: sets of stops, and costs that may be kNever.
+// Sets of stops, and sums of costs that may be kNever.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the agents' best orders of visits cost together when nobody is in anybody's way.
+// Sum of the costs of the agents' best sequences, without conflicts between agents.
 #pragma once
 
 #include <optional>
@@ -12,13 +12,15 @@
 
 namespace grove::detail {
 
-// The optimum of one agent's sequencing problem, as RtspSolver::best of all sequences.
+// Returns the optimum of one agent's sequencing problem, as RtspSolver::best() does for the class
+// of all sequences.
 RtspAnswer best_sequence_cost(const Instance& instance, AgentIndex agent,
                               const DistanceFields& distances, const Limits& limits);
 
-// The sum over the agents of the optimum of their sequencing problem (with or without destination,
-// as the instance has it): the cost of the first root of CTS-CBS, and a lower bound on every plan.
-// kInfiniteCost when some agent has no way; none when `limits` strike first.
+// Returns the sum over the agents of the optimum of their sequencing problem (with or without
+// destination, as in the instance). This is the cost of the first root of CTS-CBS, and a lower
+// bound on every plan. Returns kInfiniteCost if some agent has no path, nullopt if a limit of
+// `limits` was reached first.
 std::optional<Cost> sum_of_best_sequences(const Instance& instance, const Limits& limits);
 
 }  // namespace grove::detail
