@@ -192,16 +192,16 @@ void LagrangianBound::note_best_multipliers() {
 std::vector<LagrangianBound::Asked> LagrangianBound::dispatch_pricing() {
   const std::vector<AgentRange> cuts = partition_agents();
   std::vector<Asked> shares;
-  for (const AgentRange& partition_agents : cuts) {
-    Helper& helper = helpers_[static_cast<std::size_t>(partition_agents.helper)];
+  for (const AgentRange& range : cuts) {
+    Helper& helper = helpers_[static_cast<std::size_t>(range.helper)];
     PricingRequest share;
     share.round = rounds_;
-    share.first = partition_agents.first;
-    for (AgentIndex agent = partition_agents.first; agent < partition_agents.end; ++agent)
+    share.first = range.first;
+    for (AgentIndex agent = range.first; agent < range.end; ++agent)
       share.known.push_back(known_[agent] = known_price(agent));
     share.news = multipliers().update_for(helper.charges);
     helper.owes = true;
-    shares.push_back({partition_agents.helper, partition_agents.work, std::move(share)});
+    shares.push_back({range.helper, range.work, std::move(share)});
   }
   if (cuts.empty()) return shares;
   const std::lock_guard lock(mutex_);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The checker: is a plan what it claims to be? It recomputes every visit, cost and conflict from the
-// instance and the paths (docs/design.md, section 1), with code of its own. It shares the types of
-// `model` with the search: World (states, moves, places), Instance and Plan. It does not verify the
-// lower bound; it checks only that bound, cost and status agree.
+// The checker: is a plan what it claims to be? It recomputes every visit, cost and conflict from
+// the instance and the paths (docs/design.md, section 1), with code of its own. It shares the types
+// of `model` with the search: World (states, moves, places), Instance and Plan. It does not verify
+// the lower bound; it checks only that bound, cost and status agree.
 #pragma once
 
 #include <stdexcept>

@@ -29,9 +29,9 @@ class LabelPlanes {
  public:
   // Forgets all labels.
   void begin_search(int slots) {
-    if (touched_groups_ > kGroupsKept) reinsert();
+    if (touched_groups_ > kGroupsKept) release_memory();
     if (static_cast<std::size_t>(slots) > capacity_) {
-      reinsert();
+      release_memory();
       // Little spare capacity at first, because memory may be short. Later it grows by half,
       // because with reservations the number of slots grows path by path.
       const std::size_t tight =
@@ -41,7 +41,7 @@ class LabelPlanes {
                                                   kMostPlanesPerPiece);
     }
     if (++stamp_ == 0) {
-      reinsert();
+      release_memory();
       by_state_.clear();
       stamp_ = 1;
     }
@@ -104,7 +104,7 @@ class LabelPlanes {
   std::size_t groups() const { return capacity_ / kGroup + 1; }
   std::size_t piece_bytes() const { return planes_per_piece_ * capacity_ * sizeof(Label); }
 
-  void reinsert() {
+  void release_memory() {
     pieces_.clear();
     touched_groups_ = 0;
   }

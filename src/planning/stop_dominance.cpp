@@ -59,7 +59,7 @@ void StopDominance::close(const SequenceStages& goals, StageId from, State state
   }
   for (std::size_t way = 0; way < ways.size(); ++way) {
     if (!of_stop(ways[way])) continue;
-    GlobalBounds& gate = gates_[static_cast<std::size_t>(by_stage_[from]) + way];
+    Gate& gate = gates_[static_cast<std::size_t>(by_stage_[from]) + way];
     const Time there = time + stops.turn(state, ways[way].port);
     if (until > gate.until || (until == gate.until && there < gate.from)) gate = {there, until};
   }
@@ -67,7 +67,7 @@ void StopDominance::close(const SequenceStages& goals, StageId from, State state
 
 Time StopDominance::least_cost(const SequenceStages& goals, StageId stage, State state,
                                Time time) const {
-  const GlobalBounds* gate = &gates_[static_cast<std::size_t>(by_stage_[stage])];
+  const Gate* gate = &gates_[static_cast<std::size_t>(by_stage_[stage])];
   Time least = kNever;
   for (const SequenceStages::Onward& way : goals.onward(goals.stage(stage))) {
     const Time there = time + goals.stops().to_port(state, way.port);

@@ -37,7 +37,7 @@ class StopDominance {
  private:
   // A gate: a label that reaches the stop at `from` or later is not needed for this port, unless it
   // visits the stop at `until` or later.
-  struct GlobalBounds {
+  struct Gate {
     Time from = kNever;
     Time until = 0;
   };
@@ -45,7 +45,7 @@ class StopDominance {
 
   std::vector<std::int32_t> by_stage_;  // index in gates_ of the first gate of the stage
   std::vector<StageId> stages_;         // the stages that have gates
-  std::vector<GlobalBounds> gates_;
+  std::vector<Gate> gates_;
 };
 
 }  // namespace grove::detail

@@ -11,9 +11,9 @@
 
 namespace grove::detail {
 
-Traffic::Traffic(const World& world, double defaults, const Tuning& tuning)
+Traffic::Traffic(const World& world, double usual, const Tuning& tuning)
     : world_(world),
-      usual_(defaults),
+      usual_(usual),
       tuning_(tuning),
       there_(static_cast<std::size_t>(world.place_count()), 0),
       buckets_(kBuckets) {

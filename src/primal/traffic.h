@@ -18,10 +18,10 @@ namespace grove::detail {
 // thread at a time.
 class Traffic {
  public:
-  // `world` and `tuning` must outlive this. `defaults`: the amount of traffic that raises the cost
+  // `world` and `tuning` must outlive this. `usual`: the amount of traffic that raises the cost
   // of a step by traffic_there (traffic on the place) or traffic_against (in the opposite
   // direction) times its cost without traffic.
-  Traffic(const World& world, double defaults, const Tuning& tuning);
+  Traffic(const World& world, double usual, const Tuning& tuning);
 
   // Multiplies all counts by `left`.
   void fade(double left);

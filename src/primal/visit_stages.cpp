@@ -28,20 +28,20 @@ VisitStages::VisitStages(const Problem& problem, AgentIndex agent, Sequence orde
   for (const TaskIndex task : stops()) {
     places_.push_back(instance_.task(task).cell);
     steps_.to_stop.push_back(problem.distances.to_task(task));
-    if (guide) repair_operators_.to_stop.push_back(guide->to_task[task]);
+    if (guide) guide_targets_.to_stop.push_back(guide->to_task[task]);
   }
   const bool on_last_stop = instance_.rests_on_last_stop(agent);
   steps_.to_rest = on_last_stop ? steps_.to_stop[order_.back()] : problem.distances.to_rest(agent);
   if (guide)
-    repair_operators_.to_rest =
-        on_last_stop ? repair_operators_.to_stop[order_.back()] : guide->to_rest[agent];
+    guide_targets_.to_rest =
+        on_last_stop ? guide_targets_.to_stop[order_.back()] : guide->to_rest[agent];
   else
-    repair_operators_ = steps_;
+    guide_targets_ = steps_;
   all_ = make(all_stops(static_cast<int>(stops().size())));
 }
 
 void VisitStages::go_by_steps() {
-  repair_operators_ = steps_;
+  guide_targets_ = steps_;
   for (Entry& known : entries_) known = entry(known.left);
 }
 
@@ -53,7 +53,7 @@ VisitStages::Stage VisitStages::make(StopSet left) {
 }
 
 VisitStages::Entry VisitStages::entry(StopSet left) const {
-  DistanceView to_next = repair_operators_.to_rest;
+  DistanceView to_next = guide_targets_.to_rest;
   std::int64_t onward = 0;
   Place from = kNoPlace;
   const auto go_on = [&](DistanceView to) {
@@ -64,10 +64,10 @@ VisitStages::Entry VisitStages::entry(StopSet left) const {
   };
   for (Stop stop : order_) {
     if ((left >> stop & 1) == 0) continue;
-    go_on(repair_operators_.to_stop[stop]);
+    go_on(guide_targets_.to_stop[stop]);
     from = places_[stop];
   }
-  go_on(repair_operators_.to_rest);
+  go_on(guide_targets_.to_rest);
   return {left, to_next, static_cast<Time>(std::min<std::int64_t>(onward, kNever - 1))};
 }
 

@@ -94,7 +94,7 @@ class VisitStages {
   std::vector<Place> places_;  // by stop
   Sequence order_;
   Targets steps_;
-  Targets repair_operators_;  // by the guide, or as steps_
+  Targets guide_targets_;  // by the guide, or as steps_
   Stage all_;
   std::vector<Entry> entries_;
   StopSetIndex index_;

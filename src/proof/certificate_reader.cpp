@@ -193,8 +193,8 @@ class Reader {
     using DemandKind = CertificateDemand::Kind;
     CertificateDemand demand;
     demand.agent = agent();
-    demand.kind =
-        static_cast<DemandKind>(one_of({"bar", "move", "norest", "rest", "pass", "stop", "nostop"}));
+    demand.kind = static_cast<DemandKind>(
+        one_of({"bar", "move", "norest", "rest", "pass", "stop", "nostop"}));
     switch (demand.kind) {
       case DemandKind::kVertexOrEdge:
         demand.p = place();

@@ -17,7 +17,14 @@
 namespace grove::detail {
 namespace {
 
-enum PartKind : std::int64_t { kSplit = 1, kBound = 2, kLemma = 3, kPrices = 4, kJoint = 5, kTree = 6 };
+enum PartKind : std::int64_t {
+  kSplit = 1,
+  kBound = 2,
+  kLemma = 3,
+  kPrices = 4,
+  kJoint = 5,
+  kTree = 6
+};
 constexpr std::int64_t kMostNumbers = std::int64_t{1} << 28;  // maximum length of an entry
 
 using Numbers = std::vector<std::int64_t>;

@@ -154,9 +154,9 @@ Tuning random_tuning(Random& random) {
     std::visit(
         [&](auto at) {
           using Number = std::remove_cvref_t<decltype(tuning.*at)>;
-          const double defaults = static_cast<double>(Tuning().*at);
-          const double some = random.pick<double>(
-              {t.least, defaults / 8, defaults / 2, 2 * defaults, 8 * defaults});
+          const double usual = static_cast<double>(Tuning().*at);
+          const double some =
+              random.pick<double>({t.least, usual / 8, usual / 2, 2 * usual, 8 * usual});
           tuning.*at = static_cast<Number>(std::clamp(some, t.least, t.most));
         },
         t.place);

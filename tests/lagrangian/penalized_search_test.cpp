@@ -178,7 +178,7 @@ TEST(PenalizedSearch, ImprovesAPathAroundOthers) {
 
 // Cut short it never says more than the least price.
 TEST(PenalizedSearch, IsNeverAboveWhereItIsCutShort) {
-  int partition_agents = 0;
+  int cut_short = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
     Known known(tiny_instance(seed));
@@ -196,11 +196,11 @@ TEST(PenalizedSearch, IsNeverAboveWhereItIsCutShort) {
             search.search(goals, {}, PenalizedSearch::kMostPrice, labels, {}, nullptr);
         EXPECT_LE(price, least);
         EXPECT_GE(price, ScaledCost{least_cost(goals, {})} * Penalties::kUnit);
-        partition_agents += price < least;
+        cut_short += price < least;
       }
     }
   }
-  EXPECT_GT(partition_agents, 50);
+  EXPECT_GT(cut_short, 50);
 }
 
 }  // namespace

@@ -111,10 +111,10 @@ struct Process {
 // both say to the coordinator.
 SimulatedNetwork::Delay random_delays(Dice& dice, int ranks) {
   const std::vector<double> paces{0, 1, 10, 100, 3000, 20'000};
-  const double defaults = paces[dice() % 4];
+  const double usual = paces[dice() % 4];
   std::vector<double> typical;
   for (int link = 0; link < ranks * ranks; ++link)
-    typical.push_back(kTick * (chance(dice, 70) ? defaults : paces[dice() % paces.size()]));
+    typical.push_back(kTick * (chance(dice, 70) ? usual : paces[dice() % paces.size()]));
   if (chance(dice, 30))  // one rank is the last to be told
     typical[dice() % static_cast<std::size_t>(ranks)] = kTick * 1000;
   return [&dice, typical, ranks](int from, int to, std::size_t) {
