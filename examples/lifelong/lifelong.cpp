@@ -146,7 +146,7 @@ class Loop {
  private:
   void decide() {
     Given given = assignment_.give(session_.instance());
-    reinsert(given, at_once_);
+    give_back(given, at_once_);
     if (given.empty()) return;
     const auto start = Clock::now();
     take_on(given);
@@ -172,7 +172,7 @@ class Loop {
   }
 
   // All but the first `kept`, for another time.
-  void reinsert(Given& given, std::size_t kept) {
+  void give_back(Given& given, std::size_t kept) {
     for (std::size_t i = kept; i < given.size(); ++i) assignment_.add(given[i].second);
     given.resize(std::min(kept, given.size()));
   }
