@@ -9,7 +9,7 @@
 namespace grove::detail {
 
 // The same on every machine and in every version for instances that are the same to the search:
-// grid, starts, destinations, tasks and their order. Names and files do not count. Two other
+// map, starts, destinations, tasks and their order. Names and files do not count. Two other
 // instances have the same fingerprint with a probability of 2^-64 only. The hash is FNV-1a, which
 // does not resist deliberate collisions.
 std::uint64_t fingerprint(const Instance& instance);

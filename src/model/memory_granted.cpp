@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kUnlimited =
-    std::uint64_t{1} << 62;  // cgroup version 1 writes a number close to 2^63 for "no limit"
+    std::uint64_t{1} << 62;  // at least this: no limit; cgroup version 1 writes such a number
 
 // The minimum of the limits in the files of a control group. A file may be missing or contain
 // "max".
