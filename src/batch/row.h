@@ -7,9 +7,8 @@
 //     instance, method, options      Entry::id; name of the method; its options as typed
 //     map, scenario, agents, tasks, problem     InstanceFacts; missing: the instance is unreadable
 //     omega, seed, time_limit_s      settings of the run
-//     solved                         the run ended by itself, before any limit, with a plan that
-//     was
-//                                    re-checked; anytime: it had a plan in time
+//     solved                         the run ended by itself, before any limit, with a re-checked
+//                                    plan; anytime: it had a plan in time
 //     status                         as in the plan file; or "error": it crashed, or Grove's plan
 //                                    is invalid; or "unsuitable": the method does not support the
 //                                    instance; other solvers: "feasible", "wrong" (the plan is

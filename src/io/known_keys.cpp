@@ -43,7 +43,7 @@ constexpr std::array kUnmodelled{
     Unmodelled{"window", "time windows"},
 };
 
-// --- what there is ---
+// --- declarations ---
 
 const KnownObject& working_keys() {
   static const KnownObject known{"\"working\"", {{"task"}, {"done"}}};
@@ -128,7 +128,7 @@ const KnownObject& trace_keys() {
   return known;
 }
 
-// --- what was meant ---
+// --- hints ---
 
 // Normalizes a key: "oneway" for "One-Way".
 std::string folded(std::string_view key) {

@@ -28,7 +28,7 @@ using ArrayLayout = std::array<std::vector<std::size_t>, kArrayKinds>;
 
 class SharedArrays;
 
-// One shared array, or none. Refers to its SharedArrays, which must outlive it. Thread-safe.
+// One shared array, or none. Refers to the memory of its SharedArrays. Thread-safe.
 class SharedArray {
  public:
   SharedArray() = default;  // none
