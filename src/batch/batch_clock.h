@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The two clocks of a batch.
+// The two clocks of a batch: elapsed seconds and UTC.
 #pragma once
 
 #include <functional>
@@ -8,11 +8,11 @@
 namespace grove::detail::batch {
 
 struct BatchClock {
-  std::function<double()> seconds;   // since some moment; never goes back
+  std::function<double()> seconds;   // since a fixed moment; monotonic
   std::function<std::string()> utc;  // as 2026-11-30T23:59:59Z
 };
 
-// Those of the machine.
+// The clocks of the machine.
 BatchClock machine_clock();
 
 }  // namespace grove::detail::batch

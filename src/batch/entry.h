@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One instance of a batch.
+// An instance of a batch: its id and where its files are.
 #pragma once
 
 #include <string>
@@ -8,20 +8,21 @@
 
 namespace grove::detail::batch {
 
-// Where to find an instance, and what to call it. Paths lead there from the working directory.
+// An instance of a batch. Paths are relative to the working directory.
 struct Entry {
-  // Unique in its batch; names the instance's files. A relative path without a suffix, printable.
+  // Unique in its batch; part of the names of the instance's files. A printable relative path
+  // without a suffix.
   std::string id;
-  std::string path;         // FILE.cts.json, or FILE.scen with the two below
+  std::string path;         // FILE.cts.json; or FILE.scen, with `map` and `agents`
   std::string map = {};     // of a .scen file; else empty
-  int agents = 0;           // the first so many rows of a .scen file; else 0
-  InputRules rules = {};    // by which it is to be read
+  int agents = 0;           // number of rows of a .scen file to use; else 0
+  InputRules rules = {};    // rules for reading the instance
   std::string digest = {};  // instance_digest(); empty: the instance cannot be read
 
   friend bool operator==(const Entry&, const Entry&) = default;
 };
 
-// The instance that `entry` names. Throws InputError.
+// Reads the instance of `entry`. Throws InputError.
 LoadedInstance load(const Entry& entry);
 
 }  // namespace grove::detail::batch

@@ -21,7 +21,7 @@ std::string without_suffix(std::string name) {
   return name;
 }
 
-// What is wrong with an instance is for its own row to tell.
+// Returns "" for an invalid instance. Its row will report the error.
 std::string digest_of(const Entry& entry) {
   try {
     return instance_digest(load(entry).instance);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The instances of a batch, as they are found.
+// Collects the instances of a batch and checks them.
 #pragma once
 
 #include <filesystem>
@@ -14,22 +14,22 @@ namespace grove::detail::batch {
 
 inline constexpr std::string_view kInstanceSuffix = ".cts.json";
 
-// What an instance is called that is found in, or by a manifest of, `folder`. No upward steps: what
-// names files below the output folder must stay there. Of an instance that lies elsewhere the file
-// and the folder it is in, and not the whole way there, which says more of the machine than of the
-// instance. `agents`: of a scenario; else 0.
+// The id of an instance that was found in `folder`, or by a manifest in `folder`. It contains no
+// "..", because files below the output folder are named after it. For an instance outside `folder`
+// it consists of the file's name and the name of the file's folder only, because the full path
+// describes the machine rather than the instance. `agents`: number of agents of a scenario; else 0.
 std::string id_of(const std::filesystem::path& path, const std::filesystem::path& folder,
                   int agents);
 
-// Collects entries and refuses what must not be.
+// Collects entries and rejects invalid ones.
 class EntryCollector {
  public:
   // `source`: the manifest or the folder, for messages.
   EntryCollector(std::filesystem::path source, const InputRules& rules)
       : source_(std::move(source)), rules_(rules) {}
 
-  // `place` is where the entry comes from: a line of a manifest, or a file of a folder. Works out
-  // its digest. Throws InputError.
+  // Adds an entry and computes its digest. `place`: the origin of the entry, for messages: a line
+  // of a manifest, or a file of a folder. Throws InputError.
   void add(Entry entry, const std::string& place);
   std::vector<Entry> take() { return std::move(entries_); }
 
@@ -40,7 +40,7 @@ class EntryCollector {
                    const std::string& what) const;
 
   const std::filesystem::path source_;
-  const InputRules rules_;  // of all entries
+  const InputRules rules_;  // for all entries
   std::vector<Entry> entries_;
   Places files_;
   Places ids_;

@@ -12,11 +12,11 @@ namespace {
 
 using InstanceKey = std::pair<std::string, std::string>;  // its id and digest
 
-// What is known of an instance, and from whom; null: nothing.
+// The rows with the strongest results on an instance; nullptr: there is none.
 struct Known {
-  const Row* cheapest = nullptr;  // of the plans that were re-checked
-  const Row* highest = nullptr;   // of the bounds that Grove has proven
-  const Row* hopeless = nullptr;  // proven by Grove: there is no plan
+  const Row* cheapest = nullptr;  // the cheapest plan that was re-checked
+  const Row* highest = nullptr;   // the highest lower bound that Grove has proven
+  const Row* hopeless = nullptr;  // Grove has proven that there is no plan
 };
 
 InstanceKey key_of(const Row& row) {
@@ -46,7 +46,7 @@ std::map<InstanceKey, Known> known_of(std::span<const Row> rows) {
   return all;
 }
 
-// Empty: nothing is known against it.
+// The contradiction to the claimed cost; empty: none is known.
 std::string against_cost(const Row& row, const Known& known) {
   const Outcome& outcome = row.outcome;
   if (!outcome.claimed_cost) return "";

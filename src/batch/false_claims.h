@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What rows say that cannot be, held against each other.
+// Finds claims in the rows of a table that contradict other rows.
 #pragma once
 
 #include <span>
@@ -18,10 +18,14 @@ struct FalseClaim {
   friend bool operator==(const FalseClaim&, const FalseClaim&) = default;
 };
 
-// Of rows of one instance, whatever their methods and seeds: a claimed cost below that of the plan
-// shown with it, or, where none is, below a bound that Grove has proven; a lower bound, claimed or
-// Grove's own, above the cost of a plan that was re-checked; a plan where Grove has proven that
-// there is none, or the other way round. In the order of the rows.
+// Compares the rows of each instance, whatever their methods and seeds, and returns, in the order
+// of the rows, each
+// - claimed cost below the cost of the plan in the same row or, without a plan, below a lower bound
+//   that Grove has proven;
+// - lower bound, claimed by another solver or proven by Grove, above the cost of a plan that was
+//   re-checked;
+// - claimed plan for an instance that Grove has proven infeasible, or infeasibility of an instance
+//   that has a plan.
 std::vector<FalseClaim> false_claims(std::span<const Row> rows);
 
 }  // namespace grove::detail::batch

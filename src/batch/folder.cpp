@@ -15,7 +15,7 @@ void make_folder(const std::filesystem::path& folder) {
   if (error) throw InputError(folder.string(), "", "cannot be made: " + error.message());
 }
 
-// A file of its own: others in the folder are replaced.
+// Locks a separate file, because other files in the folder are replaced.
 FolderLock::FolderLock(const std::filesystem::path& folder)
     : file_(folder / ".lock", O_RDWR | O_CREAT | O_NOFOLLOW) {
   if (!file_.is_open()) fail_to_write(folder / ".lock");

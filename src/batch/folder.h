@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The folder that a long run writes to.
+// The output folder of a long run.
 #pragma once
 
 #include <filesystem>
@@ -8,14 +8,15 @@
 
 namespace grove::detail::batch {
 
-// Makes `folder` and those above it where they are missing. Throws InputError when it cannot.
+// Makes `folder` and its missing parents. Throws InputError if it cannot.
 void make_folder(const std::filesystem::path& folder);
 
-// Keeps other processes out of a folder, where the file system has locks, for as long as it lives
-// and this process does.
+// Locks a folder against other processes, if the file system supports locks. The lock ends with
+// this object or with the process.
 class FolderLock {
  public:
-  // `folder` must exist. Throws InputError when it cannot be written to or another has locked it.
+  // `folder` must exist. Throws InputError if it cannot be written to, or another process has
+  // locked it.
   explicit FolderLock(const std::filesystem::path& folder);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Has an instance changed since it was solved?
+// Detects whether an instance has changed since it was solved.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace grove::detail::batch {
 
-// 64 bits in hexadecimal digits: fingerprint() and the ids of agents and tasks, which plans name.
-// The same wherever the files are and however they are laid out. Tells a change; does not withstand
-// forgery (FNV-1a).
+// 64 bits as hexadecimal digits: a hash of fingerprint() and of the ids of agents and tasks, which
+// plans refer to. It does not depend on the location and layout of the files. It detects changes
+// but not deliberate collisions (FNV-1a).
 std::string instance_digest(const Instance& instance);
 
 }  // namespace grove::detail::batch

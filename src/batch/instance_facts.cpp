@@ -12,19 +12,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// 12 of "s12" for the letter s; none of anything else.
+// The number in a word that begins with `letter`: 12 for "s12" and 's'. Returns nullopt for any
+// other word.
 std::optional<std::int64_t> numbered(std::string_view word, char letter) {
   if (!word.starts_with(letter)) return std::nullopt;
   return parse_number<std::int64_t>(word.substr(1), 0);
 }
 
-// What a name such as room-32-32-4_s3_n5_m20_mg says.
+// The numbers in a name such as room-32-32-4_s3_n5_m20_mg.
 struct NamedNumbers {
   std::optional<std::int64_t> scenario;
   std::optional<std::int64_t> tasks;
 };
 
-// 3 of "den312d-random-3-50", or without the agents.
+// The number 3 in "den312d-random-3-50" or "den312d-random-3".
 std::optional<std::int64_t> moving_ai_number(std::string_view name) {
   for (const std::string_view kind : {"-random-", "-even-"}) {
     const std::size_t at = name.rfind(kind);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A file that grows by whole lines.
+// A file to which whole lines are appended.
 #pragma once
 
 #include <filesystem>
@@ -10,19 +10,20 @@
 
 namespace grove::detail::batch {
 
-// The lines that `text`, the content of such a file, holds whole; what follows the last line end is
-// torn. They point into `text`.
+// The complete lines of `text`, the content of such a file, as views into `text`. An incomplete
+// last line is omitted.
 std::vector<std::string_view> whole_lines(std::string_view text);
 
-// Appends to a file. A process that is killed leaves at most the last line torn. Of one thread.
+// Appends to a file. If the process is killed, at most the last line is incomplete. One thread at a
+// time.
 class LineFile {
  public:
-  // Makes the file if it is missing. Throws InputError when it cannot be written.
+  // Creates the file if it is missing. Throws InputError if it cannot be written.
   explicit LineFile(std::filesystem::path path);
 
-  // Writes `lines`, each with its end, at once. Throws InputError when that fails.
+  // Appends `lines`, which end in line ends, in one write. Throws InputError if that fails.
   void append(std::string_view lines);
-  // Returns when all that was appended would survive a crash of the machine. Throws InputError.
+  // Returns when everything appended would survive a system crash. Throws InputError.
   void flush();
 
  private:

@@ -89,7 +89,7 @@ class ManifestReader {
     return plain_entry(existing(item), folder_);
   }
 
-  // FILE.scen --map FILE.map --agents K; file names may hold blanks.
+  // FILE.scen --map FILE.map --agents K. File names may contain blanks.
   Entry scenario_entry(std::string_view item) const {
     constexpr std::string_view kMap = " --map ";
     constexpr std::string_view kAgents = " --agents ";

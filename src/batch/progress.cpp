@@ -54,7 +54,7 @@ void ProgressDisplay::finish(const ProgressText& text) {
   if (style_.terminal) style_.write("\n");
 }
 
-// One column stays free: some terminals break the line after the last one.
+// Leaves the last column free, because some terminals break the line after it.
 void ProgressDisplay::draw(const ProgressText& text) {
   style_.write(style_.terminal ? fmt::format("\r{}\033[K", with_bar(text, style_.columns - 1))
                                : text.line + "\n");

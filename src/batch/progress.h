@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a long piece of work is, and how long it will take.
+// Progress of a long computation, and an estimate of the remaining time.
 #pragma once
 
 #include <functional>
@@ -10,52 +10,52 @@
 
 namespace grove::detail::batch {
 
-// Work of many pieces that several workers do, at one moment.
+// The state of a computation that consists of pieces, which several workers compute.
 struct Workload {
-  int done = 0;            // pieces
-  int left = 0;            // pieces not done, those under way too
+  int done = 0;            // pieces completed
+  int left = 0;            // pieces not completed, including those in progress
   int workers = 1;         // at least 1
-  double done_s = 0;       // what the pieces done took, summed
-  double under_way_s = 0;  // for how long those under way have been, summed
+  double done_s = 0;       // total time of the completed pieces
+  double under_way_s = 0;  // total time so far of the pieces in progress
 };
 
-// How long a piece takes on average; none before the first is done. As if the time a piece takes
-// were exponentially distributed: the mean is all time spent, on what is under way too, over the
-// number done. (Without what is under way the easy ones, which are done first, would promise too
-// much.)
+// The expected time per piece. Returns nullopt before the first piece is completed. Assumes an
+// exponential distribution of the times: the mean is the total time, including the time of pieces
+// in progress, divided by the number of completed pieces. (Without pieces in progress the estimate
+// would be too low, because the easy pieces are completed first.)
 std::optional<double> seconds_each(const Workload& work);
-// How long until all is done; none before the first is.
+// The expected remaining time. Returns nullopt before the first piece is completed.
 std::optional<double> seconds_left(const Workload& work);
 
-// "1:02:03", "2:03"; whole seconds.
+// Text such as "1:02:03" or "2:03", in whole seconds.
 std::string duration_text(double seconds);
 
-// What is shown: so many of so many pieces, in words.
+// The displayed progress: numbers of completed and of all pieces, and a text.
 struct ProgressText {
   int done = 0;
   int total = 0;
   std::string line;
 };
-// The line after a bar, in at most `columns` columns; without the bar, or cut off, where it is
-// long.
+// The text after a progress bar, in at most `columns` columns. A long text has no bar or is
+// truncated.
 std::string with_bar(const ProgressText& text, int columns);
 
-// Where it is shown, and how.
+// The form of the display.
 struct ProgressStyle {
-  bool terminal = false;  // a bar that is drawn again and again; else now and then a line
+  bool terminal = false;  // a bar that is redrawn; else a line from time to time
   int columns = 80;
   std::function<void(std::string_view)> write;
 };
 
-// Shows progress at a decent pace. Of one thread.
+// Displays progress at limited frequency. One thread at a time.
 class ProgressDisplay {
  public:
   explicit ProgressDisplay(ProgressStyle style) : style_(std::move(style)) {}
 
-  // Is it time to show something, `elapsed_s` after the beginning?
+  // True if the display is due `elapsed_s` seconds after the beginning.
   bool is_due(double elapsed_s) const { return elapsed_s >= next_s_; }
   void show(double elapsed_s, const ProgressText& text);
-  // The last word.
+  // Displays the final state.
   void finish(const ProgressText& text);
 
  private:

@@ -25,7 +25,8 @@ std::string limit_text(std::optional<double> gigabytes) {
   return gigabytes ? fmt::format("{} GB", *gigabytes) : "by the machine";
 }
 
-// "seed '1' there, '2' here; time limit '60' there, '180' here"; empty: none that matter.
+// The differences, such as "seed '1' there, '2' here; time limit '60' there, '180' here"; empty:
+// none that matters.
 std::string differences(const Run& there, const Run& here, TableOf table) {
   std::vector<std::string> texts;
   const auto compare = [&](const char* what, const auto& a, const auto& b) {
@@ -58,7 +59,7 @@ void ResultTable::read() {
   int number = 0;
   for (const std::string_view line : whole_lines(text)) {
     ++number;
-    if (line.empty()) continue;  // people edit
+    if (line.empty()) continue;  // a user may have edited the file
     try {
       rows_.push_back(parse_json_line(line));
     } catch (const std::invalid_argument& error) {
@@ -115,7 +116,7 @@ std::vector<std::size_t> ResultTable::begin(const std::vector<Run>& runs) {
   return left;
 }
 
-// Of two rows of a pair, which only people can make, the later stands.
+// Of two rows of one pair, which only manual editing can produce, the later one is kept.
 void ResultTable::keep_rows_but_of(const std::vector<Pair>& pairs) {
   for (const Pair& pair : pairs) index_.erase(pair);
   std::vector<Row> kept;
@@ -150,7 +151,7 @@ void ResultTable::put_last_what_was_begun(std::vector<std::size_t>& left,
   if (kept != text) write_file_atomically(begun_file(), kept);
 }
 
-// Not flushed: a crash of the whole machine is not the instance's fault.
+// Not flushed, because a system crash is not caused by the instance.
 void ResultTable::note_begun(const Run& run) {
   if (!begun_) begun_.emplace(begun_file());
   begun_->append(run.instance + "\n");

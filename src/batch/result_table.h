@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: MIT
-// The rows of many runs on disk, and what is still to be run.
+// The table of results of a batch on disk, and the runs that are still missing.
 //
-//     DIR/results.jsonl   one line of JSON per run, appended when it has ended
-//     DIR/results.csv     the same for spreadsheets, made from it
+//     DIR/results.jsonl   one line of JSON per run, appended when the run has ended
+//     DIR/results.csv     the same for spreadsheets, generated from results.jsonl
 //
-// Every pair of an instance and a method has at most one row, in a comparison of methods one for
-// each seed. Whatever kills the program leaves whole rows and at most one torn line at the end,
-// which the next run drops. The same command again goes on where it stopped: a pair is run again
-// only when
-//   - it has no row,
-//   - its row is an error: whoever repeats the command has mended the cause, as a rule, and if not,
-//     the error comes again,
-//   - the plan that its row names is gone, or
-//   - its instance has changed since, in a table of plans.
-// What struck a limit is a result and stays. Another version of the program or another number of
-// threads is no reason: each row tells its own. Nothing else is thrown away unasked: a row of
-// another run is refused. Rows of pairs that the command does not name stay.
+// Each pair of an instance and a method has at most one row; in a comparison of methods, one row
+// for each seed. If the program is killed, all rows are complete except for at most one incomplete
+// line at the end, which the next run removes. If the same command is started again, it resumes. A
+// pair is run again only if
+// - it has no row,
+// - its row is an error: usually the user has fixed the cause before repeating the command, and if
+//   not, the error occurs again,
+// - the plan file of its row is missing, or
+// - its instance has changed since, in a table of plans.
 //
-// What crashes the whole program (memory, as a rule) would do so again and keep all others waiting:
-// runs that an earlier command began and did not end come last, those begun most often at the very
-// end. DIR/.begun knows them.
+// A run that reached a limit is a result and is kept. A different version of the program or number
+// of threads does not cause a repetition, because each row states its own. No other row is removed
+// without a request: a row of a different run is an error. Rows of pairs that the command does not
+// name are kept.
+//
+// An instance that crashes the whole program (usually for lack of memory) would do so again and
+// delay all others. So runs that an earlier command began and did not end come last, the ones begun
+// most often at the very end. DIR/.begun lists them.
 #pragma once
 
 #include <cstddef>
@@ -40,40 +42,41 @@
 namespace grove::detail::batch {
 
 enum class TableOf : std::uint8_t {
-  kMethods,  // a comparison: methods differ in options, limits, seeds; if an instance has changed,
-             // its rows are data that someone may still want
+  kMethods,  // a comparison: methods differ in options, limits, seeds; the rows of an instance
+             // that has changed are kept, because they are data that may still be needed
   kPlans,    // of one search: all rows have the same settings; the plan of an instance that has
-             // changed is worth nothing
+             // changed is useless
 };
 
-// Of one process, and of one thread at a time; a lock keeps other processes out where the file
-// system has locks.
+// One process and one thread at a time. A lock excludes other processes if the file system supports
+// locks.
 class ResultTable {
  public:
-  // Opens the table in `folder`, which is made if missing. Throws InputError when it cannot be read
-  // or written, or is in use by another run.
+  // Opens the table in `folder`, which is created if it is missing. Throws InputError if the table
+  // cannot be read or written, or is in use by another run.
   ResultTable(std::filesystem::path folder, TableOf what);
 
-  // Which of `runs` are to be done: their positions, in the order in which to do them. Once, before
-  // all below: drops the rows of what is run again, and a torn line. Throws InputError when a row
-  // is of another run.
+  // Returns the runs to do, as positions in `runs`, in the order in which to do them. Removes the
+  // rows of the runs to be repeated, and an incomplete line. Call it once, before all functions
+  // below. Throws InputError if a row belongs to a different run.
   std::vector<std::size_t> begin(const std::vector<Run>& runs);
 
-  // `run` begins; only for those whose crash takes the whole program with it.
+  // Records that `run` begins. Call it only for runs whose crash ends the whole program.
   void note_begun(const Run& run);
-  // Rows of pairs that have none. They outlive this process when this returns.
+  // Appends rows of pairs that have none. When it returns, they survive the end of this process.
   void append(std::span<const Row> rows);
-  // Returns when all rows would outlive a crash of the machine.
+  // When it returns, all rows survive a system crash.
   void flush();
-  // Makes DIR/results.csv anew, whole or not at all: the runs in their order, then what is left
-  // from others.
+  // Replaces DIR/results.csv atomically: first the rows of `runs` of begin() in their order, then
+  // the other rows.
   void write_csv() const;
-  // The command ends in good order: what is not finished was not to blame.
+  // Call it when the command ends normally. Removes DIR/.begun, because unfinished runs did not
+  // crash.
   void end();
 
-  // The rows that stand, in the order in which they ended.
+  // All rows, in the order in which the runs ended.
   const std::vector<Row>& rows() const { return rows_; }
-  // The row of a run; null: it has none. Valid until the next append().
+  // The row of a run; nullptr if there is none. Valid until the next append().
   const Row* find(const Run& run) const;
 
  private:
@@ -95,8 +98,8 @@ class ResultTable {
   const TableOf what_;
   const FolderLock lock_;
   std::vector<Row> rows_;
-  std::map<Pair, std::size_t> index_;  // of rows_
-  std::map<Pair, std::size_t> order_;  // of the runs
+  std::map<Pair, std::size_t> index_;  // positions in rows_
+  std::map<Pair, std::size_t> order_;  // positions in `runs` of begin()
   bool torn_ = false;
   std::optional<LineFile> lines_;
   std::optional<LineFile> begun_;
@@ -104,7 +107,7 @@ class ResultTable {
 
 // The table for spreadsheets in `folder`.
 std::filesystem::path csv_file(const std::filesystem::path& folder);
-// Where the plan of an instance is, relative to the folder of the table.
+// The path of an instance's plan, relative to the folder of the table.
 std::string plan_file(const std::string& id);
 
 }  // namespace grove::detail::batch

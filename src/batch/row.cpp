@@ -24,7 +24,7 @@ Json optional_json(const std::optional<Value>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-// To a millionth: nobody reads more.
+// Rounded to a multiple of 1e-6.
 double rounded(double value) {
   return std::round(value * 1e6) / 1e6;
 }
@@ -38,14 +38,14 @@ Json ratio(std::optional<Cost> numerator, std::optional<Cost> denominator) {
   return rounded(static_cast<double>(*numerator) / static_cast<double>(*denominator));
 }
 
-// (cost - lower bound) / lower bound; none over a bound of 0 that is not met.
+// (cost - lower bound) / lower bound. Null if the lower bound is 0 and the cost is not.
 Json gap(const Outcome& outcome) {
   if (!outcome.cost || !outcome.lower_bound) return nullptr;
   if (*outcome.cost == *outcome.lower_bound) return 0.0;
   return ratio(*outcome.cost - *outcome.lower_bound, outcome.lower_bound);
 }
 
-// The columns, once for all formats.
+// The columns, defined once for all formats.
 std::vector<std::pair<std::string, Json>> columns(const Row& row) {
   const Settings& settings = row.run.settings;
   const InstanceFacts& facts = row.facts;
@@ -106,7 +106,7 @@ std::optional<Value> optional_member(const nlohmann::json& json, const char* key
   return value.get<Value>();
 }
 
-// Of a column that older tables lack.
+// Reads a column that older tables do not have.
 template <typename Value>
 std::optional<Value> later_member(const nlohmann::json& json, const char* key) {
   return json.contains(key) ? optional_member<Value>(json, key) : std::nullopt;

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kScenario = ".scen";
 
 struct Found {
-  std::vector<fs::path> scenarios;            // by name
+  std::vector<fs::path> scenarios;            // in order of name
   std::multimap<std::string, fs::path> maps;  // by file name
   bool has_instances = false;
 };
@@ -53,7 +53,7 @@ Found look(const fs::path& place) {
   return found;
 }
 
-// "random-32-32-20-random-2" before "...-10": runs of digits are numbers.
+// Sort key that compares a number at the end by value: "random-32-32-20-random-2" before "...-10".
 std::pair<std::string, long> natural(const fs::path& path) {
   const std::string stem = path.stem().string();
   const std::size_t digits = stem.find_last_not_of("0123456789") + 1;
@@ -61,7 +61,7 @@ std::pair<std::string, long> natural(const fs::path& path) {
   return {stem.substr(0, digits), number.empty() ? 0 : std::stol(number)};
 }
 
-// Beside the scenario, or the only one of that name.
+// The map in the scenario's folder, or the only one of that name.
 fs::path map_of(const fs::path& scenario, const Found& found,
                 const std::vector<ScenarioRow>& rows) {
   const std::string name = fs::path(rows.front().map).filename().string();

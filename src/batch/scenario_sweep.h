@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Classical MAPF as Moving AI's benchmark has it: scenarios, each with several numbers of agents.
+// Instances of classical MAPF from Moving AI's benchmark: scenarios, each with several numbers of
+// agents.
 #pragma once
 
 #include <filesystem>
@@ -12,25 +13,25 @@
 namespace grove::detail::batch {
 
 struct ScenarioSweep {
-  std::vector<int> agents;      // rising
-  std::string scenarios = "*";  // which: a name without .scen, with * for anything
+  std::vector<int> agents;      // in ascending order
+  std::string scenarios = "*";  // names without .scen; * matches any text
 };
 
 struct SweptScenarios {
   std::vector<Entry> entries;
-  int too_short = 0;  // scenarios that have too few rows for some of the numbers
+  int too_short = 0;  // scenarios with too few rows for some of the numbers
 };
 
-// `place`: FILE.scen, or a folder with such files in it or below, as Moving AI's archives unpack.
-// The map that a scenario names is the file of that name beside it, else the only one of that name
-// in the folder or below. Throws InputError.
+// `place`: FILE.scen, or a folder with such files in it or below, as in Moving AI's archives. The
+// map that a scenario names is the file of that name in the scenario's folder, else the only file
+// of that name in `place` or below. Throws InputError.
 SweptScenarios read_scenarios(const std::filesystem::path& place, const ScenarioSweep& sweep,
                               const InputRules& rules = {});
 
-// Whether there are scenarios there, and no *.cts.json.
+// True if there are scenarios and no *.cts.json files in `place` or below.
 bool holds_scenarios(const std::filesystem::path& place);
 
-// "room-*-1" and the like.
+// True if `name` matches `pattern`, for example "room-*-1".
 bool matches(std::string_view name, std::string_view pattern);
 
 }  // namespace grove::detail::batch

@@ -1,30 +1,35 @@
 // SPDX-License-Identifier: MIT
-// Why robots that keep to the order never collide. Of a place the plan makes a row: the robots that
-// are on it, one after the other, each from its move onto it to its move away. In a plan without
-// vertex conflicts these stays do not overlap, so the row is well defined. An action that enters a
-// place waits until the robot before it in the row has completed its move away; that one waited for
-// the one before, and so on. So stays, counted from the begin of the move onto the place to the end
-// of the move away, do not overlap either, whatever the delays. Within a ring they touch: there
-// each robot enters, in a step that all make together, the place that the next one leaves. Two
-// robots never swap places: in a swap each would have to enter a place that the other leaves in the
-// same step, which the plan excludes; a ring has three robots or more.
+// Why robots that keep to the action dependency graph neither collide nor wait for ever.
 //
-// Why nobody waits for ever. Let an action wait for another directly: it is a later one of the same
-// robot, which begins later in the plan; or it enters a place that the other leaves, and then the
-// other begins no later in the plan, for the place is empty before it is entered, at the end of a
-// move. Round a circle of waits the times of begin would never rise and, where a robot's own
-// actions follow each other, fall: so all waits in it are of the second kind, between moves that
-// begin in the same step. Each move enters one place and leaves one, which one robot at most leaves
-// or enters in that step: the circle is a ring of robots that follow each other, without branches,
-// and as a joint step it waits for nothing of its own. All other waits lead from earlier steps to
-// later ones in the order made here, which is therefore without circles. So as long as every robot
-// completes what it has begun, the first step that is not completed can be.
+// Definitions. For each place, the plan defines a row: the stays of robots on this place, in order
+// of time. A stay begins with the robot's move onto the place and ends with its move away. In a
+// plan without vertex conflicts the stays of a place do not overlap, so the row is well defined.
 //
-// What is transitive. Let `x` name `a`, which is of robot i. If x's robot has, before x, waited for
-// a or for something that i does later, directly or by others, or for a move of a's ring, which is
-// completed with it, then a is completed when x may begin: the wait says nothing more. For 16
-// robots at a time one pass over all steps, in order, finds the last action of each that must be
-// completed before each action can be.
+// Claim 1: robots do not collide, whatever the delays. Proof: an action that enters a place waits
+// until the previous robot in the row has completed its move away, which itself waited for the
+// robot before, and so on. So stays, counted from the begin of the move onto the place to the end
+// of the move away, do not overlap during execution either. Within a ring they touch: in one joint
+// step each robot enters the place that the next one leaves. Two robots never swap places: in a
+// swap each would have to enter a place that the other one leaves in the same step. The plan
+// excludes this, so a ring has at least three robots.
+//
+// Claim 2: as long as every robot completes the actions that it has begun, the first incomplete
+// step can be completed. Proof: let an action wait directly for another one. (a) It is a later
+// action of the same robot, which begins later in the plan; or (b) it enters a place that the other
+// action leaves. In case (b) the other action begins no later in the plan, because the place is
+// empty before it is entered, at the end of a move. So along a cycle of waits the begin times would
+// never rise, and they would fall at each wait of kind (a). Hence all waits of a cycle are of kind
+// (b), between moves that begin in the same step of the plan. Each move enters one place and leaves
+// one, and at most one robot leaves or enters a place in that step. So the cycle is a ring of
+// robots that follow each other, without branches. As a joint step it does not wait for itself. All
+// other waits lead from earlier to later steps in the order computed here, which is therefore
+// acyclic.
+//
+// Transitive dependencies. Let action x wait for action a of robot i. The wait is redundant if x's
+// robot has waited before x, directly or indirectly, for a, for a later action of robot i, or for a
+// move of a's ring, which is completed together with a. Then a is completed when x may begin. For
+// 16 robots at a time, one pass over all steps in order computes the last action of each of these
+// robots that must be completed before each action can be completed.
 #include "execution/action_dependency_graph.h"
 
 #include <algorithm>
@@ -38,14 +43,15 @@ namespace {
 
 constexpr const char* kCollides = "a passing order is of a plan without collisions";
 constexpr int kLanes = 16;
-// By robot of a group: how many of its actions are completed when something is.
+// By robot of a group: the number of its actions that are completed when a given action is.
 using Known = std::array<std::int32_t, kLanes>;
 
 void learn(Known& known, const Known& more) {
   for (int lane = 0; lane < kLanes; ++lane) known[lane] = std::max(known[lane], more[lane]);
 }
 
-// A robot's being on a place, with the moves by which it came and goes; none at start and end.
+// A robot's stay on a place, with the moves that begin and end it; kNoAction at the start and at
+// the end of the plan.
 struct Stay {
   Place place = kNoPlace;
   Time begin = 0;
@@ -53,7 +59,7 @@ struct Stay {
   ActionIndex leaves = kNoAction;
 };
 
-// Is this step of a turn the next of the same turn?
+// True if a step of a turn from state `from` continues the turn `turn`.
 bool goes_on(const Instance& instance, const Action& turn, State from) {
   return turn.kind == Action::Kind::kTurn && turn.to == from && instance.pose_of(from).steps > 0;
 }
@@ -73,7 +79,7 @@ ActionDependencyGraph::ActionDependencyGraph(const Instance& instance, const Pla
   leave_out_transitive();
 }
 
-// Work is done where the path stands still; what is left of it if it was begun before the start.
+// Work takes place while the path waits. Of work begun before the start only the rest counts.
 void ActionDependencyGraph::add_actions(const Instance& instance, AgentIndex agent,
                                         const AgentPlan& plan) {
   const World& world = instance.world();
@@ -125,7 +131,8 @@ void ActionDependencyGraph::find_waits(const World& world, const Plan& plan) {
   }
 }
 
-// By their begin in the plan, and in a step of the plan whoever leaves a place first.
+// Orders the steps by begin time in the plan. Among actions with the same begin time, a move that
+// leaves a place comes before the move that enters it.
 void ActionDependencyGraph::order_steps() {
   std::vector<ActionIndex> by_begin(actions_.size());
   std::iota(by_begin.begin(), by_begin.end(), 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Who must have left which place before whom: what of a plan robots have to keep to, however late
-// they are (action dependency graph: Hoenig et al. 2019; Ma et al. 2017).
+// Action dependency graph (ADG; Hoenig et al. 2019, Ma et al. 2017): the actions of a plan, and
+// which of them must be completed before which. Robots that keep to it never collide, whatever
+// their delays.
 #pragma once
 
 #include <cstdint>
@@ -14,49 +15,53 @@ namespace grove::detail {
 using ActionIndex = std::int32_t;  // position in ActionDependencyGraph::actions()
 inline constexpr ActionIndex kNoAction = -1;
 
-// One thing that a robot does, begun and completed as a whole.
+// An action of a robot: it begins and is completed as a whole.
 struct Action {
   enum class Kind : std::uint8_t { kMove, kTurn, kWork };
   Kind kind = Kind::kMove;
   AgentIndex agent = -1;
   State from = kNoState;  // base states (world.h)
-  State to = kNoState;    // where it is when completed; at work the same
-  TaskIndex task = -1;    // of work
-  Time begin = 0;         // when it begins in the plan
-  Time steps = 1;         // that it takes if nothing delays it
+  State to = kNoState;    // base state at completion; for work equal to `from`
+  TaskIndex task = -1;    // for work only
+  Time begin = 0;         // begin in the plan
+  Time steps = 1;         // duration without delays
 };
 
-// The moves, turns and work of a plan without its waits, and what they wait for. An action begins
-// when
-//   - the robot's action before it is completed, and
-//   - the action after() it names is: that of the robot that was on its place before, leaving. A
-//     robot that moves holds both places until it has arrived.
-// Robots that follow each other in a ring wait for each other all round: their moves are one joint
-// step, begun together when each of them may begin but for that, and completed together. Why no
-// others wait in a circle: passing_order.cpp. Immutable, so any number of threads may read one.
+// The moves, turns and work of a plan without its waits, and the dependencies between them. An
+// action may begin when
+// - the previous action of the same robot is completed, and
+// - the action after() is completed. This is the move with which the previous robot on the place
+//   that the action enters leaves this place. A robot that moves occupies both places until it has
+//   arrived.
+// The moves of robots that follow each other in a ring depend on each other in a cycle. They are
+// one joint step: they begin together, when each of them may begin except for this cycle, and they
+// are completed together. There are no other cycles; the proof is in action_dependency_graph.cpp.
+// Immutable: any thread may read it.
 class ActionDependencyGraph {
  public:
-  // Throws std::invalid_argument for what is no plan without collisions. Transitive waits are left
-  // out: an action names another only if it could otherwise begin before that is completed.
-  // O(actions * (log actions + agents / 16)).
+  // Throws std::invalid_argument if `plan` is not a plan without collisions. Transitive
+  // dependencies are removed: an action depends on another robot's action only if it could
+  // otherwise begin before that one is completed. O(actions * (log actions + agents / 16)).
   ActionDependencyGraph(const Instance& instance, const Plan& plan);
 
-  // In order of agents, and for each in order of time.
+  // Ordered by agent, then by time.
   std::span<const Action> actions() const { return actions_; }
   int agent_count() const { return static_cast<int>(first_.size()) - 1; }
   ActionIndex begin_of(AgentIndex agent) const { return first_[agent]; }
   ActionIndex end_of(AgentIndex agent) const { return first_[agent + 1]; }
-  // The action of the same robot before this one; none if it is the first.
+  // The previous action of the same robot; kNoAction for its first action.
   ActionIndex before(ActionIndex action) const {
     return action == first_[actions_[action].agent] ? kNoAction : action - 1;
   }
-  // The action of another robot that must be completed first; none if that follows anyway.
+  // The action of another robot that must be completed first; kNoAction if there is none, or if the
+  // dependency is transitive.
   ActionIndex after(ActionIndex action) const { return after_[action]; }
-  // Steps: an action, or the moves of a ring in order, each into the place that the one before it
-  // leaves; in an order in which they may be taken one after the other.
+  // Steps, in a topological order. A step is one action, or the moves of a ring, in which each move
+  // enters the place that the next one leaves.
   std::int32_t step_count() const { return steps_.count(); }
   std::span<const ActionIndex> step(std::int32_t number) const { return steps_[number]; }
-  // Waits between robots that are left, those that were left out, and joint steps.
+  // The number of dependencies between robots that remain, the number that were removed as
+  // transitive, and the number of joint steps.
   std::int64_t waits() const { return waits_; }
   std::int64_t transitive_waits() const { return transitive_waits_; }
   std::int64_t rings() const { return rings_; }
@@ -68,7 +73,7 @@ class ActionDependencyGraph {
   void leave_out_transitive();
 
   std::vector<Action> actions_;
-  std::vector<ActionIndex> first_{0};  // by agent; one more at the end
+  std::vector<ActionIndex> first_{0};  // by agent, and the end of the last one
   std::vector<ActionIndex> after_;
   CsrArray steps_;
   std::int64_t waits_ = 0;

@@ -13,7 +13,7 @@
 namespace grove::detail {
 namespace {
 
-// From when on nothing changes and nothing is left to do.
+// The finish time: from then on the state does not change and no task is left.
 Time finish(const AgentPlan& plan) {
   Time last = static_cast<Time>(plan.path.size()) - 1;
   while (last > 0 && plan.path[last - 1] == plan.path.back()) --last;
@@ -21,7 +21,7 @@ Time finish(const AgentPlan& plan) {
   return last;
 }
 
-// When a task is visited that an agent visits within its first steps.
+// The time at which the plan visits a task. Precondition: the plan visits it.
 Time visit_time(const Instance& instance, const AgentPlan& plan, TaskIndex index) {
   const Task& task = instance.task(index);
   if (task.duration > 0) return std::ranges::find(plan.work, index, &WorkTime::task)->end;
@@ -29,7 +29,8 @@ Time visit_time(const Instance& instance, const AgentPlan& plan, TaskIndex index
   return static_cast<Time>(std::ranges::find_if(plan.path, is_there) - plan.path.begin());
 }
 
-// An agent that rests on the last stop of its sequence may have visited that stop before, too.
+// An agent that rests on the last stop of its sequence may also have visited that stop before.
+// Moves the tasks on its last place to the end of the sequence.
 void end_on_the_place_of_rest(const Instance& instance, AgentIndex agent, AgentPlan& plan) {
   if (!instance.rests_on_last_stop(agent)) return;
   const Place rest = instance.world().place(plan.path.back());
@@ -37,7 +38,7 @@ void end_on_the_place_of_rest(const Instance& instance, AgentIndex agent, AgentP
                         [&](TaskIndex task) { return instance.task(task).cell != rest; });
 }
 
-// One agent after `time` steps.
+// Computes the remainder of one agent after `time` steps.
 class AgentLater {
  public:
   AgentLater(const Instance& instance, AgentIndex agent, const AgentPlan& plan, Time time,
@@ -68,7 +69,7 @@ class AgentLater {
     return spec;
   }
 
-  // `later`: the tasks' indices then.
+  // `later`: by task of this instance, its index in the later instance.
   AgentPlan plan(const std::vector<TaskIndex>& later) const {
     AgentPlan rest;
     for (const TaskIndex task : plan_.sequence)
@@ -85,7 +86,7 @@ class AgentLater {
  private:
   Time end() const { return static_cast<Time>(plan_.path.size()) - 1; }
 
-  // What the agent starts with goes on even before the first step.
+  // True if the work continues. Work in progress at the start continues even before the first step.
   bool goes_on(const WorkTime& work) const { return work.end > time_; }
 
   const WorkTime* work_under_way() const {
@@ -108,7 +109,8 @@ class AgentLater {
 
   Place place_of_rest() const { return instance_.world().place(plan_.path.back()); }
 
-  // Of an agent without one: where it rests, if that is on a task of its own that is not left.
+  // The destination in the later instance. For an agent without one: its last place, if that is on
+  // one of its own tasks that is visited already.
   std::optional<Place> destination() const {
     const auto rests_on = [&](TaskIndex task) {
       return instance_.task(task).cell == place_of_rest();
@@ -138,7 +140,7 @@ class AgentLater {
   std::vector<TaskIndex> left_;
 };
 
-// The same instance, its agents as `spec` says.
+// A copy of `instance` in which agent i has the specification spec(i).
 template <class Spec>
 Instance with_specs(const Instance& instance, const Spec& spec) {
   InstanceBuilder builder = InstanceBuilder::like(instance);
@@ -202,7 +204,7 @@ Remainder advance(const Instance& instance, const Plan& plan, Time time, Rests r
 
 namespace {
 
-// The first part of an agent's plan as if it ended then.
+// The first `time` steps of an agent's plan, as a plan that ends then.
 AgentPlan first_steps(const AgentPlan& plan, Time time) {
   AgentPlan first;
   for (const WorkTime& work : plan.work)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is left to do when a plan has been driven for a while.
+// Computes the remaining instance and plan after some steps of a plan were executed.
 #pragma once
 
 #include <cstdint>
@@ -9,43 +9,50 @@
 
 namespace grove::detail {
 
-// An instance as it is some time later, and what is left of a plan of the one before, time from 0.
+// The instance at a later time, and the rest of a plan of the earlier instance. Time is counted
+// from 0 again.
 struct Remainder {
   Instance instance;
   Plan plan;
-  // By AgentIndex: it has its destination only for the sake of `plan`, see below.
+  // By AgentIndex: the agent has a destination only so that `plan` stays valid; see advance().
   std::vector<bool> ends_with_plan;
 };
 
-// After `time` >= 0 steps by the clock: everybody stands where the plan has them then, on a road,
-// within a turn or at work; what they have visited is left out, and tasks that nobody has to visit
-// any more are gone. Agents keep their order and their ids, tasks their ids. An agent without a
-// destination that has visited everything is idle. One with tasks left may rest on one of these,
-// for an instance cannot say that it may also rest on one that it has visited. If `plan` leads it
-// to such a place, it gets that as its destination, so that the plan stays valid; the remainder
-// says so in `ends_with_plan`, and without_ends_of_plan() takes that back. `plan` must be a valid
-// one, but that some agents' parts of it may end too soon and leave tasks out, of what they say
-// (change.h). `before`: `ends_with_plan` of an earlier remainder, of which `instance` is the
-// instance; empty if there was none.
-// With `rests` kWhereItMust the remainder serves to go on with a plan of `instance`: an agent
-// without a destination that has visited everything is not idle but ends on one of the places where
-// it may by `instance`, on that of `plan` if it can be. Throws InstanceError if two would end on
-// one.
+// Returns what remains after `time` >= 0 steps by the clock.
+// - Each agent starts where the plan has it at that time: on a place, on a road, within a turn or
+//   at work.
+// - Visited tasks are removed from their agents. Tasks without agents are removed. Agents keep
+//   their order and ids; tasks keep their ids.
+// - An agent without a destination that has visited all its tasks is idle.
+// - An agent without a destination that has tasks left may rest on one of these. An instance cannot
+//   express that it may also rest on a task that it has visited. If `plan` leads it to such a
+//   place, this place becomes its destination, so that the plan stays valid. `ends_with_plan` marks
+//   these agents, and without_ends_of_plan() reverts the change.
+//
+// `plan` must be valid, except that the plans of some agents may end too early and omit tasks, from
+// their sequences too (change.h). `before`: `ends_with_plan` of the earlier remainder whose
+// instance is `instance`; empty if there was none.
+//
+// With `rests` = kWhereItMust the remainder serves to continue a plan of `instance`: an agent
+// without a destination that has visited all its tasks is not idle. It ends on one of the places
+// where it may rest in `instance`, if possible on the one of `plan`. Throws InstanceError if two
+// agents would end on the same place.
 enum class Rests : std::uint8_t { kAnywhere, kWhereItMust };
 Remainder advance(const Instance& instance, const Plan& plan, Time time,
                   Rests rests = Rests::kAnywhere, const std::vector<bool>& before = {});
 
-// The instance in which these agents have no destination, and the one in which they have that place
-// as their destination where their path in `plan` ends.
+// without_ends_of_plan(): the instance in which the agents marked in `agents` have no destination.
+// with_ends_of_plan(): the instance in which the destination of each of these agents is the last
+// place of its path in `plan`.
 Instance without_ends_of_plan(const Instance& instance, const std::vector<bool>& agents);
 Instance with_ends_of_plan(const Instance& instance, const Plan& plan,
                            const std::vector<bool>& agents);
 
-// When the agent comes to rest if its plan ends after `time` steps.
+// The finish time of an agent whose plan ends after `time` steps.
 Time finish_of_steps(const AgentPlan& plan, Time time);
 
-// The plan of `instance` that begins as `plan` does, in its first `time` steps, and then goes on as
-// `rest`, a valid plan of advance(instance, plan, time).instance.
+// The plan of `instance` that consists of the first `time` steps of `plan`, followed by `rest`, a
+// valid plan of `later` = advance(instance, plan, time).instance.
 Plan joined(const Instance& instance, const Plan& plan, Time time, const Instance& later,
             const Plan& rest);
 

@@ -11,10 +11,10 @@
 namespace grove::detail {
 namespace {
 
-// A map with some ways closed, and what became of its places.
+// A map without the closed places and roads, and the new numbers of its places.
 struct ClosedMap {
   std::shared_ptr<const Map> map;
-  std::vector<Place> places;  // by place before; kNoPlace: it is closed
+  std::vector<Place> places;  // by earlier place; kNoPlace: closed
 };
 
 ClosedMap close_cells(const Grid& grid, const std::vector<Place>& blocked) {
@@ -38,7 +38,7 @@ bool is_closed(const Roadmap& roadmap, int road, const InstanceChange& change) {
 
 ClosedMap close_roads(const Roadmap& roadmap, const InstanceChange& change) {
   std::vector<Road> roads;
-  std::vector<int> number;  // by road before; -1: closed
+  std::vector<int> number;  // by earlier road; -1: closed
   for (int road = 0; road < static_cast<int>(roadmap.roads().size()); ++road) {
     const bool closed = is_closed(roadmap, road, change);
     number.push_back(closed ? -1 : static_cast<int>(roads.size()));
@@ -133,7 +133,7 @@ class Applying {
                                                instance_.task(task).id));
   }
 
-  // What closes the road.
+  // The JSON field of the change that closes the road.
   std::string field_of(const Roadmap& roadmap, int road) const {
     const auto found = std::ranges::find(change_.closed_roads, road);
     if (found != change_.closed_roads.end())
@@ -145,7 +145,7 @@ class Applying {
     return fmt::format("blocked/{}", end - change_.blocked.begin());
   }
 
-  // Fills in the numbers of tasks that are left.
+  // Builds the changed instance. Sets `tasks` to the new index of each task that is left.
   Instance build(std::vector<TaskIndex>& tasks) const {
     InstanceBuilder builder(closed_.map);
     if (!instance_.may_follow()) builder.forbid_following();
@@ -184,7 +184,7 @@ class Applying {
     }
   }
 
-  // What of the agent's plan is left on the new map.
+  // The part of the agent's plan that is possible on the new map.
   AgentPlan agent_plan(const Instance& now, AgentIndex agent,
                        const std::vector<TaskIndex>& tasks) const {
     const AgentPlan& before = plan_.agents[agent];
@@ -207,7 +207,7 @@ class Applying {
     return plan;
   }
 
-  // Is there still a way?
+  // True if a wait or a move leads from `from` to `to`.
   static bool leads_to(const World& world, State from, State to) {
     return from == to || std::ranges::count(world.moves(from), to) > 0;
   }

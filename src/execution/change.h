@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What may become of an instance while its plan is driven: other tasks, ways that are closed.
+// Changes of an instance while its plan is executed: new and dropped tasks, closed places and
+// roads.
 #pragma once
 
 #include <string>
@@ -19,24 +20,25 @@ struct NewTask {
 struct InstanceChange {
   std::vector<NewTask> new_tasks;
   std::vector<std::string> dropped_tasks;  // by id
-  std::vector<Place> blocked;     // cells of a grid, or vertices of a roadmap, with all their roads
+  std::vector<Place> blocked;     // cells of a grid; or vertices of a roadmap, with all their roads
   std::vector<int> closed_roads;  // positions in Roadmap::roads()
 };
 
-// The instance that comes of it, and what a plan of the one before still says. A path that comes to
-// what is closed ends before it.
+// The changed instance, and the part of the plan that is still possible. A path that enters a
+// closed place or road ends before it.
 struct Changed {
   Instance instance;
   Plan plan;
-  // By AgentIndex: its part of the plan does not do any more, or no longer need be what it is.
+  // By AgentIndex: the agent's part of the plan no longer fulfils its tasks, or a task was dropped.
   std::vector<bool> affected;
-  std::vector<bool> cut;  // its path comes to what is closed
+  std::vector<bool> cut;  // its path enters a closed place or road
 };
 
-// `plan` must be a valid one, or what an earlier change left of one. On a map on which nothing is
-// closed states keep their numbers, but for those of agents at work. Throws InstanceError: field
-// "new_tasks/<i>/...", "dropped_tasks/<i>", "blocked/<i>" or "closed_roads/<i>" - an agent is
-// there, is to end or has to visit there (and the task is not dropped), or it is a wall.
+// `plan` must be valid, or the rest of a plan after an earlier change. If nothing is closed, states
+// keep their numbers, except for states of agents at work. Throws InstanceError with field
+// "new_tasks/<i>/...", "dropped_tasks/<i>", "blocked/<i>" or "closed_roads/<i>". A place or road
+// cannot be closed if an agent is there, if it is an agent's destination, or if it has a task that
+// is not dropped. A blocked cell of the map cannot be closed either.
 Changed apply(const Instance& instance, const Plan& plan, const InstanceChange& change);
 
 }  // namespace grove::detail

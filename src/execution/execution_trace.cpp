@@ -16,7 +16,7 @@ Time may_begin(const ActionDependencyGraph& order, const ExecutionTrace& drive,
   return std::max(end_of(drive, order.before(action)), end_of(drive, order.after(action)));
 }
 
-// Appends an action that ends then to what a robot has done: it waits as long as it can.
+// Appends an action that is completed at `end` to the path of a robot. The robot waits before it.
 void add_action(const Instance& instance, const AgentPlan& planned, const Action& action, Time end,
                 AgentPlan& driven) {
   Path& path = driven.path;
@@ -24,7 +24,8 @@ void add_action(const Instance& instance, const AgentPlan& planned, const Action
   path.resize(static_cast<std::size_t>(begin) + 1, path.back());
   if (action.kind == Action::Kind::kWork) {
     const Time duration = instance.task(action.task).duration;
-    // What it starts with goes on at once; the plan says so, however long it takes.
+    // Work in progress at the start continues at once, because every plan of the instance has it
+    // so. A delay follows it.
     const bool is_begun =
         driven.work.empty() && instance.world().is_working(instance.agent(action.agent).start);
     const Time done = is_begun ? action.steps : end;
@@ -34,13 +35,13 @@ void add_action(const Instance& instance, const AgentPlan& planned, const Action
     path.push_back(action.to);
   } else {
     const auto from = planned.path.begin() + action.begin;
-    // Steps of the turn as planned, without the waits within it.
+    // The states of the turn as planned, without the waits within it.
     for (auto state = from + 1; path.back() != action.to; ++state)
       if (*state != path.back()) path.push_back(*state);
   }
 }
 
-// Of a ring everybody waits for whoever comes last.
+// All robots of a ring wait for the last one to arrive.
 AgentIndex waits_for(const ActionDependencyGraph& order, const ExecutionTrace& drive,
                      std::int32_t step) {
   for (const ActionIndex a : order.step(step)) {
@@ -55,7 +56,7 @@ AgentIndex waits_for(const ActionDependencyGraph& order, const ExecutionTrace& d
 
 }  // namespace
 
-// kNever is not reached but by who never ends.
+// Only an action that never ends has end kNever.
 Time end_of_action(Time begin, Time duration) {
   if (duration >= kNever) return kNever;
   if (duration >= kNever - begin) throw std::overflow_error("robots drive for too many steps");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Robots that drive a plan along its passing order, each action as soon as it may begin.
+// Simulates the execution of a plan by its action dependency graph: each action begins as soon as
+// it may.
 #pragma once
 
 #include <functional>
@@ -9,42 +10,43 @@
 
 namespace grove::detail {
 
-// When each action was begun and completed, by ActionIndex; kNever: it was not.
+// Begin and completion time of each action, by ActionIndex; kNever: it was not begun or completed.
 struct ExecutionTrace {
   std::vector<Time> begin;
   std::vector<Time> end;
 
-  // When the robot had done everything; kNever: it never has.
+  // The completion time of the robot's last action; kNever if it is not completed.
   Time finish(const ActionDependencyGraph& order, AgentIndex agent) const {
     return order.begin_of(agent) == order.end_of(agent) ? 0 : end[order.end_of(agent) - 1];
   }
 };
 
-// How long an action takes from its begin on, at least as long as the plan has it; kNever: the
+// The duration of an action that begins at `begin`, at least its duration in the plan. kNever: the
 // robot does not move again. Called once for each action that begins, in the order of steps.
 using Duration = std::function<Time(ActionIndex action, Time begin)>;
 
-// When an action ends that begins then and takes so long; kNever: never. Throws
-// std::overflow_error for times that no plan can mention.
+// begin + duration; kNever if `duration` is kNever. Throws std::overflow_error if the sum is too
+// large for a time of a plan.
 Time end_of_action(Time begin, Time duration);
 
-// O(actions). The moves of a ring take as long as the slowest of them. Throws std::overflow_error
-// for times that no plan can mention.
+// Simulates the execution. The moves of a ring take as long as the slowest of them. O(actions).
+// Throws std::overflow_error if a time is too large for a plan.
 ExecutionTrace drive(const ActionDependencyGraph& order, const Duration& duration);
-// As long as the plan has it.
+// The same with the durations of the plan.
 ExecutionTrace simulate_nominal(const ActionDependencyGraph& order);
 
-// The plan that was driven: an action that takes longer than it must is a wait before it. If
-// everybody has done everything a valid plan of `instance`; else of what was done.
+// The plan as it was executed: if an action took longer than its duration in the plan, the
+// difference is a wait before it. If all robots completed all actions, this is a valid plan of
+// `instance`, else the plan of the completed actions.
 Plan executed_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
                    const ExecutionTrace& drive);
 
-// A robot that waits for ever, and for whom; for itself if it does not move again.
+// A robot that waits for ever, and the robot that it waits for; itself if it does not move again.
 struct BlockedRobot {
   AgentIndex agent = -1;
   AgentIndex waits_for = -1;
 };
-// All that have not done everything.
+// All robots that did not complete all their actions.
 std::vector<BlockedRobot> stuck(const ActionDependencyGraph& order, const ExecutionTrace& drive);
 
 }  // namespace grove::detail

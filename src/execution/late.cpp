@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Why the plan is valid. Every place is passed by the robots in the order of `plan`, each coming to
-// it no sooner than the one before has gone: an action begins no sooner than that which it waits
-// for, both moves taking one step. (Waits left out of the order as transitive hold all the same,
-// for along the others begins never fall.) So no two are on one place at one time. Two that swapped
-// places would each come to a place after the other there: in `plan`, too, their moves would have
-// to be one step, a swap.
-// Where no agent may follow another, an action waits until the other one has ended, as robots do
-// when they drive (drive.h): it enters a place one step after the other has left it, or later. Such
-// a plan has no rings, so these waits do not go in circles either (passing_order.cpp); and with
-// no robot late it stays as it is, for its own actions wait as long.
+// Why the plan is valid.
+//
+// Claim: no two robots collide. Proof: every place is passed by the robots in the order of `plan`,
+// and each robot enters it no earlier than the previous one has left it. For an action begins no
+// earlier than the one that it waits for, and both moves take one step. (Dependencies that were
+// removed as transitive hold as well, because begin times never fall along the remaining ones.) So
+// no two robots are on one place at the same time. If two robots swapped places, each would enter a
+// place after the other one has been there. Then their moves would be one step of `plan`, too,
+// which would be a swap.
+//
+// Without following, an action waits until the other one has ended, as in an execution
+// (execution_trace.h): it enters a place at least one step after the other robot has left it. Such
+// a plan has no rings, so these waits have no cycle either (action_dependency_graph.cpp). If no
+// robot is late, the plan does not change, because its own actions wait at least as long.
 #include "execution/late.h"
 
 #include <fmt/format.h>
@@ -19,7 +23,7 @@
 namespace grove::detail {
 namespace {
 
-// When actions would begin if nobody were in the way.
+// The begin times of actions if no other robot were in the way.
 class Wishes {
  public:
   Wishes(const ActionDependencyGraph& order, Time time, std::span<const Late> late)
@@ -32,7 +36,8 @@ class Wishes {
     if (is_done(action)) return action.begin;
     return is_under_way(action) ? action.begin + late_[action.agent] : time_;
   }
-  // Must it have begun just then?
+  // True if the action must have begun at begin(), because the robot is late and is known to have
+  // begun it.
   bool is_certain(ActionIndex index) const {
     const Action& action = order_.actions()[index];
     return late_[action.agent] > 0 && (is_done(action) || is_under_way(action));
@@ -41,7 +46,7 @@ class Wishes {
  private:
   Time clock(const Action& action) const { return time_ - late_[action.agent]; }
   bool is_done(const Action& action) const { return action.begin + action.steps <= clock(action); }
-  // The robot stood still within it.
+  // True if the robot's delay occurred within the action.
   bool is_under_way(const Action& action) const {
     return action.begin < clock(action) && !is_done(action);
   }
@@ -77,8 +82,8 @@ void require_possible(const Instance& instance, Time time, std::span<const Late>
   }
 }
 
-// Work begun before the plan continues at once, says every plan of the instance; of a late robot it
-// does not.
+// In every plan of an instance, work in progress at the start continues at once. For a late robot
+// it does not, so its work is moved by the delay.
 void delay_work_begun_before(const Instance& instance, std::span<const Late> late, Plan& plan) {
   for (const Late& l : late) {
     if (!instance.world().is_working(instance.agent(l.agent).start)) continue;

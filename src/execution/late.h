@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A plan as it is driven when some robots are late.
+// The valid plan that results when some robots are late.
 #pragma once
 
 #include <span>
@@ -10,14 +10,14 @@
 
 namespace grove::detail {
 
-// The robot is where the plan had it so many steps ago.
+// The robot is `steps` steps behind the plan.
 struct Late {
   AgentIndex agent = -1;
   Time steps = 0;
 };
 
-// A robot said to be where it cannot be: before its start, or where another one that is late is in
-// its way.
+// Thrown for a delay that is impossible: the robot would be at a time before its start, or another
+// late robot would be in its way.
 class ImpossibleLateness : public std::invalid_argument {
  public:
   ImpossibleLateness(AgentIndex agent, const std::string& message)
@@ -28,13 +28,16 @@ class ImpossibleLateness : public std::invalid_argument {
   AgentIndex agent_;
 };
 
-// The valid plan of `instance` that comes of `plan`, a valid one with this passing order, when at
-// `time` >= 0 the robots named stand where the plan had them earlier, and the others where the
-// order then lets them be, on time if it does; from `time` on all go on as soon as they may, so the
-// waits that serve nothing are gone. In steps as plans have them: who follows enters a place in the
-// step in which the other leaves it, or, if Instance::may_follow() is false, in the next one. With
-// no robot late it is `plan` up to `time`. A late robot that starts at work continues later than a
-// valid plan may say: its WorkTime is moved by its lateness, which is what advance() needs. Throws
+// Returns the valid plan of `instance` that results from `plan`, a valid plan with action
+// dependency graph `order`, if the robots in `late` are late at `time` >= 0. At `time` each robot
+// in `late` is where `plan` had it `steps` steps earlier. Every other robot is as far as `order`
+// permits, on time if possible. From `time` on every action begins as soon as it may, so waits
+// without a purpose are gone.
+//
+// Times are those of plans: a robot that follows another one enters a place in the step in which
+// the other leaves it or, if Instance::may_follow() is false, in the next step. If `late` is empty,
+// the result is equal to `plan` up to `time`. A late robot that starts at work continues this work
+// later than a valid plan may: its WorkTime is moved by its delay, as advance() requires. Throws
 // ImpossibleLateness.
 Plan late_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
                Time time, std::span<const Late> late);

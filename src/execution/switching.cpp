@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Of each place there is a row of the robots that will be on it, one after the other; an action
-// that enters a place begins when the robot before it in the row has completed leaving it. So
-// nobody collides, whatever the rows (passing_order.cpp says why). What rows may not be is such
-// that robots wait in a circle. A switch moves a robot that has not yet begun to come to a place,
-// nor to any other of the group, behind another one there. It is made only if all actions that are
-// not completed can then be put into an order, found by taking away again and again what waits for
-// nothing that is left: so there is no circle, and as long as robots complete what they have begun
-// the first action in that order that is not completed can be. What has begun is not touched, for
-// whatever waits for it stays behind it. The joint step of a ring counts as one action: what it
-// waits for inside is not looked at, and if somebody comes between two robots of a ring it waits
-// for itself, which is no order.
+// Why switches cause neither collisions nor deadlocks.
+//
+// Each place has a row of the robots that will be on it, in order. An action that enters a place
+// begins when the previous robot in the row has completed its move away. So robots never collide,
+// whatever the rows (see action_dependency_graph.cpp). But with some rows, robots would wait in a
+// cycle.
+//
+// A switch moves a robot behind another one in the rows of a group of places. It requires that the
+// robot has not yet begun to enter any of these places. The switch is made only if all incomplete
+// actions then have a topological order, which is computed by repeatedly removing an action that
+// waits for no remaining one. So there is no cycle. As long as robots complete the actions that
+// they have begun, the first incomplete action in that order can be completed. Actions that have
+// begun do not change, because the actions that wait for them stay behind them.
+//
+// The joint step of a ring counts as one action. Waits within the ring are ignored. If a switch
+// puts another robot between two robots of a ring, then the ring waits for itself, so there is no
+// topological order.
 #include "execution/switching.h"
 
 #include <algorithm>
@@ -21,16 +27,17 @@
 namespace grove::detail {
 namespace {
 
-constexpr Time kLongest = 64;  // times its patience: who waits for one that may be dead
+constexpr Time kLongest =
+    64;  // maximum wait, as a multiple of the patience, for a robot that may have failed
 
-// A robot's being on a place.
+// A robot's stay on a place.
 struct Visit {
   AgentIndex agent = -1;
-  ActionIndex enters = kNoAction;  // none: it starts there
-  ActionIndex leaves = kNoAction;  // none: it rests there
+  ActionIndex enters = kNoAction;  // kNoAction: it starts there
+  ActionIndex leaves = kNoAction;  // kNoAction: it rests there
 };
 
-// Who is on a place after whom, and what follows for actions.
+// The rows of all places, and the dependencies that follow from them.
 class PlaceRows {
  public:
   PlaceRows(const World& world, const Plan& plan, const ActionDependencyGraph& order)
@@ -46,7 +53,8 @@ class PlaceRows {
       for (std::size_t i = 0; i < row.size(); ++i) position_[row[i]] = static_cast<int>(i);
   }
 
-  // What an action waits for on the place it enters.
+  // The action that must be completed before this action can enter its place; kNoAction if there is
+  // none.
   ActionIndex after(ActionIndex action) const {
     const int visit = number_[action];
     if (visit < 0 || position_[visit] == 0) return kNoAction;
@@ -54,8 +62,8 @@ class PlaceRows {
     return before.agent == visits_[visit].agent ? kNoAction : before.leaves;
   }
 
-  // The places that both robots pass one after the other, in the same or the opposite direction,
-  // around the one that `entering` enters: pairs of visits, that of the other robot first.
+  // The places that both robots pass consecutively, in the same or in opposite directions, around
+  // the place that `entering` enters. Returns pairs of visits; the first is the one of `other`.
   std::vector<std::pair<int, int>> group(ActionIndex entering, AgentIndex other) const {
     const int mine = number_[entering];
     const auto& row = rows_[place_[mine]];
@@ -76,7 +84,8 @@ class PlaceRows {
 
   const Visit& visit(int number) const { return visits_[number]; }
 
-  // Moves the first one behind the second one, on their place; may be undone by put_back.
+  // Moves `visit` behind `other` in the row of their place. To undo, call move() with the earlier
+  // position.
   void move_behind(int visit, int other) { move(visit, position_[other]); }
   int position(int visit) const { return position_[visit]; }
   void move(int visit, int to) {
@@ -119,11 +128,12 @@ class PlaceRows {
   }
 
   const ActionDependencyGraph& order_;
-  std::vector<std::pair<int, int>> by_agent_;  // their visits, in order of time
-  std::vector<int> number_;                    // by action: the visit that it begins
+  std::vector<std::pair<int, int>>
+      by_agent_;             // first and end of the agent's visits, in order of time
+  std::vector<int> number_;  // by action: the visit that it begins
   std::vector<Visit> visits_;
   std::vector<Place> place_;            // by visit
-  std::vector<int> position_;           // by visit: in its row
+  std::vector<int> position_;           // by visit: position in its row
   std::vector<std::vector<int>> rows_;  // by place
 };
 
@@ -161,7 +171,7 @@ class Switching {
   }
 
  private:
-  // A robot's waiting for another.
+  // A robot's wait for another one.
   struct Wait {
     ActionIndex action = kNoAction;
     Time patience = 0;
@@ -172,7 +182,7 @@ class Switching {
   bool is_begun(ActionIndex a) const { return driven_.drive.begin[a] <= now_; }
   bool is_in_ring(ActionIndex a) const { return order_.step(step_of_[a]).size() > 1; }
 
-  // What it waits for; none within its own ring.
+  // The action that `a` waits for; kNoAction if there is none, or if it belongs to the same ring.
   ActionIndex after(ActionIndex a) const {
     const ActionIndex other = rows_.after(a);
     return other != kNoAction && step_of_[other] == step_of_[a] ? kNoAction : other;
@@ -208,7 +218,7 @@ class Switching {
     if (end < kNever) moments_.push(end);
   }
 
-  // Has the robot waited too long for another?
+  // Tries a switch if the robot has waited too long for another one.
   void consider(AgentIndex agent) {
     const ActionIndex a = next_[agent];
     if (a == order_.end_of(agent) || is_begun(a) || is_in_ring(a)) return;
@@ -222,7 +232,7 @@ class Switching {
     }
     if (now_ < wait.until) return;
     if (go_first(a, order_.actions()[other].agent)) {
-      moments_.push(now_);  // it may begin at once
+      moments_.push(now_);  // the action may begin at once
       wait = {};
       return;
     }
@@ -232,13 +242,13 @@ class Switching {
     moments_.push(wait.until);
   }
 
-  // Itself if it has begun.
+  // The robot that this action waits for; the robot itself if the action has begun.
   AgentIndex waits_for(ActionIndex action) const {
     for (const ActionIndex a : order_.step(step_of_[action])) {
       const AgentIndex agent = order_.actions()[a].agent;
       const ActionIndex other = after(a);
       if (other != kNoAction && !is_done(other)) return order_.actions()[other].agent;
-      if (next_[agent] != a) return agent;  // of a ring: not there yet
+      if (next_[agent] != a) return agent;  // in a ring: it has not arrived yet
     }
     return order_.actions()[action].agent;
   }
@@ -274,13 +284,13 @@ class Switching {
     return false;
   }
 
-  // When the action is expected to end if it begins then, or has begun.
+  // The expected end of an action that begins, or has begun, at `begin`.
   Time expected_end(ActionIndex a, Time begin) const {
     const Time end = begin + order_.actions()[a].steps;
     return end > now_ || !is_begun(a) ? end : now_ + std::max(1, now_ - end);
   }
 
-  // The sum of finish times from now on; kInfiniteCost if robots would wait in a circle.
+  // The expected sum of finish times; kInfiniteCost if robots would wait in a cycle.
   Cost expected() {
     const auto count = order_.actions().size();
     ends_.assign(static_cast<std::size_t>(order_.step_count()), kNever);
@@ -344,16 +354,17 @@ class Switching {
   PlaceRows rows_;
   std::vector<std::int32_t> step_of_;  // by action
   std::vector<Wait> waits_;            // by agent
-  std::vector<ActionIndex> next_;      // by agent: not completed yet
+  std::vector<ActionIndex> next_;      // by agent: its first incomplete action
   std::priority_queue<Time, std::vector<Time>, std::greater<>> moments_;
   Time now_ = 0;
   SwitchableTrace driven_;
 
-  // Of expected().
-  std::vector<Time> ends_;              // by step
-  std::vector<std::int32_t> left_;      // by step: what it waits for
-  std::vector<ActionIndex> followers_;  // by action: the first that waits for it on a place
-  std::vector<ActionIndex> waiting_;    // by action: the next one of these
+  // Scratch of expected().
+  std::vector<Time> ends_;          // by step
+  std::vector<std::int32_t> left_;  // by step: number of incomplete actions that it waits for
+  std::vector<ActionIndex>
+      followers_;  // by action: head of the list of actions that wait for it on a place
+  std::vector<ActionIndex> waiting_;  // by action: next one in that list
   std::vector<std::int32_t> queue_;
 };
 

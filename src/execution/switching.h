@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Robots that change who goes first, where a late one holds others up (switchable action dependency
-// graph: Berndt, van Duijkeren, Palmieri, Kleiner and Keviczky, 2024).
+// Execution with a switchable action dependency graph (Berndt, van Duijkeren, Palmieri, Kleiner and
+// Keviczky, 2024): robots change their passing order if a late robot delays others.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,18 @@ namespace grove::detail {
 
 struct SwitchableTrace {
   ExecutionTrace drive;
-  std::int64_t switches = 0;        // places at which a robot let another one go first after all
-  std::vector<BlockedRobot> stuck;  // who waits for whom at the end
+  std::int64_t switches = 0;        // places at which the passing order of two robots was changed
+  std::vector<BlockedRobot> stuck;  // at the end: robots that wait, and for whom
 };
 
-// As drive(), but a robot that has waited for another for `patience` >= 1 steps, and ever longer if
-// that is of no use, goes first where they meet next - on all places that they pass one after the
-// other - if the sum of finish times is then expected to be less: of what is not known yet it is
-// expected that actions take as long as in the plan, and one that is overdue as long again as it is
-// overdue. Nobody ever waits in a circle, and nobody collides: switching.cpp. `plan` is that of
-// `order`. O(actions log actions), and O(actions) for each switch that is considered.
+// As drive(), but robots may switch their order. A robot that has waited for another one for
+// `patience` >= 1 steps tries to pass first, on the next common place and on all places that both
+// robots pass consecutively around it. If this fails, it waits twice as long before the next
+// attempt. It passes first if this reduces the expected sum of finish times. The expectation
+// assumes that actions take as long as in the plan, and that an action that is overdue by d steps
+// takes d more steps. The robots never wait in a cycle and never collide: switching.cpp. `order`
+// must be the graph of `plan`. O(actions log actions), plus O(actions) for each switch that is
+// considered.
 SwitchableTrace simulate_switchable(const World& world, const Plan& plan,
                                     const ActionDependencyGraph& order, const Duration& duration,
                                     Time patience = 5);

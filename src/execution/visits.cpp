@@ -6,7 +6,7 @@
 namespace grove::detail {
 namespace {
 
-// Tasks without duration that an agent has yet to come by.
+// By place: the agent's tasks without duration that are not visited yet.
 using Open = std::multimap<Place, TaskIndex>;
 
 std::vector<Open> open_tasks(const Instance& instance) {

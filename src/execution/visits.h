@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which actions of a passing order visit which tasks.
+// The tasks that the actions of an action dependency graph visit.
 #pragma once
 
 #include <vector>
@@ -9,14 +9,15 @@
 
 namespace grove::detail {
 
-// Made when the action is completed; kNoAction: at the start.
+// The visit is made when `action` is completed; kNoAction: at the start.
 struct TaskVisit {
   TaskIndex task = -1;
   ActionIndex action = kNoAction;
 };
 
-// By agent, in the order of the actions. A task without duration is visited when the agent first
-// is on its place, others when the work is done. Tasks that the order does not visit are left out.
+// Returns the visits by agent, in the order of its actions. A task without duration is visited when
+// the agent first is on its place; other tasks when their work is done. Tasks that `order` does not
+// visit are omitted.
 std::vector<std::vector<TaskVisit>> task_visits(const Instance& instance,
                                                 const ActionDependencyGraph& order);
 

@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view kTemporary = ".grove-";
 constexpr auto kLongestPause = std::chrono::hours(1);  // between two writes to a temporary file
 
-// Where the content must go: the file behind a symbolic link. Throws when that cannot work.
+// The path to write to: `path` with symbolic links resolved. Throws InputError if writing would
+// fail.
 fs::path resolved(const fs::path& path, fs::file_status& status) {
   std::error_code error;
   status = fs::status(path, error);
@@ -43,20 +44,20 @@ fs::path resolved(const fs::path& path, fs::file_status& status) {
 
 // --- temporary files ---
 
-// Names end with the host, since a lock may not be seen on another one.
+// Names end with the host name, because a lock of another host may be invisible here.
 std::string name_end() {
   return fmt::format("@{}.tmp", host_name());
 }
 
-// Process numbers come again, after a crash or in a container; the clock does not.
+// Process ids are reused after a crash and in containers, so the name contains the time as well.
 fs::path unused_name(const fs::path& folder) {
   static std::atomic<unsigned> count{0};
   const auto now = std::chrono::system_clock::now().time_since_epoch().count();
   return folder / fmt::format("{}{}-{}-{}{}", kTemporary, ::getpid(), now, count++, name_end());
 }
 
-// One that was killed, whose lock is free. Of a run on another host that is believed when it has
-// not been written to for a while.
+// True if the process that made the temporary file was killed: its lock is free. For a file of
+// another host it must also be older than kLongestPause.
 bool is_abandoned(const fs::path& path, int fd) {
   std::error_code error;
   const auto age = fs::file_time_type::clock::now() - fs::last_write_time(path, error);
@@ -64,8 +65,8 @@ bool is_abandoned(const fs::path& path, int fd) {
   return (is_ours || (!error && age > kLongestPause)) && lock(fd) == LockResult::kLocked;
 }
 
-// Removes what killed runs left in the folder. Whoever is making a file there and has not locked it
-// yet sees that it is gone, and makes another.
+// Removes the temporary files of killed processes in the folder. A process that has created a file
+// and not yet locked it may lose it. It detects this and creates another one.
 void clear_abandoned(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
@@ -77,7 +78,7 @@ void clear_abandoned(const fs::path& folder) {
   }
 }
 
-// It takes a while in large folders.
+// Only once per folder, because it takes a while in large folders.
 void clear_abandoned_once(const fs::path& folder) {
   static std::mutex mutex;
   static std::set<fs::path> cleared;
@@ -85,7 +86,8 @@ void clear_abandoned_once(const fs::path& folder) {
   if (cleared.insert(folder).second) clear_abandoned(folder);
 }
 
-// A new, empty file, locked as long as it is open. None: somebody has taken it for abandoned.
+// Creates an empty file that is locked while it is open. Returns nullopt if another process has
+// removed it as abandoned.
 std::optional<FileDescriptor> make_locked(const fs::path& path) {
   FileDescriptor file(path, O_WRONLY | O_CREAT | O_EXCL);
   if (!file.is_open()) return file;
@@ -95,7 +97,7 @@ std::optional<FileDescriptor> make_locked(const fs::path& path) {
   return is_locked && is_there ? std::optional(std::move(file)) : std::nullopt;
 }
 
-// After a crash of the machine either name must lead to a whole file.
+// After a system crash both names must lead to a complete file.
 void flush_directory(const fs::path& directory) {
   const FileDescriptor handle(directory.empty() ? "." : directory, O_RDONLY | O_DIRECTORY);
   if (handle.is_open()) (void)::fsync(handle.get());
@@ -107,7 +109,7 @@ AtomicFile::AtomicFile(const fs::path& path) : name_(path) {
   fs::file_status status;
   target_ = resolved(path, status);
   if (is_special_file(path, status)) {
-    // Appending: a shell's redirection may already hold the output of others.
+    // Appends, because the target of a shell's redirection may already contain other output.
     file_.emplace(path, O_WRONLY | O_APPEND | O_NOCTTY);
   } else {
     clear_abandoned_once(target_.parent_path());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// New tasks as files, for plans that are being driven.
+// Reads files of new tasks for plans in execution.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +12,12 @@ namespace grove::detail {
 
 struct ReadTask {
   NewTask task;
-  std::string place;  // of it in the file: "/tasks/2", or "" for the file's only one
+  std::string place;  // position in the file: "/tasks/2", or "" for the only task of the file
 };
 
-// {"tasks": [...]}, each as in an instance, or one alone: {"id": "t9", "cell": [3, 4], "agents":
-// ["a0"]}. Throws InputError for unknown keys, and for what cannot be a task of `instance`, whoever
-// its agents are.
+// Reads {"tasks": [...]}, each task as in an instance, or a single task: {"id": "t9", "cell": [3,
+// 4], "agents": ["a0"]}. Throws InputError for unknown keys, and for a task that is impossible in
+// `instance` whatever its agents are.
 std::vector<ReadTask> read_new_tasks(const std::filesystem::path& path, const Instance& instance);
 
 }  // namespace grove::detail

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Cells of CSV files (RFC 4180, but lines end in LF).
+// Cells of CSV files (RFC 4180, except that lines end in LF).
 #pragma once
 
 #include <string>
 
 namespace grove::detail {
 
-// `text` as a cell: in quotes where it must be, and behind an apostrophe where a spreadsheet would
-// take it for a formula (OWASP, CSV injection): where it is no number and begins with =, +, -, @, a
-// tab or a CR. A text that begins with apostrophes and one of these gets one more, so that a reader
-// takes exactly one away.
+// `text` as a cell, quoted if necessary. An apostrophe is added in front of a text that a
+// spreadsheet would interpret as a formula (OWASP, CSV injection): one that is not a number and
+// begins with =, +, -, @, a tab or a CR. A text that begins with apostrophes and one of these
+// characters also gets one more, so that a reader removes exactly one.
 std::string csv_cell(const std::string& text);
 
 }  // namespace grove::detail

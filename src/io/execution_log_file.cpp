@@ -18,7 +18,7 @@
 namespace grove::detail {
 namespace {
 
-// The page that follows a drive has the same limits: tools/view/drive/log.ts.
+// The web page that displays executions has the same limits: tools/view/drive/log.ts.
 constexpr const char* kDriveFormat = "grove drive 1";
 constexpr double kFarthest = 1e7;     // cells or metres
 constexpr double kMostSeconds = 1e9;  // seconds
@@ -122,7 +122,7 @@ class DriveReader {
   const std::string file_;
   const ActionDependencyGraph& order_;
   std::unordered_map<std::string, AgentIndex> agents_;
-  std::unordered_set<std::string> named_;  // by the first line
+  std::unordered_set<std::string> named_;  // robots that the first line names
   ExecutionLog log_;
   std::string place_;
   std::size_t lines_ = 0;

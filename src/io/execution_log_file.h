@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Logs of drives as files (docs/drive-log.md).
+// Reads logs of executions (docs/drive-log.md).
 #pragma once
 
 #include <array>
@@ -15,24 +15,24 @@ namespace grove::detail {
 
 inline constexpr std::array kDriveStates{"waiting", "moving", "working", "lifted", "lost", "done"};
 
-// What was seen of a robot at a moment.
+// The observed position of a robot at one time.
 struct PoseSample {
   double seconds = 0;
   double x = 0;  // cells, y down; or metres of a roadmap, y up
   double y = 0;
-  double angle = 0;  // degrees clockwise from north; NaN: not known
+  double angle = 0;  // degrees clockwise from north; NaN: unknown
   std::int32_t completed = 0;
-  std::uint8_t state = 0;  // of kDriveStates
+  std::uint8_t state = 0;  // index in kDriveStates
 };
 
 struct ExecutionLog {
-  std::string order;  // name of the passing order's file
+  std::string order;  // name of the file of the action dependency graph
   double seconds_per_step = 1;
-  std::vector<std::vector<PoseSample>> robots;  // by agent, in the order of time
+  std::vector<std::vector<PoseSample>> robots;  // by agent, in order of time
 };
 
-// The whole lines of the log of a drive along `order`; a last line that has not ended is left out.
-// Throws InputError.
+// Reads the complete lines of the log of an execution of `order`. An incomplete last line is
+// ignored. Throws InputError.
 ExecutionLog read_drive_file(const std::filesystem::path& path, const Instance& instance,
                              const ActionDependencyGraph& order);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files as the system knows them, where streams do not do.
+// POSIX file descriptors, for operations that streams do not support.
 #pragma once
 
 #include <fcntl.h>
@@ -13,13 +13,13 @@
 
 namespace grove::detail {
 
-// An open file; closes itself.
+// An open file. The destructor closes it.
 class FileDescriptor {
  public:
-  // Takes over one that is open, or -1.
+  // Takes ownership of an open descriptor, or of -1.
   explicit FileDescriptor(int fd) : fd_(fd) {}
-  // `flags` as those of open(2); a file that is made can be read and written by all, but for the
-  // umask. errno says why if it is not open then.
+  // `flags` as in open(2). A new file has permissions 0666 minus the umask. If the file cannot be
+  // opened, is_open() is false and errno states the reason.
   FileDescriptor(const std::filesystem::path& path, int flags)
       : FileDescriptor(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
   ~FileDescriptor() {
@@ -33,8 +33,8 @@ class FileDescriptor {
 
   bool is_open() const { return fd_ >= 0; }
   int get() const { return fd_; }
-  // Some file systems report what went wrong only when a file is closed. Here a copy is, for the
-  // lock is to stay.
+  // Some file systems report errors only in close(2). This function closes a duplicate, so that the
+  // file stays locked.
   bool reports_no_error() const {
     const int copy = ::fcntl(fd_, F_DUPFD_CLOEXEC, 0);
     return copy >= 0 && ::close(copy) == 0;
@@ -44,23 +44,24 @@ class FileDescriptor {
   int fd_;
 };
 
-// What this machine calls itself.
+// The host name of this machine.
 std::string host_name();
 
-// All of `content`, or false and errno.
+// Writes all of `content`. Returns false and sets errno on failure.
 bool write_all(int fd, std::string_view content);
 
 enum class LockResult : std::uint8_t {
   kLocked,
-  kHeld,         // by another open file, here or on another host
-  kUnsupported,  // by this file system; errno says how
+  kHeld,         // by another open file, on this or another host
+  kUnsupported,  // by this file system; errno is set
 };
 
-// Locks the file, open for writing, against everybody else who asks, on all hosts that share it (as
-// far as the file system goes). The kernel gives the lock back when the last descriptor of this
-// open file is closed, in whatever way its process ends. (fcntl's locks of open files: those of
-// flock() do not leave the host on every file system, and fcntl's other ones are given back as soon
-// as the process closes the file under any descriptor.)
+// Locks the file, which must be open for writing, against all other processes that use lock(), on
+// all hosts that share it (as far as the file system supports this). The kernel releases the lock
+// when the last descriptor of this open file is closed, however the process ends. (Uses the open
+// file description locks of fcntl(2). On some file systems, locks of flock(2) are not visible on
+// other hosts. Traditional fcntl locks are released as soon as the process closes any descriptor of
+// the file.)
 LockResult lock(int fd);
 
 }  // namespace grove::detail

@@ -34,7 +34,8 @@ std::string holder(const FileDescriptor& file) {
   return size > 0 ? std::string(text, static_cast<std::size_t>(size)) : "it has just begun";
 }
 
-// In a folder where strangers may write, a link could lead to any file of the user.
+// Does not follow links. In a folder where other users may write, a link could lead to any file of
+// the user.
 FileDescriptor open_lock_file(const fs::path& path) {
   FileDescriptor file(path, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK);
   if (!file.is_open() && errno != ELOOP) return file;
@@ -49,7 +50,7 @@ bool write_holder(const FileDescriptor& file) {
   return ::ftruncate(file.get(), 0) == 0 && write_all(file.get(), who_i_am());
 }
 
-// ".grove-plan.json.lock" of "plan.json".
+// For example ".grove-plan.json.lock" for "plan.json".
 fs::path lock_file_of(const fs::path& output) {
   constexpr std::size_t kLongestName = 200;  // file systems allow 255 bytes
   std::string name = output.filename().string();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Folders and files that one run at a time may write to.
+// Locks of folders and output files, so that only one run at a time writes to them.
 #pragma once
 
 #include <filesystem>
@@ -8,16 +8,16 @@
 
 namespace grove::detail {
 
-// Holds the lock that the file at `path` stands for, until it or the process ends, however that
-// comes: the file is left behind, a lock never is. The file says who holds it. A lock counts on all
-// hosts that share the file system. Not to be shared by threads.
+// Holds the lock of the file at `path` until this object is destroyed or the process ends, for
+// whatever reason. The file stays; the lock does not. The file names the holder. The lock is valid
+// on all hosts that share the file system. One thread at a time.
 class FileLock {
  public:
-  // Throws InputError when another holds it, and says who; when the file cannot be written; and
-  // when it is a link, through which any other file would be written.
+  // Throws InputError if another process holds the lock (the message names it), if the file cannot
+  // be written, or if it is a link, because writing through it could change any other file.
   explicit FileLock(const std::filesystem::path& path);
 
-  // False where the file system knows no locks: then nobody is kept away.
+  // False if the file system does not support locks. Then other processes are not excluded.
   bool is_held() const { return held_; }
 
  private:
@@ -25,13 +25,13 @@ class FileLock {
   bool held_ = true;
 };
 
-// Keeps other runs from writing the file `output` while it lives: by a lock on a file beside it,
-// .grove-NAME.lock, which goes with this. (What a killed run leaves is not locked, and is used
-// again.) Special files, as /dev/null, are not locked, nor files in a folder where nothing can be
-// written, as writing them will tell. Not to be shared by threads.
+// While this object exists, other runs cannot write the file `output`. It locks the file
+// .grove-NAME.lock in the same folder, and removes that file in the end. (The lock file of a killed
+// run is not locked, and is reused.) Does not lock special files such as /dev/null, and files in a
+// folder that is not writable, because writing them will fail anyway. One thread at a time.
 class OutputLock {
  public:
-  // Throws InputError when another run writes this file, and says which.
+  // Throws InputError if another run writes this file; the message names the run.
   explicit OutputLock(const std::filesystem::path& output);
   ~OutputLock();
   OutputLock(OutputLock&&) = default;
@@ -39,7 +39,7 @@ class OutputLock {
 
  private:
   std::filesystem::path path_;
-  FileDescriptor file_;  // not open: nothing is locked
+  FileDescriptor file_;  // not open: no lock
 };
 
 }  // namespace grove::detail

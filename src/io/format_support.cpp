@@ -19,7 +19,7 @@ std::string task_field(TaskIndex task) {
   return fmt::format("tasks/{}", task);
 }
 
-// The tasks as they appear first, agent by agent.
+// The tasks in the order of their first appearance, agent by agent.
 std::vector<TaskIndex> order_of_appearance(const Instance& instance) {
   std::vector<TaskIndex> order;
   std::vector<bool> seen(instance.task_count());
@@ -33,7 +33,7 @@ std::vector<TaskIndex> order_of_appearance(const Instance& instance) {
   return order;
 }
 
-// Builds `instance` anew, with the agent ids of `agent_id(i)` and the task ids of `task_id(i)`.
+// A copy of `instance` with agent ids agent_id(i) and task ids task_id(i).
 template <typename AgentId, typename TaskId>
 InstanceBuilder with_agents(const Instance& instance, AgentId agent_id, TaskId task_id) {
   InstanceBuilder builder = InstanceBuilder::like(instance);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// pugixml parses, without recursion, and knows only the five entities of XML itself: others stay as
-// they are written. It does not check what it has no use for, so what would be misread is refused
-// here.
+// The parser is pugixml. It does not use recursion, and it expands only the five entities of XML
+// itself; others remain as they are written. It does not validate everything, so this file rejects
+// what would be misread.
 #include "io/graphml_file.h"
 
 #include <fmt/format.h>
@@ -54,7 +54,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-// All the text of an element: a comment or CDATA in between ends none.
+// The complete text of an element, also across comments and CDATA sections.
 std::string text_of(xml_node element) {
   std::string text;
   for (const xml_node child : element.children())
@@ -63,7 +63,7 @@ std::string text_of(xml_node element) {
   return text;
 }
 
-// A parsed file that knows where its elements stand.
+// A parsed file that can report the position of its elements.
 class XmlFile {
  public:
   XmlFile(std::string_view text, const std::string& name) : file_(name), lines_(text) {
@@ -110,9 +110,9 @@ class XmlFile {
   pugi::xml_document document_;
 };
 
-// What <key> elements declare.
+// A declaration by a <key> element.
 struct Key {
-  std::string name;  // in small letters; empty: yEd's, for drawings
+  std::string name;  // in lower case; empty: a key of yEd for drawings
   std::string element;
   std::optional<std::string> preset;  // <default>
   xml_node at;
@@ -193,14 +193,14 @@ class GraphmlReader {
     return text == "directed";
   }
 
-  // The name of what a <data> holds. Who writes by hand may leave the keys out.
+  // The name of the content of a <data> element. Files written by hand may omit the <key> elements.
   std::string name_of(xml_node data) const {
     const std::string id = attribute(data, "key");
     const auto key = keys_.find(id);
     return key == keys_.end() ? lower(id) : key->second.name;
   }
 
-  // Of the data of an element what is `known`, defaults included.
+  // The data of an element whose names are in `known`, including defaults.
   Data data_of(xml_node element, std::span<const std::string_view> known) {
     Data data;
     for (const xml_node child : element.children()) {
@@ -227,7 +227,7 @@ class GraphmlReader {
     return *value;
   }
 
-  // The first of `names` that there is.
+  // The first of `names` that is present.
   std::optional<double> positive_number(const Data& data, std::span<const std::string_view> names,
                                         std::string_view unit) const {
     for (const std::string_view name : names) {
@@ -251,7 +251,7 @@ class GraphmlReader {
     return id;
   }
 
-  // yEd keeps the corner and the size of what it draws, and no x and y of its own.
+  // yEd stores the corner and size of a drawing, without x and y of its own.
   std::optional<Point> middle_of_drawing(xml_node node) const {
     for (const xml_node data : node.children("data"))
       for (const xml_node shape : data.children())
@@ -334,12 +334,12 @@ class GraphmlReader {
   }
 
   XmlFile xml_;
-  std::vector<std::string>* warnings_;  // may be null
+  std::vector<std::string>* warnings_;  // may be nullptr
   std::set<std::string> warned_;
   std::map<std::string, Key> keys_;
   bool is_directed_ = false;
   RoadNetwork network_;
-  std::unordered_map<std::string, int> numbers_;  // of vertices, by id
+  std::unordered_map<std::string, int> numbers_;  // index of the vertex, by id
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one exception for bad input.
+// The exception for invalid input.
 #pragma once
 
 #include <cerrno>
@@ -10,16 +10,15 @@
 
 namespace grove::detail {
 
-// A file that cannot be used: unreadable, malformed, or in conflict with another one. what() is one
-// line fit for a person: "FILE: PLACE: what is wrong and what was expected". The place is a line
-// and column ("line 7, column 12") or a JSON path ("/agents/3/start"); empty when it is the whole
-// file.
+// A file that cannot be used: it is unreadable, malformed, or contradicts another file. what() is
+// one line for the user: "FILE: PLACE: what is wrong and what was expected". PLACE is a line and
+// column ("line 7, column 12") or a JSON Pointer ("/agents/3/start"); empty for the whole file.
 class InputError : public std::runtime_error {
  public:
   InputError(std::string_view file, std::string_view place, std::string_view message);
 };
 
-// A file of Grove, but of another kind than is read here: "found a plan; expected an instance".
+// A file of Grove of another kind than expected: "found a plan; expected an instance".
 class WrongFileKind : public InputError {
  public:
   WrongFileKind(std::string_view file, std::string_view found, std::string_view expected);
@@ -29,13 +28,12 @@ class WrongFileKind : public InputError {
   std::string found_;
 };
 
-// The system refuses to read or write the file, as `error` of errno.h says.
+// Throws InputError: the system cannot read or write the file; `error` is a value of errno.
 [[noreturn]] void fail_to_read(const std::filesystem::path& path, int error = errno);
 [[noreturn]] void fail_to_write(const std::filesystem::path& path, int error = errno);
 
-// `text` as one printable line, whatever was in it: control characters and broken UTF-8 are written
-// as \n, \t, \x1b, ..., and what goes beyond some hundred bytes is cut off. For messages that quote
-// files.
+// `text` as one printable line, for messages that quote files. Control characters and invalid UTF-8
+// are written as \n, \t, \x1b, ... The line is cut after some hundred bytes.
 std::string one_line(std::string_view text);
 
 }  // namespace grove::detail

@@ -42,7 +42,7 @@ fs::path file_in_folder(const InputRules& rules, const fs::path& folder, const f
   if (name.is_absolute()) refuse("is an absolute name");
   std::error_code error;
   const fs::path base = fs::canonical(folder.empty() ? "." : folder, error);
-  // What is not there yet is judged by its name, and is refused as missing by the reader.
+  // A missing file is checked by its name. The reader reports later that it is missing.
   const fs::path real = error ? fs::path() : fs::weakly_canonical(base / name, error);
   if (error || !is_below(base, real)) refuse("leads out of the folder of this file");
   return real;

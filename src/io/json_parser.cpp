@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The parser is nlohmann's; what it hands over is put together here, because its own document
-// builder accepts any depth and lets a repeated key silently win over the first.
+// Parses with nlohmann's parser, and builds the document here. nlohmann's own document builder
+// accepts any depth, and of a repeated key it keeps one value without an error.
 #include "io/json_parser.h"
 
 #include <fmt/format.h>
@@ -18,9 +18,9 @@ using Json = nlohmann::json;
 
 constexpr std::size_t kDeepest = 32;
 
-// "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while parsing
-// value - invalid literal; last read: 'x'; expected ..." without its ends: the place is told in
-// front, and what was read last may be half the file.
+// The message "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while
+// parsing value - invalid literal; last read: 'x'; expected ..." without its beginning and end. The
+// position is reported separately, and "last read" may quote half the file.
 std::string tidy(const nlohmann::detail::exception& error) {
   constexpr int kNumberOverflow = 406;
   if (error.id == kNumberOverflow) return "a number is too large; expected one of double precision";
@@ -37,8 +37,7 @@ std::string tidy(const nlohmann::detail::exception& error) {
   return message;
 }
 
-// What people write into JSON and does not belong there, beginning at `rest`; empty: something
-// else.
+// A common mistake in JSON at the beginning of `rest`; empty: another error.
 std::string_view common_mistake(std::string_view rest) {
   struct Mistake {
     std::string_view beginning;
@@ -65,8 +64,8 @@ std::string_view common_mistake(std::string_view rest) {
   return {};
 }
 
-// Where the token that the parser stumbled over begins. The parser has read its first letters by
-// then: "Na" of NaN, "//" of a comment.
+// The beginning of the token at which the parser failed. The parser has already read its first
+// letters: "Na" of NaN, "//" of a comment.
 std::size_t begin_of_token(std::string_view text, std::size_t offset) {
   constexpr std::string_view kBetween = " \t\r\n,:[]{}\"";
   offset = std::min(offset, text.size());
@@ -74,14 +73,14 @@ std::size_t begin_of_token(std::string_view text, std::size_t offset) {
   return offset;
 }
 
-// "[1, 2, ]": is this the bracket?
+// True if the character at `offset` is the bracket after a trailing comma, as in "[1, 2, ]".
 bool is_behind_last_comma(std::string_view text, std::size_t offset) {
   if (offset >= text.size() || (text[offset] != '}' && text[offset] != ']')) return false;
   const std::size_t before = text.substr(0, offset).find_last_not_of(" \t\r\n");
   return before != std::string_view::npos && text[before] == ',';
 }
 
-// Builds the document from the parser's events.
+// Builds the document from the events of the parser.
 class DocumentBuilder : public nlohmann::json_sax<Json> {
  public:
   DocumentBuilder(std::string_view text, const std::string& file) : text_(text), file_(file) {}
@@ -94,7 +93,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   bool number_unsigned(std::uint64_t value) override { return add(value); }
   bool number_float(double value, const std::string&) override { return add(value); }
   bool string(std::string& value) override { return add(std::move(value)); }
-  bool binary(Json::binary_t&) override { return false; }  // not in JSON texts
+  bool binary(Json::binary_t&) override { return false; }  // does not occur in JSON texts
 
   bool start_object(std::size_t) override { return open(Json::object()); }
   bool start_array(std::size_t) override { return open(Json::array()); }
@@ -124,10 +123,10 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   }
 
  private:
-  // An array or object that is still open. Its elements stay in place while one of them is open.
+  // An open array or object. Its elements do not move while one of them is open.
   struct Level {
     Json* container;
-    std::string key;  // of the member being read
+    std::string key;  // of the current member
   };
 
   bool add(Json value) {
@@ -156,13 +155,13 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
     return &container.back();
   }
 
-  // The path of the container at the given depth; 0 is the document.
+  // The JSON Pointer of the container at the given depth; 0 is the document.
   std::string path(std::size_t depth) const {
     std::string result = depth == 0 ? "/" : "";
     for (std::size_t k = 0; k < depth; ++k) {
       const Level& level = levels_[k];
       const bool keyed = level.container->is_object();
-      const bool entered = k + 1 < levels_.size();  // then the element is already in the array
+      const bool entered = k + 1 < levels_.size();  // if so, the element is already in the array
       const std::size_t index = level.container->size() - (entered ? 1 : 0);
       result += "/" + (keyed ? level.key : std::to_string(index));
     }

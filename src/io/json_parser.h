@@ -7,8 +7,8 @@
 
 namespace grove::detail {
 
-// Parses `text`. Throws InputError, naming `file`, for anything that is not one JSON value, for a
-// key repeated within one object, and for nesting beyond what any of Grove's formats needs.
+// Parses `text`. Throws InputError, naming `file`, if it is not exactly one JSON value, if an
+// object repeats a key, or if it is nested deeper than any of Grove's formats requires.
 nlohmann::json parse_json(std::string_view text, const std::string& file);
 
 }  // namespace grove::detail

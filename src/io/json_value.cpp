@@ -31,7 +31,7 @@ std::string_view kind_of(const Json& json) {
   return json.is_number() ? "a number" : "a string";
 }
 
-// The integer that `json` holds, if it is one from `least` to `most`. 3.0 is none: strict.
+// The integer in `json`, if it is an integer from `least` to `most`. 3.0 is not an integer.
 std::optional<std::int64_t> integer_within(const Json& json, std::int64_t least,
                                            std::int64_t most) {
   if (!json.is_number_integer()) return std::nullopt;
@@ -130,7 +130,8 @@ JsonDocument::JsonDocument(const std::filesystem::path& path)
 
 JsonDocument::JsonDocument(std::string_view text, std::string name)
     : file_(std::move(name)), json_(parse_json(text, file_)) {
-  // (What it holds instead is not told: the file may be none that anyone meant to show.)
+  // (The message does not quote the content, because the user may not have meant to show this
+  // file.)
   if (!json_.is_object())
     root().fail(fmt::format("found {}; expected a JSON object", kind_of(json_)));
 }

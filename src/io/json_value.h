@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// JSON read strictly: a value that knows its file and its path, so that every complaint names both.
+// Strict reading of JSON: values that know their file and path, so that every error names both.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@
 
 namespace grove::detail {
 
-// A value inside a JsonDocument, which must outlive it. Every getter throws InputError when the
-// value is not what it asks for.
+// A value of a JsonDocument, which must outlive it. Every getter throws InputError if the value
+// does not have the requested type.
 class JsonValue {
  public:
   JsonValue(const nlohmann::json& json, const std::string& file, std::string path)
@@ -27,11 +27,11 @@ class JsonValue {
   const std::string& path() const { return path_; }
   const std::string& file() const { return *file_; }
 
-  // Members of an object: one that must be there, and one that may be missing.
+  // Members of an object: member() requires the key; find() returns nullopt if it is missing.
   JsonValue member(const char* key) const;
   std::optional<JsonValue> find(const char* key) const;
 
-  // Elements of an array.
+  // The elements of an array.
   std::size_t size() const;
   JsonValue element(std::size_t index) const;
 
@@ -40,13 +40,13 @@ class JsonValue {
   bool boolean() const;
   std::string text() const;
   std::vector<std::string> texts() const;
-  // A cell [x, y]; both at least 0. And one of them.
+  // position(): a cell [x, y] with x, y >= 0.
   Position position() const;
   int coordinate() const;
 
-  // "found 7; expected `expected`", as InputError here.
+  // Throws InputError "found 7; expected `expected`" at this value.
   [[noreturn]] void fail_expected(std::string_view expected) const;
-  // `message` as InputError at this value, or at `field` below it.
+  // Throws InputError `message` at this value, or at `field` below it.
   [[noreturn]] void fail(std::string_view message, std::string_view field = "") const;
 
  private:
@@ -58,12 +58,12 @@ class JsonValue {
   std::string path_;  // "" for the whole document
 };
 
-// A parsed file. Throws InputError unless it is one JSON object of bounded depth in which no object
+// A parsed file. Throws InputError if it is not one JSON object of bounded depth, or if an object
 // repeats a key.
 class JsonDocument {
  public:
   explicit JsonDocument(const std::filesystem::path& path);
-  // The same of a text; `name` stands for the file in complaints.
+  // The same for a text. `name` stands for the file in messages.
   JsonDocument(std::string_view text, std::string name);
 
   JsonValue root() const { return {json_, file_, ""}; }
@@ -73,9 +73,8 @@ class JsonDocument {
   nlohmann::json json_;
 };
 
-// Of files of other tools, which may hold what does not concern Grove: collects one warning for
-// each key that a reader does not know, however often the key occurs. (Grove's own files:
-// known_keys.h.)
+// For files of other tools, which may contain data that Grove does not use: collects one warning
+// for each unknown key, however often it occurs. (For Grove's own files see known_keys.h.)
 class UnknownKeys {
  public:
   UnknownKeys(std::string file, std::vector<std::string>* warnings)
@@ -85,7 +84,7 @@ class UnknownKeys {
 
  private:
   std::string file_;
-  std::vector<std::string>* warnings_;  // may be null
+  std::vector<std::string>* warnings_;  // may be nullptr
   std::set<std::string> seen_;
 };
 

@@ -6,8 +6,8 @@
 
 namespace grove::detail {
 
-// `document`, an object, with one member per line; of arrays and objects directly below it, one
-// element per line. Made to be read and compared by people: one agent, one line.
+// `document`, an object, as text with one member per line. An array or object directly below it has
+// one element per line. So people can read and compare it: one agent per line.
 std::string dump_by_lines(const nlohmann::ordered_json& document);
 
 }  // namespace grove::detail

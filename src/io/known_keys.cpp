@@ -22,7 +22,7 @@ struct Unmodelled {
   std::string_view what;
 };
 
-// What people expect of such files and Grove does not model, in docs/formats.md too.
+// Keys that users expect in such files but Grove does not model; also in docs/formats.md.
 constexpr std::array kUnmodelled{
     Unmodelled{"after", "an order among tasks"},
     Unmodelled{"before", "an order among tasks"},
@@ -43,7 +43,7 @@ constexpr std::array kUnmodelled{
     Unmodelled{"window", "time windows"},
 };
 
-// --- what there is ---
+// --- declarations ---
 
 const KnownObject& working_keys() {
   static const KnownObject known{"\"working\"", {{"task"}, {"done"}}};
@@ -128,9 +128,9 @@ const KnownObject& trace_keys() {
   return known;
 }
 
-// --- what was meant ---
+// --- hints ---
 
-// "One-Way" as "oneway".
+// Normalizes a key: "oneway" for "One-Way".
 std::string folded(std::string_view key) {
   std::string text;
   for (const char c : key)
@@ -145,9 +145,9 @@ std::string singular(std::string_view key) {
   return text;
 }
 
-constexpr std::size_t kLeastBeginning = 3;  // shorter ones begin too much
+constexpr std::size_t kLeastBeginning = 3;  // shorter prefixes are too ambiguous
 
-// "dur" of "duration".
+// True for a prefix of sufficient length, such as "dur" of "duration".
 bool begins(const std::string& key, std::string_view known) {
   return key.size() >= kLeastBeginning && folded(known).starts_with(key);
 }
@@ -160,7 +160,7 @@ std::string hint(const KnownKey& key) {
   return fmt::format("expected '{}'{}, if that is what it means", key.name, key.meaning);
 }
 
-// The key that was meant; one that is there already was not.
+// The key that was probably meant. Keys that the object already has are excluded.
 const KnownKey* key_meant(const JsonValue& object, const std::string& key,
                           const KnownObject& known) {
   std::vector<std::string> spelt;
@@ -193,7 +193,7 @@ const Unmodelled* nearly_unmodelled(const std::string& key) {
   return near ? unmodelled(std::string(*near)) : nullptr;
 }
 
-// The object of the same file that has this key.
+// The object of the same kind of file that has this key.
 const KnownObject* owner(const std::string& key, const KnownObject& file) {
   for (const KnownKey& each : file.keys)
     if (each.name == key) return &file;
@@ -239,8 +239,8 @@ void refuse_other_kind(const JsonValue& root, const KnownObject& known) {
     if (has_marks_of(root, *other)) throw WrongFileKind(root.file(), other->kind, known.kind);
 }
 
-// A file that has no key of its kind, nor one that is close, is perhaps none that anyone meant to
-// show: its keys are not quoted.
+// Rejects a file without any key of its kind or a similar one. The message does not quote its keys,
+// because the user may not have meant to show this file.
 void refuse_unrelated(const JsonValue& root, const KnownObject& known) {
   if (known.kind.empty()) return;
   bool has_others = false;
@@ -314,7 +314,7 @@ const KnownObject& roadmap_keys() {
   return known;
 }
 
-// (The statistics of a plan are told for people, and may be others in other versions.)
+// (The statistics of a plan are not checked: they are for people, and may differ between versions.)
 const KnownObject& plan_keys() {
   static const KnownObject known{"the file",
                                  {{"status"},

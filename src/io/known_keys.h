@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The keys of Grove's own files: one declaration for each kind of object, and the one check that
-// refuses every other key. A constraint that is dropped is worse than a file that is refused.
+// The keys of Grove's own files: one declaration for each kind of object, and one function that
+// rejects every other key. It is worse to ignore a constraint than to reject a file.
 #pragma once
 
 #include <string_view>
@@ -14,37 +14,38 @@ struct KnownObject;
 
 struct KnownKey {
   std::string_view name;
-  // What the object in this key, or each object of the list in it, may hold; null: not looked into.
+  // The keys of the object in this key, or of each object in its list; nullptr: not checked.
   const KnownObject* inside = nullptr;
-  // Other words for it, for hints.
+  // Synonyms, for hints.
   std::vector<std::string_view> aliases = {};
-  std::string_view meaning = {};  // follows the name in a hint: " (true: ...)"
+  std::string_view meaning = {};  // appended to the name in a hint: " (true: ...)"
 };
 
 struct KnownObject {
   std::string_view name;  // "an agent"
   std::vector<KnownKey> keys;
-  // Of a whole file: "an instance", and the keys by which it is told apart from those of other
+  // Only for a whole file: "an instance", and the keys that distinguish it from files of other
   // kinds.
   std::string_view kind = {};
   std::vector<std::string_view> marks = {};
 };
 
 const KnownObject& instance_keys();
-// What an instance holds on a world that is given already: agents and tasks.
+// The part of an instance that is read onto an existing map: agents and tasks.
 const KnownObject& robot_keys();
 const KnownObject& roadmap_keys();
 const KnownObject& plan_keys();
-// A file of new tasks: a list of them, or one.
+// A file of new tasks: a list, or a single task.
 const KnownObject& new_tasks_keys();
 const KnownObject& new_task_keys();
 const KnownObject& solver_keys();
 
-// Throws WrongFileKind for a file that has the marks of another kind of file and lacks one of its
-// own; InputError, which quotes nothing, for a file that has no key of its kind; and InputError for
-// the first key of `value`, or of an object in it, that `known` does not have: what resembles it,
-// where it belongs, or that Grove does not model it. "$schema" and keys that begin with '_' are for
-// people and other programs, and are not looked into.
+// Checks the keys of `value` and of the objects in it. Throws WrongFileKind if the file has the
+// distinguishing keys of another kind of file and lacks one of its own. Throws InputError, without
+// a quotation, if the file has no key of its kind. Throws InputError for the first unknown key. The
+// message names a similar key, or the object where the key belongs, or says that Grove does not
+// model it. "$schema" and keys that begin with '_' are for people and other programs, and are
+// ignored.
 void require_known_keys(const JsonValue& value, const KnownObject& known);
 
 }  // namespace grove::detail

@@ -18,7 +18,7 @@ namespace {
 
 // --- reading ---
 
-// A few bytes of this format can ask for any number of cells.
+// A file of a few bytes in this format can request any number of cells.
 constexpr int kMaxCells = 1 << 24;
 
 Grid read_grid(const YamlValue& map, const std::string& file, const InputRules& rules) {
@@ -46,7 +46,7 @@ Grid read_grid(const YamlValue& map, const std::string& file, const InputRules& 
   return Grid(width, height, passable);
 }
 
-// The destination that `agent` names, if it names one.
+// The destination of `agent`, if it has one.
 std::optional<YamlValue> find_goal(const YamlValue& agent) {
   const auto goal = agent.find("goal");
   const auto choice = agent.find("potentialGoals");
@@ -62,7 +62,7 @@ std::optional<YamlValue> find_goal(const YamlValue& agent) {
   return choice->element(0);
 }
 
-// Where in `agent` the key stands that an InstanceError is about.
+// The position in `agent` of the key that an InstanceError refers to.
 YamlValue place_of(const YamlValue& agent, const std::optional<YamlValue>& goal,
                    const std::string& field) {
   if (field == "id") return agent.member("name");

@@ -11,9 +11,8 @@
 //       start: [0, 0]
 //       goal: [4, 0]            # MGCBS: goals, a list: all to be visited in any order
 //
-// Cells are [x, y] as in Grove's files. Neither tool says where the origin is;
-// libMultiRobotPlanning's viewer draws y upwards, which shows the map upside down and changes
-// nothing else.
+// Cells are [x, y] as in Grove's files. Neither tool specifies where the origin is. The viewer of
+// libMultiRobotPlanning draws y upwards, so it shows the map upside down; this has no other effect.
 #pragma once
 
 #include <filesystem>
@@ -25,26 +24,25 @@
 
 namespace grove::detail {
 
-// Reads either. `goal` is a destination, and so is a list `potentialGoals` of one; `goals` are
-// tasks of an agent without a destination, and one task for all agents that list the same cell.
-// Throws InputError with line and column on anything malformed, on a choice of potentialGoals,
-// which is a problem that Grove does not solve, on roadmaps, and on more than 2^24 cells, which a
-// few bytes could ask for. Appends to `warnings` about unknown keys.
+// Reads either format. `goal`, or a list `potentialGoals` with one entry, is a destination. `goals`
+// are tasks of an agent without a destination; a cell that several agents list is one task for all
+// of them. Throws InputError with line and column for invalid files, for several potentialGoals
+// (Grove does not solve this problem), for roadmaps, and for more than 2^24 cells, which a file of
+// a few bytes could request. Appends a warning for each unknown key to `warnings`.
 Instance read_libmrp_instance(const std::filesystem::path& path,
                               std::vector<std::string>* warnings = nullptr,
                               const InputRules& rules = {});
 
-// Writes classical MAPF for libMultiRobotPlanning, whole or not at all. Throws NotRepresentable for
-// tasks and for agents without a destination, InputError when the file cannot be written.
+// Writes classical MAPF for libMultiRobotPlanning, atomically. Throws NotRepresentable for tasks
+// and for agents without a destination, InputError if the file cannot be written.
 void write_libmrp_instance(const std::filesystem::path& path, const Instance& instance);
 
 // The same for solvers that assign goals (CBS-TA, ITA-CBS): each agent has a list of potential
-// goals, of one.
+// goals, with one entry.
 void write_potential_goals(const std::filesystem::path& path, const Instance& instance);
 
-// Writes MG-MAPF for MGCBS, whole or not at all. Throws NotRepresentable for agents with a
-// destination and ids of tasks that are not the default ones, InputError when the file cannot be
-// written.
+// Writes MG-MAPF for MGCBS, atomically. Throws NotRepresentable for agents with a destination and
+// for ids of tasks that are not the default ones, InputError if the file cannot be written.
 void write_mgcbs_instance(const std::filesystem::path& path, const Instance& instance);
 
 }  // namespace grove::detail

@@ -12,7 +12,7 @@
 namespace grove::detail {
 namespace {
 
-// "  key: value" if the run counted `name`.
+// The line "  key: value" if the run has a counter `name`; else "".
 std::string count_line(const Stats& stats, const std::string& name, std::string_view key) {
   const auto it = stats.counts.find(name);
   return it == stats.counts.end() ? "" : fmt::format("  {}: {}\n", key, it->second);
@@ -37,7 +37,7 @@ void add_steps(std::string& text, const Grid& grid, const Path& path) {
   }
 }
 
-// YAML's readers look for the colon no farther than that.
+// YAML parsers search for the colon only within this number of characters.
 constexpr std::size_t kLongestKey = 1024;
 
 std::string key_text(const Instance& instance, AgentIndex agent) {

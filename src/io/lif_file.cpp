@@ -18,9 +18,9 @@
 namespace grove::detail {
 namespace {
 
-constexpr int kHighestDegree = 16;  // of curves that anybody drives along
+constexpr int kHighestDegree = 16;  // sufficient for curves of vehicles
 
-// Exporters write null for what they do not know.
+// Exporters write null for unknown values.
 std::optional<JsonValue> find_given(const JsonValue& object, const char* key) {
   auto value = object.find(key);
   return value && value->json().is_null() ? std::nullopt : value;
@@ -33,7 +33,7 @@ std::string id_of(const JsonValue& object, const char* key) {
   return id;
 }
 
-// "'a', 'b'".
+// For example "'a', 'b'".
 std::string listed(const std::set<std::string>& names) {
   std::string text;
   for (const std::string& name : names)
@@ -104,7 +104,7 @@ class LifReader {
       elsewhere_.insert(nodes.element(k).member("nodeId").text());
   }
 
-  // The types of all nodes and edges. What has no properties is for all.
+  // The vehicle types of all nodes and edges. A node or edge without properties is for all types.
   std::set<std::string> vehicle_types(const JsonValue& layout) const {
     std::set<std::string> types;
     for (const auto& [list, key] : {std::pair{"nodes", "vehicleTypeNodeProperties"},
@@ -170,7 +170,8 @@ class LifReader {
     network_.vertices.push_back({std::move(id), at});
   }
 
-  // The vertex at an end of an edge; none if it is in another layout, or not for this vehicle.
+  // The vertex at an end of an edge. Returns nullopt if it is in another layout, or not for this
+  // vehicle type.
   std::optional<int> end_of(const JsonValue& edge, const char* key, bool& is_elsewhere) const {
     const JsonValue value = edge.member(key);
     const std::string id = value.text();
@@ -273,11 +274,11 @@ class LifReader {
 
   JsonDocument document_;
   LifChoice choice_;
-  std::vector<std::string>* warnings_;  // may be null
+  std::vector<std::string>* warnings_;  // may be nullptr
   UnknownKeys unknown_;
   RoadNetwork network_;
-  std::unordered_map<std::string, int> numbers_;  // of vertices, by id
-  std::unordered_set<std::string> unusable_;      // nodes that are not for this vehicle type
+  std::unordered_map<std::string, int> numbers_;  // index of the vertex, by id
+  std::unordered_set<std::string> unusable_;      // nodes that this vehicle type may not use
   std::unordered_set<std::string> elsewhere_;     // nodes of other layouts
   std::unordered_set<std::string> edge_ids_;
   int edges_away_ = 0;

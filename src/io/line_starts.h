@@ -8,12 +8,12 @@
 
 namespace grove::detail {
 
-// Where the lines of a text begin: for who asks for many places in it, as line_and_column_at()
-// counts from the beginning each time.
+// The offsets of the lines of a text. For callers that need many positions; line_and_column_at()
+// counts from the beginning in each call.
 class LineStarts {
  public:
   explicit LineStarts(std::string_view text);
-  // "line 7, column 12" of the character at `offset`.
+  // The position of the character at `offset`, such as "line 7, column 12".
   std::string place(std::size_t offset) const;
 
  private:

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view kPassable = ".GSE";
 constexpr std::string_view kBlocked = "@OTW";
-constexpr std::string_view kUsual = ".@T";  // what all tools of the field read alike
+constexpr std::string_view kUsual = ".@T";  // characters that all tools interpret in the same way
 constexpr std::size_t kHeaderLines = 4;
 
 struct Size {
@@ -46,7 +46,7 @@ class MapReader {
   }
 
  private:
-  // Lines and columns count from 0 here.
+  // `line` and `column` count from 0.
   [[noreturn]] void fail(std::size_t line, std::size_t column, std::string_view message) const {
     throw InputError(file_, line_and_column(line + 1, column + 1), message);
   }
@@ -64,7 +64,7 @@ class MapReader {
       fail(line, 0, fmt::format("found '{}'; expected '{}'", one_line(text), expected));
   }
 
-  // "<key> <number>", if the line begins with the key.
+  // The number in a line "<key> <number>". Returns nullopt if the line does not begin with the key.
   std::optional<int> number_after(std::size_t line, std::string_view key) const {
     const std::string_view text = header_line(line, "height' or 'width");
     if (!text.starts_with(key) || text.size() <= key.size() || text[key.size()] != ' ')
@@ -78,7 +78,8 @@ class MapReader {
     return number;
   }
 
-  // A file that does not begin as a map is perhaps no map, and what it holds is not for the screen.
+  // If the file does not begin as a map, the message does not quote it, because it may be another
+  // file.
   void expect_map() const {
     if (constexpr std::string_view kFirst = "type octile"; header_line(0, kFirst) != kFirst)
       fail(

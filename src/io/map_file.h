@@ -11,17 +11,17 @@
 
 namespace grove::detail {
 
-// The largest map that is read, in cells: some 8192 x 8192.
+// The maximum number of cells of a map: about 8192 x 8192.
 inline constexpr int kMaxMapCells = 1 << 26;
 
 // Reads a .map file: four header lines (type octile, height, width, map; height and width in either
 // order), then `height` rows of `width` characters. Passable: . G S E. Blocked: @ O T W. CRLF line
-// ends and a missing last newline are accepted. Appends to `warnings` when characters other than
-// . @ T occur. Throws InputError with line and column for anything else.
+// ends and a missing last line end are accepted. Appends to `warnings` if there are characters
+// other than . @ T. Throws InputError with line and column for any other content.
 Grid read_map(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr,
               const InputRules& rules = {});
 
-// Writes `grid` with '.' and '@', whole or not at all. Throws InputError when it cannot.
+// Writes `grid` with '.' and '@', atomically. Throws InputError if it cannot.
 void write_map(const std::filesystem::path& path, const Grid& grid);
 
 }  // namespace grove::detail

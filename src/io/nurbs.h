@@ -7,17 +7,17 @@
 
 namespace grove::detail {
 
-// A non-uniform rational B-spline. `knots` does not decrease and has one more than the degree more
-// entries than `points`, of which there are more than the degree; weights are positive.
+// A non-uniform rational B-spline (NURBS). `knots` is non-decreasing and has degree + 1 more
+// entries than `points`. There are more points than the degree. The weights are positive.
 struct Nurbs {
   int degree = 1;
   std::vector<double> knots;
   std::vector<Point> points;
-  std::vector<double> weights;  // one for each point
+  std::vector<double> weights;  // one per point
 };
 
-// The length of the curve, as that of a line through many of its points: a little short where it
-// bends.
+// The length of the curve, approximated by a polyline through many of its points, so slightly too
+// small for a bent curve.
 double length_of(const Nurbs& curve);
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Passing orders as files (docs/passing-order.md).
+// Writes action dependency graphs as files (docs/passing-order.md).
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace grove::detail {
 
-// One JSON object: what each robot does, where in the world, and what each action waits for.
+// One JSON object with the actions of each robot, their positions, and their dependencies.
 std::string passing_order_text(const Instance& instance, const ActionDependencyGraph& order,
                                const Frame& frame);
 

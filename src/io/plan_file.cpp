@@ -27,7 +27,8 @@ constexpr std::int64_t kLargestCost = kInfiniteCost;
 
 OrderedJson omega_json(const Omega& omega) {
   if (omega.is_infinite()) return "inf";
-  return OrderedJson::parse(omega.to_string());  // the shortest decimal, not a double's expansion
+  return OrderedJson::parse(
+      omega.to_string());  // the shortest decimal, not the expansion of a double
 }
 
 OrderedJson agent_json(const Instance& instance, AgentIndex index, const AgentPlan& plan) {
@@ -62,7 +63,7 @@ OrderedJson solution_json(const Instance& instance, const Solution& solution) {
   json["lower_bound"] = solution.lower_bound;
   json["omega"] = omega_json(solution.omega);
   if (!instance.may_follow() || !solution.may_follow)
-    json["following"] = false;  // what is claimed is of that instance
+    json["following"] = false;  // the claims hold for that instance only
   if (solution.plan) {
     OrderedJson& agents = json["agents"] = OrderedJson::array();
     for (std::size_t i = 0; i < solution.plan->agents.size(); ++i)
@@ -102,7 +103,7 @@ Omega read_omega(const JsonValue& value) {
   try {
     if (value.json().is_number()) return Omega::parse(value.json().dump());
   } catch (const std::invalid_argument&) {
-    // fall through: one message for all
+    // Fall through: one message for all cases.
   }
   value.fail_expected("a number from 0 to 1e6 with at most 9 decimals, or \"inf\"");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plan files (docs/design.md, section 5).
+// Reads and writes plan files (docs/design.md, section 5).
 #pragma once
 
 #include <filesystem>
@@ -11,22 +11,21 @@
 
 namespace grove::detail {
 
-// What write_solution() writes. All plan files are made here, so no plan gets into one that the
-// independent checker refuses: throws InvalidPlan (model/check.h). "following" is false if the
-// instance forbids it or the solution claims so.
+// The text that write_solution() writes. All plan files are generated here, so none contains a plan
+// that the independent checker rejects: throws InvalidPlan (model/check.h). "following" is false if
+// the instance or the solution forbids following.
 std::string solution_text(const Instance& instance, const Solution& solution);
 
-// Writes `solution` whole or not at all. Throws InputError when the file cannot be written, and
-// InvalidPlan.
+// Writes `solution` atomically. Throws InputError if the file cannot be written, and InvalidPlan.
 void write_solution(const std::filesystem::path& path, const Instance& instance,
                     const Solution& solution, Durability outlives = Durability::kMachine);
 
-// Reads a plan file and translates its ids with `instance`; believes every number it finds, for
-// check() to refute. Agents come back by AgentIndex whatever their order in the file; an agent that
-// the file leaves out has an empty path. Throws InputError on malformed files, unknown keys, and
+// Reads a plan file and resolves its ids with `instance`. Does not verify its numbers; check()
+// does. The agents are ordered by AgentIndex, whatever their order in the file. An agent that is
+// missing in the file has an empty path. Throws InputError for invalid files, unknown keys, and
 // unknown or repeated ids.
 Solution read_solution(const std::filesystem::path& path, const Instance& instance);
-// The same of the text of such a file: `name` stands for it in messages.
+// The same for the text of such a file. `name` stands for the file in messages.
 Solution parse_solution(std::string_view text, const std::string& name, const Instance& instance);
 
 }  // namespace grove::detail

@@ -23,7 +23,8 @@ namespace {
 
 using Paths = std::vector<Path>;  // by AgentIndex
 
-// Takes one thing after the other off a line. What is not there is an InputError with the place.
+// Reads a line from left to right. If an expected item is missing, throws InputError with its
+// position.
 class LineReader {
  public:
   LineReader(const std::filesystem::path& path, std::size_t number, std::string_view line)
@@ -46,7 +47,7 @@ class LineReader {
     rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
     return value;
   }
-  // "(3,4)": column and row, or the other way round.
+  // Reads "(3,4)": column and row, or row and column if `row_first`.
   Cell take_cell(const Grid& grid, bool row_first) {
     const std::string_view before = rest_;
     take("(");
@@ -73,7 +74,7 @@ class LineReader {
   std::string_view rest_;
 };
 
-// Or nothing at all.
+// True for JSON, and for an empty file.
 bool is_json(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   return first == std::string_view::npos || text[first] == '{' || text[first] == '[';
@@ -113,14 +114,15 @@ Paths read_path_lists(const std::filesystem::path& path, const Instance& instanc
   return paths;
 }
 
-// Paths, and what their file claims of them.
+// The paths of a file, and its claims about them.
 struct ToldPaths {
-  std::optional<Paths> paths;  // none: not solved
+  std::optional<Paths> paths;  // nullopt: not solved
   std::optional<Cost> cost;
   std::optional<Cost> lower_bound;
 };
 
-// By its id; or "agent7" is number 7, for some tools know no names.
+// The agent with this id. "agent7" may also be the agent with number 7, because some tools do not
+// use names.
 AgentIndex agent_called(const Instance& instance, const YamlValue& name) {
   const std::string text = name.text();
   const auto agents = instance.agents();
@@ -153,7 +155,7 @@ Path read_schedule_of_agent(const Instance& instance, const YamlValue& steps) {
   return path;
 }
 
-// libMultiRobotPlanning's, MGCBS's and ITA-CBS's.
+// Reads the schedules of libMultiRobotPlanning, MGCBS and ITA-CBS.
 ToldPaths read_schedule(const std::filesystem::path& path, const Instance& instance,
                         const std::string& name) {
   const YamlDocument document(path);
@@ -199,7 +201,8 @@ ToldPaths read_visualizer_text(const std::filesystem::path& path, const Instance
   return text;
 }
 
-// By when they are first visited. Without a destination an agent ends on its last task.
+// The tasks in the order of their first visits. For an agent without a destination, the task on its
+// last place is last.
 std::vector<TaskIndex> order_of_tasks(const Instance& instance, const Agent& agent,
                                       const Path& path) {
   std::vector<TaskIndex> tasks = agent.tasks;
@@ -234,7 +237,7 @@ void count_anew(Plan& plan) {
   }
 }
 
-// But for the costs of its plan.
+// Removes all claims except for the costs of the plan.
 void forget_claims(Solution& solution) {
   solution.omega = Omega::infinite();
   solution.lower_bound = 0;

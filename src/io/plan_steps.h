@@ -8,8 +8,7 @@
 
 namespace grove::detail {
 
-// The path up to when the agent comes to rest: without the waits at its end. Not empty unless the
-// path is.
+// The path until the agent rests: without the waits at its end. Empty only if the path is.
 inline std::span<const Cell> until_rest(const Path& path) {
   std::size_t size = path.size();
   while (size > 1 && path[size - 2] == path[size - 1]) --size;

@@ -62,7 +62,7 @@ OrderedJson start_json(const Instance& instance, AgentIndex agent) {
   return {p.y, p.x, std::string(1, turns(instance) ? letter(pose.heading) : 'E')};
 }
 
-// The agent's errands, by row and column, and when it has done each.
+// The agent's errands, as [row, column], and the time at which each is done.
 struct Errands {
   OrderedJson cells = OrderedJson::array();
   std::vector<Time> times;

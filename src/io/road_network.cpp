@@ -14,8 +14,8 @@
 namespace grove::detail {
 namespace {
 
-// 1.2 / 0.4 is a little less than 3, 2.1 / 0.7 could be a little more; lengths that were computed
-// from positions have such ends, too. No robot is that exact.
+// 1.2 / 0.4 is slightly less than 3, and 2.1 / 0.7 could be slightly more. Lengths that were
+// computed from positions have such errors, too. No robot is that accurate.
 constexpr double kNoise = 1e-9;
 
 double without_noise(double steps) {
@@ -59,8 +59,8 @@ void require_room(const RoadNetwork& network, const Link& link, std::int64_t pla
                                  Roadmap::kMostPlaces));
 }
 
-// One-way roads, those between the same vertices beside each other: in one direction, then in the
-// other, by steps.
+// The one-way roads, grouped by their pair of vertices. In each group first one direction, then the
+// other, each by steps.
 std::vector<int> by_ends(const std::vector<Road>& roads) {
   std::vector<int> order;
   for (std::size_t r = 0; r < roads.size(); ++r)
@@ -73,7 +73,7 @@ std::vector<int> by_ends(const std::vector<Road>& roads) {
   return order;
 }
 
-// Calls `visit` with the roads of one direction and those of the other, for all pairs of vertices.
+// Calls `visit` for all pairs of vertices with the roads of one direction and those of the other.
 template <typename Visit>
 void for_each_pair_of_ends(const std::vector<Road>& roads, Visit visit) {
   const std::vector<int> order = by_ends(roads);
@@ -88,7 +88,7 @@ void for_each_pair_of_ends(const std::vector<Road>& roads, Visit visit) {
   }
 }
 
-// The pairs of as many steps among roads there and back, each sorted by steps.
+// The pairs of opposite roads with equal numbers of steps. `there` and `back` are sorted by steps.
 std::vector<std::pair<int, int>> pairs_alike(const std::vector<Road>& roads,
                                              const std::vector<int>& there,
                                              const std::vector<int>& back) {

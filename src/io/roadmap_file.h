@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Roadmaps as files (docs/design.md, section 5).
+// Reads and writes roadmaps (docs/design.md, section 5).
 #pragma once
 
 #include <filesystem>
@@ -12,12 +12,12 @@
 
 namespace grove::detail {
 
-// Reads a *.roadmap.json file. Throws InputError on anything malformed, and on unknown keys.
+// Reads a *.roadmap.json file. Throws InputError for invalid files and for unknown keys.
 Roadmap read_roadmap(const std::filesystem::path& path, const InputRules& rules = {});
-// The same of the text of such a file: `name` stands for it in messages.
+// The same for the text of such a file. `name` stands for the file in messages.
 Roadmap parse_roadmap(std::string_view text, const std::string& name, const InputRules& rules = {});
 
-// Writes it whole or not at all. Throws InputError when the file cannot be written.
+// Writes the roadmap atomically. Throws InputError if the file cannot be written.
 void write_roadmap(const std::filesystem::path& path, const Roadmap& roadmap,
                    Durability outlives = Durability::kMachine);
 

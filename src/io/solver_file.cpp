@@ -60,7 +60,7 @@ std::string template_of(const JsonValue& value) {
   return text;
 }
 
-// "REGEX", or {"file": ..., "regex": ...}, which may have more keys.
+// Reads "REGEX", or {"file": ..., "regex": ...}, which may have further keys.
 LinePattern pattern_of(const JsonValue& value, std::size_t groups) {
   LinePattern pattern;
   JsonValue regex = value;

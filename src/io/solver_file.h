@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a program of someone else is called, and what it leaves behind to read: adapters, as files
+// Adapters: files that describe how to run another solver, and how to read its results
 // (docs/benchmarking.md).
 #pragma once
 
@@ -12,48 +12,49 @@
 
 namespace grove::detail {
 
-// The form in which a solver gets an instance.
+// The format in which a solver reads an instance.
 enum class SolverInput : std::uint8_t {
   kMovingAi,        // {map}, {scenario}, {agents}: classical MAPF
-  kGrove,           // {instance}, a *.cts.json: whatever Grove can say
+  kGrove,           // {instance}, a *.cts.json: every instance of Grove
   kLibmrp,          // {instance}, YAML of libMultiRobotPlanning: classical MAPF
-  kPotentialGoals,  // {instance}, the same with one potential goal each: ITA-CBS, CBS-TA
+  kPotentialGoals,  // {instance}, the same with one potential goal per agent: ITA-CBS, CBS-TA
   kMgcbs,           // {instance}, YAML with lists of goals: MG-MAPF
 };
 
-// A line of text that tells something: the last one in which the expression is found. (Of lines
-// longer than kLongestLine their beginning: a path is no claim, and libstdc++ recurses.)
+// A pattern for a line with a result. The last line in which the expression is found counts. (Of a
+// line longer than kLongestLine only the beginning is searched: such a line is a path and not a
+// claim, and libstdc++'s regular expressions are recursive.)
 inline constexpr std::size_t kLongestLine = 4096;
 struct LinePattern {
-  std::string file;   // a template; empty: what the program printed
+  std::string file;   // a template; empty: the standard output of the program
   std::string regex;  // ECMAScript
-  double scale = 1;   // of the number that group 1 is: 0.001 of milliseconds
+  double scale = 1;   // factor for the number in group 1: 0.001 for milliseconds
 };
 
-// What group k of an expression, from 1, tells of a plan.
+// The meaning of group k of an expression, from k = 1.
 enum class TraceGroup : std::uint8_t {
   kSeconds,
   kMilliseconds,
-  kSecondsLeft,  // of the time limit
+  kSecondsLeft,  // remaining time
   kCost,
   kLowerBound
 };
 
-// Every line in which the expression is found is a plan found on the way.
+// Each line in which the expression is found reports a plan found before the end.
 struct TracePattern {
   LinePattern line;
-  std::vector<TraceGroup> groups;  // one of them a time, one the cost
+  std::vector<TraceGroup> groups;  // one of them is a time, one the cost
 };
 
 struct SolverAdapter {
   std::string name;                       // letters, digits and -_.+=
-  std::string about = {};                 // for people
+  std::string about = {};                 // description
   std::vector<std::string> command = {};  // templates; {program} is the program
   SolverInput input = SolverInput::kMovingAi;
-  std::string plan = "{output}";  // a template: the file with its paths; empty: it writes none
-  bool anytime = false;           // it goes on until its time limit: that is no failure
-  std::int64_t threads = 1;       // that it runs
-  // Group 1 is a number; of `solved` nothing but that it is found.
+  std::string plan = "{output}";  // a template for the file with the paths; empty: there is none
+  bool anytime = false;           // it runs until its time limit, which is not a failure
+  std::int64_t threads = 1;       // number of threads of the solver
+  // Group 1 is a number. `solved` has no group; the expression only has to be found.
   std::optional<LinePattern> solved = {};
   std::optional<LinePattern> cost = {};
   std::optional<LinePattern> lower_bound = {};
@@ -62,24 +63,28 @@ struct SolverAdapter {
   std::vector<TracePattern> trace = {};
 };
 
-// One adapter a file, strictly: an unknown key is an error too. `name` stands for the file of a
-// text. Throw InputError.
+// Reads an adapter from a file or a text. An unknown key is an error. `name` stands for the file of
+// a text. Both functions throw InputError.
 SolverAdapter read_solver(const std::filesystem::path& path);
 SolverAdapter parse_solver(std::string_view text, const std::string& name);
 
-// What such a command must name to be told the instance. A complaint; empty: it does.
+// An error message if `command` does not contain the templates that `input` requires; empty: it
+// does.
 std::string input_mistake(SolverInput input, const std::vector<std::string>& command);
-// Whether a template of `command` holds {name}.
+// True if a template in `command` contains {name}.
 bool names(const std::vector<std::string>& command, std::string_view name);
 
-// A command line as words: blanks part them but within '...' or "...". None: a quote is not closed.
+// The words of a command line, separated by blanks outside '...' and "...". Returns nullopt if a
+// quote is not closed.
 std::optional<std::vector<std::string>> command_words(std::string_view text);
 
-// What is wrong with a template, an unknown name in braces say, as a complaint; empty: nothing.
+// An error message for an invalid template, for example with an unknown name in braces; empty: it
+// is valid.
 std::string template_mistake(std::string_view text);
-// What is wrong with a regular expression, or that it has fewer groups than that; likewise.
+// An error message for an invalid regular expression, or one with fewer than `groups` groups;
+// empty: it is valid.
 std::string regex_mistake(const std::string& text, std::size_t groups);
-// A template without mistakes, its names in braces replaced by what `value` says of each.
+// Replaces each name in braces by value(name). Precondition: the template is valid.
 template <typename Value>
 std::string filled(std::string_view text, const Value& value) {
   std::string result;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Devices, pipes and the like, which are written to as they stand.
+// Devices, pipes and other special files, which are written to directly.
 #pragma once
 
 #include <filesystem>
 
 namespace grove::detail {
 
-// Is it a file that write_file_atomically() writes to directly? /dev/stdout is one, even where it
-// is a regular file, which others have open.
+// True if write_file_atomically() writes directly to this file. This includes /dev/stdout, even if
+// it is a regular file, because other processes have it open.
 bool is_special_file(const std::filesystem::path& path);
 bool is_special_file(const std::filesystem::path& path, const std::filesystem::file_status& status);
 

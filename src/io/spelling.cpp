@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kMostEdits = 2;
 constexpr std::size_t kLettersPerEdit = 3;
-constexpr std::size_t kLongestWord = 64;  // what is longer resembles no word of ours
+constexpr std::size_t kLongestWord = 64;  // longer words are not similar to any known word
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The known word that an unknown one resembles, for messages.
+// Finds the known word that is most similar to an unknown one, for messages.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 
 namespace grove::detail {
 
-// Optimal string alignment distance: letters to add, to drop or to change, and neighbouring letters
-// to exchange.
+// Optimal string alignment distance. The edits are: insert, delete or change a letter, and exchange
+// two adjacent letters.
 std::size_t edit_distance(std::string_view from, std::string_view to);
 
-// The word of `known` that is nearest to `word`, the first of several; std::nullopt if none is
-// near: at most one edit for each three letters of the shorter word, and at most two.
+// The most similar word of `known`; the first one of several. Returns nullopt if no word is within
+// one edit for each three letters of the shorter word, and within two edits.
 std::optional<std::string_view> nearest_word(std::string_view word,
                                              const std::vector<std::string_view>& known);
 

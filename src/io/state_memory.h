@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much memory the states of agents that turn or work take, before it is taken.
+// Estimates the memory for the states of agents that turn or work, before it is allocated.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace grove::detail {
 
-// Adds up, from above, the states that InstanceBuilder::build() would make
-// (model/motion_world.cpp): of each kind of turning one for each heading on each place and the
-// steps of turns between them, and of each task that takes time a chain for each state in which it
-// may be begun: one for an agent that turns freely, one for each heading and kind of turning, and
-// the state in which an agent starts there.
+// An upper bound on the number of states that InstanceBuilder::build() would create
+// (model/motion_world.cpp). Each kind of turning has a state for each heading on each place, and
+// the steps of the turns between headings. Each task that takes time has a chain for each state in
+// which it may be begun: one for agents that turn freely, one for each heading and kind of turning,
+// and one for the state of an agent that starts there.
 class StateMemory {
  public:
   explicit StateMemory(const InstanceBuilder& builder)
@@ -24,13 +24,13 @@ class StateMemory {
   void add_agent(Motion motion) {
     if (motion.turn_steps > 0) turns_.insert(motion.turn_steps);
   }
-  // After all agents.
+  // Call it after all agents were added.
   void add_task(Time duration) {
     constexpr std::int64_t kHeadingCount = 4;
     if (duration == 0) return;
     work_ += (2 + kHeadingCount * std::ssize(turns_)) * (std::int64_t{duration} + 1);
   }
-  // Throws InputError at `root` if that is more than `rules` allow.
+  // Throws InputError at `root` if the states need more memory than `rules` allow.
   void require(const JsonValue& root, const std::string& file, const InputRules& rules) const {
     if (turns_.empty() && work_ == 0) return;
     std::int64_t on_a_place = 1;

@@ -12,7 +12,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kLargestFile = std::size_t{1} << 30;  // also ends the reading of /dev/zero
+constexpr std::size_t kLargestFile = std::size_t{1} << 30;  // also stops reading /dev/zero
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 }  // namespace

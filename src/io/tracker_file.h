@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Plans for MAPF Tracker (https://tracker.pathfinding.ai), an archive of the best plans and bounds
-// for the Moving AI scenarios.
+// Writes plans for MAPF Tracker (https://tracker.pathfinding.ai), an archive of the best plans and
+// bounds for the Moving AI scenarios.
 #pragma once
 
 #include <cstdint>
@@ -12,32 +12,34 @@
 
 namespace grove::detail {
 
-// Which scenario an instance is the beginning of: random-32-32-20-even-1.scen is the map
-// "random-32-32-20", the type "even" and the number 1.
+// The scenario whose first rows are the instance. For example, random-32-32-20-even-1.scen has the
+// map "random-32-32-20", the type "even" and the number 1.
 struct TrackerScenario {
   std::string map;   // without .map
   std::string type;  // even or random
   int number = 0;
 };
 
-// "even-1": type and number. None for anything else.
+// Reads type and number from text such as "even-1". Returns nullopt for any other text.
 std::optional<TrackerScenario> parse_tracker_scenario(const std::string& map,
                                                       const std::string& type_and_number);
 
 enum class TrackerLayout : std::uint8_t { kJson, kCsv };
 
-// What 'u' is in a motion string. Moving AI's y grows downwards, so by the tracker's documents 'u'
-// is y - 1; what it offers for download has y + 1 there, and flip_up_down: true says so.
+// The meaning of 'u' in a motion string. Moving AI's y grows downwards, so according to the
+// tracker's documentation 'u' is y - 1. In the tracker's downloads it is y + 1, and flip_up_down:
+// true states this.
 enum class TrackerUp : std::uint8_t { kTowardsRowZero, kAwayFromRowZero };
 
-// Throws NotRepresentable for tasks and for agents without a destination: the tracker's instances
-// are classical MAPF.
+// Throws NotRepresentable for tasks and for agents without a destination, because the tracker's
+// instances are classical MAPF.
 void require_tracker_instance(const Instance& instance);
 
-// Writes `solution` as one row, whole or not at all; it must hold a valid plan of `instance` (ask
-// check() first). Per agent one motion string over u d l r w, run-length encoded, without the waits
-// at its end, which the tracker would charge. lower_cost is the proven lower bound. Throws as
-// require_tracker_instance() does, and InputError when the file cannot be written.
+// Writes `solution` as one row, atomically. Precondition: it has a plan of `instance` that is valid
+// by check(). There is one motion string per agent over u d l r w, run-length encoded, without the
+// waits at the end, which the tracker would count as costs. lower_cost is the proven lower bound.
+// Throws the exceptions of require_tracker_instance(), and InputError if the file cannot be
+// written.
 void write_tracker_row(const std::filesystem::path& path, const Instance& instance,
                        const Solution& solution, const TrackerScenario& scenario,
                        TrackerLayout layout, TrackerUp up);

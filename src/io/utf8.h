@@ -5,7 +5,7 @@
 
 namespace grove::detail {
 
-// Whether JSON files can hold `text`.
+// True if `text` is valid UTF-8, so that JSON files can contain it.
 bool is_utf8(const std::string& text);
 
 }  // namespace grove::detail

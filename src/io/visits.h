@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// When a plan visits what.
+// The times at which a plan visits its tasks.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 namespace grove::detail {
 
-// When the agent visits, or completes, each task of its sequence, in that order: each as early as
-// may be. The plan must be a valid one.
+// The times at which the agent visits, or completes, each task of its sequence, in that order, each
+// as early as possible. Precondition: the plan is valid.
 inline std::vector<Time> visit_times(const Instance& instance, const AgentPlan& plan) {
   std::vector<Time> times;
   Time time = 0;

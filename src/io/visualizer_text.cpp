@@ -19,7 +19,8 @@ void add_position(std::string& text, const Grid& grid, Cell cell) {
   fmt::format_to(std::back_inserter(text), "({},{}),", p.x, p.y);
 }
 
-// Steps that are no rest on the cell where the agent ends, whether it leaves that again or not.
+// The number of steps that are not waits on the agent's last cell. Such waits do not count even if
+// the agent leaves the cell again later.
 Cost loss(const Path& path) {
   Cost steps = 0;
   for (std::size_t t = 1; t < path.size(); ++t)
@@ -27,7 +28,7 @@ Cost loss(const Path& path) {
   return steps;
 }
 
-// It must be on each of its tasks and on its destination, and needs at least so long.
+// A lower bound on the finish time: the maximum distance to a task or the destination.
 Time farthest_stop(const Instance& instance, const Agent& agent) {
   const DistanceField distance = distance_field(instance.grid(), agent.start);
   Time farthest = agent.goal ? distance[*agent.goal] : 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tasks of formats that list, agent by agent, the cells to visit.
+// Tasks in formats that list the cells to visit for each agent.
 #pragma once
 
 #include <string>
@@ -10,16 +10,17 @@
 
 namespace grove::detail {
 
-// Collects cells; then makes tasks of them, one per cell, for all agents that list it, with the
-// default ids. The agents must be in the builder by then.
+// Collects cells and creates one task per cell, for all agents that list it, with the default ids.
+// The agents must be in the builder before add_to().
 class Waypoints {
  public:
   explicit Waypoints(std::string file) : file_(std::move(file)) {}
 
-  // `place` is where it stands in the file. Throws InputError when the agent has listed the cell.
+  // `place`: the position in the file. Throws InputError if the agent has already listed the cell.
   void add(const std::string& agent_id, Position cell, std::string place);
 
-  // Throws InputError at the place that breaks a rule of InstanceBuilder::add_task.
+  // Throws InputError at the position of an entry that violates a rule of
+  // InstanceBuilder::add_task.
   void add_to(InstanceBuilder& builder) const;
 
  private:

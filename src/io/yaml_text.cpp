@@ -12,7 +12,7 @@
 namespace grove::detail {
 namespace {
 
-// What YAML 1.1 takes for a truth value or for nothing, in any case.
+// Words that YAML 1.1 reads as Boolean or null, in any case.
 constexpr std::array<std::string_view, 9> kWords = {"y",   "n",    "yes",   "no",  "on",
                                                     "off", "true", "false", "null"};
 
@@ -20,7 +20,7 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-// A letter, then letters, digits, - and _; and none of the words.
+// True for a letter followed by letters, digits, - and _, except for the words above.
 bool is_plain(const std::string& text) {
   const auto fits = [](char c) {
     return is_letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '_';

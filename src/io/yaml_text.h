@@ -5,8 +5,8 @@
 
 namespace grove::detail {
 
-// `text` as a YAML scalar that every reader takes for this text: plain if it is a name that cannot
-// be anything else, quoted otherwise. In ASCII.
+// `text` as a YAML scalar that every parser reads as this text: plain if it is a name that has no
+// other meaning, quoted otherwise. ASCII only.
 std::string yaml_text(const std::string& text);
 
 }  // namespace grove::detail

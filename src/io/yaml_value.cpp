@@ -16,9 +16,9 @@
 namespace grove::detail {
 namespace {
 
-// This is a million obstacles and more.
+// Sufficient for more than a million obstacles.
 constexpr std::size_t kLargestYaml = std::size_t{32} << 20;
-constexpr std::size_t kBytesPerByte = 150;  // of the text: what the parser's nodes take
+constexpr std::size_t kBytesPerByte = 150;  // memory of the parser's nodes per byte of text
 
 std::string place_of(const YAML::Mark& mark) {
   if (mark.is_null()) return "";
@@ -33,14 +33,14 @@ std::string description(const YAML::Node& node) {
   return "nothing";
 }
 
-// The number that a decimal integer without leading zeros is.
+// The value of a decimal integer without leading zeros.
 std::optional<int> decimal(const std::string& text) {
   const std::string_view digits = std::string_view(text).substr(text.starts_with('-') ? 1 : 0);
   const bool is_padded = digits.size() > 1 && digits.front() == '0';
   return is_padded ? std::nullopt : parse_number<int>(text);
 }
 
-// Hears all that a document holds, and keeps nothing.
+// An event handler that ignores all events.
 class Deaf : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark&) override {}
@@ -57,8 +57,8 @@ class Deaf : public YAML::EventHandler {
   void OnMapEnd() override {}
 };
 
-// Load() would ignore all but the first; LoadAll() never comes back from a stray comma, before
-// which it finds empty documents for ever.
+// Rejects several documents, because Load() would ignore all but the first. LoadAll() is not used:
+// after a stray comma it finds empty documents for ever.
 void require_one_document(const std::string& file, const std::string& text) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// YAML read strictly: a value that knows its file and its place there, so that every complaint
-// names both. The parser is yaml-cpp's; numbers are not, for it takes 010 for 8 and 0x10 for 16,
-// where other readers of YAML do not.
+// Strict reading of YAML: values that know their file and position, so that every error names both.
+// The parser is yaml-cpp. Numbers are parsed here, because yaml-cpp reads 010 as 8 and 0x10 as 16,
+// unlike other YAML parsers.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -19,31 +19,31 @@
 
 namespace grove::detail {
 
-// A value inside a YamlDocument, which must outlive it. Every getter throws InputError when the
-// value is not what it asks for.
+// A value of a YamlDocument, which must outlive it. Every getter throws InputError if the value
+// does not have the requested type.
 class YamlValue {
  public:
   YamlValue(YAML::Node node, const std::string& file) : node_(std::move(node)), file_(&file) {}
 
   const YAML::Node& node() const { return node_; }
 
-  // Members of a map: one that must be there, and one that may be missing.
+  // Members of a map: member() requires the key; find() returns nullopt if it is missing.
   YamlValue member(std::string_view key) const;
   std::optional<YamlValue> find(std::string_view key) const;
 
-  // Elements of a list. Nothing at all ("obstacles:") is an empty one.
+  // The elements of a list. A missing value ("obstacles:") is an empty list.
   std::size_t size() const;
   YamlValue element(std::size_t index) const;
 
   int integer(int least, int most) const;
-  // A scalar that is valid UTF-8 and holds no NUL.
+  // A scalar that is valid UTF-8 without NUL characters.
   std::string text() const;
-  // A cell [x, y]; both at least 0. Its tag, if any, is not looked at (!!python/tuple).
+  // A cell [x, y] with x, y >= 0. A tag (!!python/tuple) is ignored.
   Position position() const;
 
-  // "line 7, column 12"
+  // The position, such as "line 7, column 12".
   std::string place() const;
-  // "found 7; expected `expected`", as InputError here.
+  // Throws InputError "found 7; expected `expected`" at this value.
   [[noreturn]] void fail_expected(std::string_view expected) const;
   [[noreturn]] void fail(std::string_view message) const;
 
@@ -52,7 +52,7 @@ class YamlValue {
   const std::string* file_;
 };
 
-// A parsed file. Throws InputError unless it is one YAML document that is a map.
+// A parsed file. Throws InputError unless it is exactly one YAML document that is a map.
 class YamlDocument {
  public:
   explicit YamlDocument(const std::filesystem::path& path, const InputRules& rules = {});
@@ -64,7 +64,7 @@ class YamlDocument {
   YAML::Node root_;
 };
 
-// Collects one warning for each key that a reader does not know, however often the key occurs.
+// Collects one warning for each unknown key, however often it occurs.
 class UnknownYamlKeys {
  public:
   UnknownYamlKeys(std::string file, std::vector<std::string>* warnings)
@@ -74,7 +74,7 @@ class UnknownYamlKeys {
 
  private:
   std::string file_;
-  std::vector<std::string>* warnings_;  // may be null
+  std::vector<std::string>* warnings_;  // may be nullptr
   std::set<std::string> seen_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Assertions: what a caller promised, or the code around believes, checked where builds ask for it.
+// Assertions: cheap run-time checks of preconditions and invariants, in builds that enable them.
 #pragma once
 
 #include <stdexcept>
@@ -7,8 +7,8 @@
 
 namespace grove::detail {
 
-// Thrown by an assertion that does not hold: somebody's code is wrong. Programs end with exit
-// code 1.
+// Thrown by a failed assertion, which means an error in the code. Programs then end with exit code
+// 1.
 struct AssertionFailed : std::logic_error {
   using std::logic_error::logic_error;
 };
@@ -20,9 +20,9 @@ struct AssertionFailed : std::logic_error {
 
 }  // namespace grove::detail
 
-// GROVE_ASSERT(condition, what): cheap checks, O(1) or hidden by what is done anyway. `what` says
-// what should hold. In builds without GROVE_ASSERTIONS (Release) the condition is compiled, not
-// evaluated.
+// GROVE_ASSERT(condition, what): for checks that cost O(1), or little compared with the code around
+// them. `what` says what should hold. In builds without GROVE_ASSERTIONS (Release) the condition is
+// compiled but not evaluated.
 #ifdef GROVE_ASSERTIONS
 #define GROVE_ASSERT(condition, what) \
   ((condition) ? void(0) : ::grove::detail::assertion_failed(__FILE__, __LINE__, what))

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The definition of a valid plan (docs/design.md, section 1), written down a second time. It is
-// meant to be compared with that section line by line, so it is direct rather than clever. First
-// every agent's path is walked by itself: start, places, steps, work, end, visits, cost. Then all
-// agents are moved through time together on one map of who is where, so that the work grows with
-// agents * time and not with agents^2. Last, the claims: a plan's cost is what its paths add up to,
-// and its status is what cost, bound and omega deserve.
+// The definition of a valid plan (docs/design.md, section 1), implemented a second time. The code
+// is direct rather than clever, so that it can be compared with that section line by line. It
+// checks, in this order:
+// - Each agent by itself: start, places, steps, work, end, visits, cost.
+// - Collisions: all agents move through time together on one table of the agent on each place. The
+//   effort is O(agents * time) instead of O(agents^2).
+// - Claims: the plan's cost is the sum of the costs of its paths, and its status follows from cost,
+//   bound and omega.
 #include "model/check.h"
 
 #include <fmt/format.h>
@@ -20,7 +22,7 @@
 namespace grove::detail {
 namespace {
 
-// Violations found so far; silently full after `limit`.
+// The violations found so far. Ignores further ones after `limit` of them.
 class Report {
  public:
   explicit Report(std::size_t limit) : limit_(limit) {}
@@ -38,7 +40,8 @@ class Report {
   std::vector<Violation> violations_;
 };
 
-// Which steps a map allows: said here from its cells or roads, not from the moves of its world.
+// The steps that a map allows. They are derived from its cells or roads, independently of the moves
+// of its world.
 class Steps {
  public:
   explicit Steps(const Map& map) : map_(map) {
@@ -59,7 +62,7 @@ class Steps {
     return from.steps == 0 && to.steps == 0 && from.heading == to.heading &&
            is_ahead(from, to.place);
   }
-  // What is expected of one.
+  // The allowed steps, for messages.
   std::string_view rule(Motion motion) const {
     if (motion.turn_steps > 0) return "a wait, a move one cell ahead or a step of a quarter turn";
     return std::holds_alternative<Grid>(map_) ? "a wait or a move to one of 4 neighbors"
@@ -87,7 +90,7 @@ class Steps {
     const Position b = grid.position(to);
     return std::abs(a.x - b.x) + std::abs(a.y - b.y) <= 1;
   }
-  // N is up, where y is smaller.
+  // North is up, towards smaller y.
   bool is_ahead(const Pose& from, Place to) const {
     const auto& grid = std::get<Grid>(map_);
     const Position a = grid.position(from.place);
@@ -104,7 +107,8 @@ class Steps {
     }
     return false;
   }
-  // A quarter turn goes from heading to heading by way of all states within it.
+  // True if the step belongs to a quarter turn. A quarter turn leads from one heading to the next
+  // through all states within the turn.
   static bool is_step_of_turn(Motion motion, const Pose& from, const Pose& to) {
     const bool ends = from.steps + 1 == motion.turn_steps || motion.turn_steps == 1;
     if (ends && to.steps != 0) return false;
@@ -128,7 +132,7 @@ class Steps {
   std::set<std::pair<Place, Place>> on_roads_;
 };
 
-// One agent's path against what the agent must do.
+// Checks one agent's path against the agent's start, goal and tasks.
 class AgentCheck {
  public:
   AgentCheck(const Instance& instance, const Steps& steps, AgentIndex index, const AgentPlan& plan,
@@ -140,8 +144,8 @@ class AgentCheck {
         report_(report),
         place_(fmt::format("/agents/{}", index)) {}
 
-  // The time at which the agent finishes, if its path can be followed at all. Reports everything
-  // that is wrong on the way.
+  // Reports every error of this agent. Returns the time at which the agent finishes, or nullopt if
+  // its path cannot be followed.
   std::optional<Time> run() {
     if (plan_.path.empty()) {
       report_.add(place_, "agent '{}' has no path; expected one for every agent", agent_.id);
@@ -181,7 +185,7 @@ class AgentCheck {
     return true;
   }
 
-  // Start, places and steps.
+  // Checks start, places and steps.
   void walk() {
     for (std::size_t t = 0; t < poses_.size(); ++t)
       if (!steps_.is_open(poses_[t].place))
@@ -197,7 +201,7 @@ class AgentCheck {
                     name(poses_[t - 1]), name(poses_[t]), steps_.rule(agent_.motion));
   }
 
-  // Each piece of work by itself; that they do not overlap; and what is under way at the start.
+  // Checks each work interval, that no two of them overlap, and the work in progress at the start.
   void check_work() {
     for (std::size_t k = 0; k < plan_.work.size(); ++k) {
       const std::string place = fmt::format("{}/work/{}", place_, k);
@@ -254,7 +258,8 @@ class AgentCheck {
       }
   }
 
-  // The task that it starts at work on, and how much is done.
+  // The task that the agent is working on at the start, and the number of steps done. Returns
+  // nullopt if it does not start at work.
   std::optional<std::pair<TaskIndex, Time>> begun_before() const {
     if (!instance_.world().is_working(agent_.start)) return std::nullopt;
     const Work& work = instance_.world().work(agent_.start);
@@ -276,7 +281,8 @@ class AgentCheck {
                   steps_.name(end.place));
   }
 
-  // The first time from `begin` on at which the task counts as visited; none.
+  // The first time >= `begin` at which the task counts as visited. Returns nullopt if there is
+  // none.
   std::optional<Time> visit(TaskIndex index, Time begin) const {
     const Task& task = instance_.task(index);
     if (task.duration > 0) {
@@ -307,7 +313,8 @@ class AgentCheck {
       report_.add(place, "expected every task of agent '{}' exactly once", agent_.id);
       return;
     }
-    // Taking the first visit that is late enough is right: it leaves most time for the rest.
+    // It is right to take the first visit that is late enough, because this leaves the most time
+    // for the later tasks.
     Time now = 0;
     for (std::size_t k = 0; k < plan_.sequence.size(); ++k) {
       const auto then = visit(plan_.sequence[k], now);
@@ -322,7 +329,8 @@ class AgentCheck {
     check_last_task(place);
   }
 
-  // Work is not done again at the end, so with any of it the last task may be elsewhere.
+  // Work is not repeated at the end. So an agent with any work may end at another task than its
+  // last one.
   void check_last_task(const std::string& place) {
     const auto takes_time = [&](TaskIndex task) { return instance_.task(task).duration > 0; };
     if (agent_.goal || plan_.sequence.empty() || std::ranges::any_of(agent_.tasks, takes_time))
@@ -335,8 +343,8 @@ class AgentCheck {
                   agent_.id, steps_.name(poses_.back().place), last.id);
   }
 
-  // From here on its state never changes and nothing is left to do: its visits lie before, since
-  // later it is nowhere new.
+  // The finish time: from then on the state never changes and no task is left. All visits without
+  // work lie before, because the agent enters no new place later.
   Time finishes() const {
     Time time = static_cast<Time>(poses_.size()) - 1;
     while (time > 0 && at(time - 1) == poses_.back()) --time;
@@ -353,7 +361,8 @@ class AgentCheck {
   std::vector<Pose> poses_;  // by time
 };
 
-// Moves all agents through time together. Every path must stay inside the map.
+// Checks for collisions by moving all agents through time together. Precondition: every path is
+// inside the map.
 class CollisionCheck {
  public:
   CollisionCheck(const Instance& instance, const Steps& steps, const Plan& plan, bool may_follow,
@@ -428,7 +437,8 @@ class CollisionCheck {
                        std::min(t, plan_.agents[agent].path.size() - 1));
   }
 
-  // Two agents that collide once tend to collide for long: the first time says it.
+  // Reports each pair only once, at its first collision, because agents that collide often do so
+  // for many steps.
   using Pairs = std::set<std::pair<AgentIndex, AgentIndex>>;
   static bool is_new(Pairs& pairs, AgentIndex a, AgentIndex b) {
     return pairs.insert(std::minmax(a, b)).second;
@@ -439,14 +449,14 @@ class CollisionCheck {
   const Plan& plan_;
   const bool may_follow_;
   Report& report_;
-  std::vector<AgentIndex> before_;  // by place: an agent that was there at time t - 1
+  std::vector<AgentIndex> before_;  // by place: the agent that was there at time t - 1
   std::vector<AgentIndex> now_;
   Pairs vertex_pairs_;
   Pairs edge_pairs_;
   Pairs following_pairs_;
 };
 
-// The cost that the paths add up to; none when a path cannot be followed.
+// The sum of the finish times of all paths. Returns nullopt if a path cannot be followed.
 std::optional<Cost> check_agents(const Instance& instance, const Steps& steps, const Plan& plan,
                                  Report& report) {
   std::optional<Cost> total = 0;
@@ -458,7 +468,7 @@ std::optional<Cost> check_agents(const Instance& instance, const Steps& steps, c
   return total;
 }
 
-// What a plan of this cost may be called, given the claimed bound.
+// The status that follows from a plan's cost and the claimed bound.
 Status deserved_status(Cost cost, Cost lower_bound, Omega omega) {
   if (cost == lower_bound) return Status::kOptimal;
   const bool within = !omega.is_infinite() && omega.accepts(cost, lower_bound);

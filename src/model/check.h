@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The checker: is a plan what it claims to be? It recomputes every visit, cost and conflict from
-// the instance and the paths (docs/design.md, section 1), with code of its own. It shares the types
-// of `model` with the search: World (states, moves, places), Instance and Plan. It does not verify
-// the lower bound; it checks only that bound, cost and status agree.
+// The checker: verifies that a plan is valid and that its claims agree. It recomputes every visit,
+// cost and conflict from the instance and the paths (docs/design.md, section 1), with code of its
+// own. It shares the types of `model` with the search: World (states, moves, places), Instance and
+// Plan. It does not verify the lower bound. It checks only that bound, cost and status agree.
 #pragma once
 
 #include <stdexcept>
@@ -14,18 +14,19 @@
 
 namespace grove::detail {
 
-// One thing that is wrong. `place` is a JSON path of the plan file ("/agents/2/path/17").
+// One error. `place` is a JSON Pointer (RFC 6901) into the plan file, such as "/agents/2/path/17".
 struct Violation {
   std::string place;
   std::string message;
 };
 
-// Everything wrong with `solution` as a plan for `instance`, at most `limit` entries; empty: valid.
-// A solution without a plan, or with fewer agents than the instance, is wrong: it proves nothing.
+// Returns all errors of `solution` as a plan for `instance`, at most `limit` of them; empty: valid.
+// A solution without a plan, or with fewer agents than the instance, is an error, because it proves
+// nothing.
 std::vector<Violation> check(const Instance& instance, const Solution& solution,
                              std::size_t limit = 20);
 
-// A plan that Grove was about to return or write and that check() refuses.
+// Thrown when check() rejects a plan that Grove was about to return or write.
 class InvalidPlan : public std::logic_error {
  public:
   explicit InvalidPlan(Violation violation)
@@ -38,7 +39,7 @@ class InvalidPlan : public std::logic_error {
 };
 
 // Throws InvalidPlan with the first violation of check(), under the rules of the instance and of
-// the solution. A solution without a plan passes: it says so itself.
+// the solution. A solution without a plan passes, because its status already says so.
 void require_valid_plan(const Instance& instance, const Solution& solution);
 
 }  // namespace grove::detail

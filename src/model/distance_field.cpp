@@ -10,9 +10,9 @@
 namespace grove::detail {
 namespace {
 
-// With less to do a thread costs more than it saves.
+// With fewer states in total, starting a thread costs more than it saves.
 constexpr std::size_t kStatesForThreads = std::size_t{1} << 20;
-// There are fields of ports up to so many states.
+// Worlds with more states have no fields of ports.
 constexpr State kMostStatesWithPorts = 1 << 16;
 
 std::vector<State> states_on(const World& world, Place place) {
@@ -21,7 +21,7 @@ std::vector<State> states_on(const World& world, Place place) {
   return states;
 }
 
-// What the agents of an instance must reach, each set of states once.
+// The target sets of the agents of an instance, without duplicates for places.
 class Targets {
  public:
   explicit Targets(const Instance& instance) : instance_(instance) {
@@ -35,8 +35,8 @@ class Targets {
   }
 
   std::vector<std::vector<State>> sets;
-  std::vector<Place> places;  // by set: all that stand there; kNoPlace: others
-  // Numbers of sets; kNone: there is none to be reached.
+  std::vector<Place> places;  // by set: the place whose states it contains; kNoPlace: another set
+  // Indices of sets; kNone: no set, because the agent rests on its last stop or has no such port.
   static constexpr int kNone = -1;
   std::vector<int> of_tasks;
   std::vector<int> of_agents;
@@ -94,7 +94,7 @@ class Targets {
   int anywhere_ = kNone;
 };
 
-// Breadth-first search backwards, again and again. For one thread.
+// Workspace for breadth-first searches backwards. One thread at a time.
 class Walker {
  public:
   explicit Walker(const World& world)
@@ -106,7 +106,7 @@ class Walker {
     return distances;
   }
 
-  // None: there is no memory left for what is too far for 16 bits.
+  // Returns nullopt if distances exceed 16 bits and no memory is left for larger ones.
   std::optional<CompactDistanceField> field(std::span<const State> targets, const Limits& limits) {
     std::vector<std::uint16_t> distances(queue_.size(), DistanceView::kShortNever);
     if (walk(targets, DistanceView::kShortNever, distances.data()))
@@ -115,14 +115,15 @@ class Walker {
     return CompactDistanceField(walk(targets));
   }
 
-  // Into memory that is there already. False: 16 bits are not enough.
+  // Writes the field to `distances`. Returns false if 16 bits are not enough.
   bool fill(std::span<const State> targets, std::uint16_t* distances) {
     std::fill_n(distances, queue_.size(), DistanceView::kShortNever);
     return walk(targets, DistanceView::kShortNever, distances);
   }
 
  private:
-  // All `distances` are `never` before. False: some are too far to be told from it.
+  // Precondition: all `distances` are `never`. Returns false if a distance would be equal to
+  // `never`.
   template <class Steps>
   bool walk(std::span<const State> targets, Steps never, Steps* distances) {
     std::size_t end = 0;
@@ -166,7 +167,7 @@ DistanceFields::DistanceFields(const Instance& instance, const Limits& limits, i
   const Targets targets(instance);
   const std::size_t sets = targets.sets.size();
   const auto states = static_cast<std::size_t>(instance.world().state_count());
-  // What is shared is there already.
+  // Shared memory is already allocated.
   if (!limits.memory_allows(arrays ? 0 : sets * states * sizeof(std::uint16_t))) {
     limits.memory_exhausted();
     return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shortest distances, ignoring other agents.
+// Shortest distances that ignore other agents.
 #pragma once
 
 #include <cstddef>
@@ -17,21 +17,21 @@
 
 namespace grove::detail {
 
-// Distance in steps from every state to one of some states; kNever where none can be reached.
-// Indexed by State.
+// Distance in steps from every state to the nearest of some target states; kNever if none is
+// reachable. Indexed by State.
 using DistanceField = std::vector<Time>;
 
-// Breadth-first search backwards from all of `targets`. O(states).
+// Computes the distances to the nearest of `targets` by breadth-first search backwards. O(states).
 DistanceField distance_field(const World& world, std::span<const State> targets);
-// From all states on `target`.
+// The same for all states on `target`.
 DistanceField distance_field(const World& world, Place target);
 
-// A distance field as it is kept, in half the memory where nothing is further than 65,534 steps. A
-// view of what a CompactDistanceField holds.
+// A view of a distance field. The field is a DistanceField or a CompactDistanceField, which takes
+// half the memory if no distance exceeds 65,534 steps.
 class DistanceView {
  public:
-  DistanceView() = default;  // none
-  // Of a field that stays where it is.
+  DistanceView() = default;  // refers to no field
+  // `field` must outlive this view and must not move.
   explicit DistanceView(const DistanceField& field) : long_(field.data()) {}
 
   Time operator[](State state) const {
@@ -40,7 +40,7 @@ class DistanceView {
     return steps == kShortNever ? kNever : steps;
   }
   explicit operator bool() const { return short_ || long_; }
-  // By which field it is, not by what is in it.
+  // Compares the identity of the fields, not their content.
   friend auto operator<=>(const DistanceView&, const DistanceView&) = default;
 
   static constexpr std::uint16_t kShortNever = 0xFFFF;
@@ -50,7 +50,7 @@ class DistanceView {
   DistanceView(const std::uint16_t* in_short, const Time* in_long)
       : short_(in_short), long_(in_long) {}
 
-  const std::uint16_t* short_ = nullptr;  // null: they are in long_
+  const std::uint16_t* short_ = nullptr;  // nullptr: the distances are in long_
   const Time* long_ = nullptr;
 };
 
@@ -61,7 +61,7 @@ class CompactDistanceField {
   explicit CompactDistanceField(std::vector<std::uint16_t> distances)
       : short_(std::move(distances)) {}
   explicit CompactDistanceField(DistanceField distances) : long_(std::move(distances)) {}
-  // In memory that somebody else owns, and that must outlive this.
+  // The caller owns the memory of `distances`, which must outlive this object.
   explicit CompactDistanceField(const std::uint16_t* distances) : elsewhere_(distances) {}
 
   DistanceView distances() const {
@@ -75,40 +75,46 @@ class CompactDistanceField {
   DistanceField long_;
 };
 
-// The fields of all that any agent of an instance must reach: its tasks, and where to rest. Each
-// is computed once. Immutable after construction; any thread may read it.
+// The distance fields of all targets of the agents of an instance: the tasks, and the states where
+// an agent may rest. Each is computed once. Immutable: any thread may read it.
 class DistanceFields {
  public:
-  // Computes them on so many threads, if there is enough to do. Asks `limits` for the memory and
-  // looks at them between fields; if they strike, complete() is false. Shares what `known` (null:
-  // nothing) has of the same map, as long as every state is its place. Fields lie in `arrays`, if
-  // there are some (of the layout_of() this instance; they must outlive this), where other
-  // processes make their share of them; what nobody there makes is made here.
+  // Computes the fields on `threads` threads, or on one if the effort is small. Asks `limits` for
+  // the memory and polls it between fields. If a limit is reached, complete() is false.
+  // `known`: fields of an earlier instance, or nullptr. Fields of the same map are shared with it
+  // if every state is equal to its place.
+  // `arrays`: shared memory with the layout_of() this instance, or nullptr. It must outlive this
+  // object. Then the fields lie there, and the other processes compute a part of them. This process
+  // computes the fields that no process has provided.
   explicit DistanceFields(const Instance& instance, const Limits& limits = Limits(),
                           int threads = 1, const DistanceFields* known = nullptr,
                           const SharedArrays* arrays = nullptr);
 
-  // The arrays that fields of this instance take when they are shared, of ArrayKind::kDistances: so
-  // many bytes each.
+  // The sizes in bytes of the shared arrays (ArrayKind::kDistances) for the fields of this
+  // instance.
   static std::vector<std::size_t> layout_of(const Instance& instance);
-  // An array for what is derived from these fields; none unless there are shared ones.
+  // A shared array for data that is derived from these fields. Returns no array if there are no
+  // shared arrays.
   SharedArray array(ArrayKind kind, std::size_t number) const {
     return arrays_ ? arrays_->array(kind, number) : SharedArray();
   }
 
-  // All fields are there. If not, nothing must be asked for.
+  // True if all fields were computed. If it is false, no field may be requested.
   bool complete() const { return complete_; }
 
-  // To where the task is visited: a state on its place or, if it takes time, the end of the work.
+  // Distances to the states that visit the task: those on its place or, if it takes time, the end
+  // of the work.
   DistanceView to_task(TaskIndex task) const { return by_task_[task]; }
-  // The same in one heading, a port: the agent of that kind is there, or has done the work, looking
-  // that way. Only if there are such fields: on worlds of moderate size in which agents turn.
+  // Distances to one port of the task: the states that visit it with an agent of kind `kind` in
+  // heading `port`. Precondition: has_ports(), which is true on worlds of moderate size in which
+  // agents turn.
   static constexpr int kPorts = 4;
   bool has_ports() const { return !by_port_.empty(); }
   DistanceView to_port(TaskIndex task, int kind, int port) const {
     return by_port_[(static_cast<std::size_t>(task) * kinds_ + kind) * kPorts + port];
   }
-  // To where the agent may rest. Not of agents that rest on the last stop of their sequence.
+  // Distances to the states where the agent may rest. Precondition: the agent does not rest on the
+  // last stop of its sequence.
   DistanceView to_rest(AgentIndex agent) const {
     GROVE_ASSERT(by_agent_[agent], "an agent that rests on its last stop has no other place");
     return by_agent_[agent];
@@ -118,21 +124,21 @@ class DistanceFields {
   using FieldPtr = std::shared_ptr<const CompactDistanceField>;
   FieldPtr field_to(Place place, const DistanceFields* known) const;
 
-  const SharedArrays* arrays_ = nullptr;  // null: fields_ own their memory
-  std::shared_ptr<const Map> map_;        // null unless every state is its place
-  std::map<Place, FieldPtr> to_place_;    // of that map
+  const SharedArrays* arrays_ = nullptr;  // nullptr: fields_ own their memory
+  std::shared_ptr<const Map> map_;        // nullptr unless every state is its place
+  std::map<Place, FieldPtr> to_place_;    // fields of map_, by target
   std::vector<FieldPtr> fields_;
   std::vector<DistanceView> by_task_;
   std::vector<DistanceView> by_agent_;
-  // By task, kind and heading; empty where no such agent has the task.
+  // By task, kind and heading; empty for a task that no agent of this kind has.
   std::vector<DistanceView> by_port_;
   std::size_t kinds_ = 1;
   bool complete_ = false;
 };
 
-// The least of the distances from the base states of one kind on a place.
+// The minimum of the distances from the base states of one kind on a place.
 Time least_from(const World& world, Place place, int kind, DistanceView distances);
-// The greatest.
+// The maximum of the same distances.
 Time most_from(const World& world, Place place, int kind, DistanceView distances);
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fowler-Noll-Vo, variant 1a, over numbers of 8 bytes, low bytes first.
+// FNV-1a (Fowler, Noll, Vo) over 64-bit numbers, least significant byte first.
 #include "model/fingerprint.h"
 
 namespace grove::detail {

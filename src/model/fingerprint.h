@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A number that tells instances apart.
+// Fingerprint of an instance: a 64-bit hash.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,9 @@
 namespace grove::detail {
 
 // The same on every machine and in every version for instances that are the same to the search:
-// grid, starts, destinations, tasks and their order; names and files do not count. Of two other
-// instances the same only by a chance of 2^-64 (FNV-1a; not for those who forge instances).
+// map, starts, destinations, tasks and their order. Names and files do not count. Two other
+// instances have the same fingerprint with a probability of 2^-64 only. The hash is FNV-1a, which
+// does not resist deliberate collisions.
 std::uint64_t fingerprint(const Instance& instance);
 
 }  // namespace grove::detail

@@ -17,7 +17,7 @@ void require_valid_size(int width, int height, std::size_t cells) {
     throw std::invalid_argument("a grid needs width * height cells");
 }
 
-// The passable cells one move away from each.
+// The moves of each cell: the passable cells next to it.
 CsrArray moves_on(int width, int height, const std::vector<bool>& passable) {
   require_valid_size(width, height, passable.size());
   CsrArray moves;

@@ -11,12 +11,12 @@
 
 namespace grove::detail {
 
-// A cell of a grid as one number: y * width + x. The grid's place, and the state of agents that
-// turn freely.
+// A cell of a grid as a number: y * width + x. It is the place, and the state of agents that turn
+// freely.
 using Cell = Place;
 inline constexpr Cell kNoCell = kNoPlace;
 
-// Column x and row y; (0, 0) is the top left cell, y grows downwards.
+// Column x and row y. (0, 0) is the top left cell; y grows downwards.
 struct Position {
   int x = 0;
   int y = 0;
@@ -24,16 +24,16 @@ struct Position {
 };
 
 // A rectangular 4-connected grid of passable and blocked cells (docs/design.md, section 1).
-// Immutable after construction, so any number of threads may read one.
+// Immutable: any thread may read it.
 class Grid : public World {
  public:
-  // `passable` holds width * height entries, row by row from the top.
-  // Throws std::invalid_argument when a size is not positive or does not fit.
+  // `passable` has width * height entries, row by row from the top. Throws std::invalid_argument if
+  // a size is not positive or does not fit.
   Grid(int width, int height, const std::vector<bool>& passable);
 
   int width() const { return width_; }
   int height() const { return height_; }
-  // All cells, passable or not: cells are numbered 0 .. cell_count() - 1.
+  // The number of all cells, passable or not. Cells are numbered 0, ..., cell_count() - 1.
   Cell cell_count() const { return place_count(); }
   int passable_count() const { return passable_count_; }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Names of what is made of many values: two that are not the same have one with a chance of 2^-64.
+// Hashes of sequences of values. Two different sequences have the same hash with a probability of
+// 2^-64.
 #pragma once
 
 #include <cstdint>
 
 namespace grove::detail {
 
-// The same on every machine. All bits of the result depend on all of both.
+// The same on every machine. Every bit of the result depends on all bits of both arguments.
 inline std::uint64_t hash_combine(std::uint64_t hash, std::uint64_t value) {
   hash = (hash ^ value) * 0x9E3779B97F4A7C15u;
   hash ^= hash >> 32;

@@ -72,7 +72,7 @@ std::vector<State> Instance::states_to_rest(AgentIndex agent) const {
   return states;
 }
 
-// Those on one place that are no stops are visited by the first stop there.
+// The first stop on a place also visits the tasks on that place that are not stops.
 std::vector<TaskIndex> Instance::tasks_in_order(AgentIndex agent,
                                                 std::span<const std::uint8_t> stops) const {
   const Agent& a = agents_[agent];
@@ -251,14 +251,14 @@ void InstanceBuilder::require_work(AgentIndex agent, const WorkBegun& begun) con
                      begun.done, begun.task, task.duration - 1));
 }
 
-// Whoever may do the work may do it in any heading, or within the turn that it starts in: before
-// any other turn the work can as well be done first.
+// An agent may do work in any heading. Within a turn it needs to work only if it starts within that
+// turn: before any other turn it can do the work first.
 std::vector<MotionWorld::Job> InstanceBuilder::jobs() const {
   std::vector<MotionWorld::Job> jobs;
   const auto state_of = [&](int kind, const Pose& pose) {
     return MotionWorld::base_state(instance_.map(), motions_, kind, pose);
   };
-  std::size_t of_task = 0;  // where those of the task under way begin
+  std::size_t of_task = 0;  // index of the first job of the current task
   const auto add = [&](TaskIndex task, State base) -> MotionWorld::Job& {
     for (std::size_t j = of_task; j < jobs.size(); ++j)
       if (jobs[j].base == base) return jobs[j];

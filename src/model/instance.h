@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A CTS-MAPF instance: a map, agents, and the places each must visit (docs/design.md, section 1).
+// A CTS-MAPF instance: a map, agents, and the places that each agent must visit (docs/design.md,
+// section 1).
 #pragma once
 
 #include <cstdint>
@@ -19,22 +20,23 @@ namespace grove::detail {
 
 using AgentIndex = std::int32_t;  // position in Instance::agents()
 
-// An agent may have at most this many tasks: sets of them are 64-bit masks throughout.
+// The maximum number of tasks of an agent, because sets of its tasks are 64-bit masks.
 inline constexpr int kMaxTasksPerAgent = 64;
 
 struct Agent {
   std::string id;
   State start = kNoState;
-  std::optional<Place> goal;            // its destination; none for an MG-MAPF agent
-  std::optional<Heading> goal_heading;  // in which it must rest; none: no matter
+  std::optional<Place> goal;            // its destination; nullopt for an MG-MAPF agent
+  std::optional<Heading> goal_heading;  // the heading at rest; nullopt: any heading
   Motion motion = {};
-  int kind = 0;                       // of its states (world.h)
+  int kind = 0;                       // the kind of its states (world.h)
   std::vector<TaskIndex> tasks = {};  // in the order in which the instance lists them
-  // What the search visits: of the tasks on one place those that take time, or else one; for on the
-  // way all others there are visited, too. In the order of the tasks.
+  // The tasks that the search visits, in the order of `tasks`. Of the tasks on one place, these are
+  // the ones that take time, or one task if none does. An agent that visits these also visits all
+  // other tasks on that place.
   std::vector<TaskIndex> stops = {};
 
-  // With nothing to do, it may come to rest anywhere.
+  // True for an agent without goal and tasks, which may rest anywhere.
   bool is_idle() const { return !goal && tasks.empty(); }
 };
 
@@ -42,17 +44,17 @@ struct Task {
   std::string id;
   Place cell = kNoPlace;
   std::vector<AgentIndex> agents;  // each of them must visit the place
-  Time duration = 0;               // and be at work there for so many steps
+  Time duration = 0;               // steps of work there
 };
 
-// Work on a task, by its id, that an agent has begun before it starts.
+// Work on a task, given by its id, that an agent has begun before time 0.
 struct WorkBegun {
   std::string task;
   Time done = 0;
 };
 
-// What is to be known of an agent that does more than go freely from place to place. The pose of an
-// agent that turns freely is its place.
+// Description of an agent, including turns and work. If the agent turns freely, only the place of
+// `start` counts.
 struct AgentSpec {
   std::string id;
   Pose start;
@@ -62,8 +64,9 @@ struct AgentSpec {
   std::optional<WorkBegun> working = {};
 };
 
-// One broken rule of section 1. `field` names the offending part of the agent or task being added
-// ("id", "start", "goal", "tasks", "cell", "agents", "agents/2"); what() says what is wrong.
+// A violated rule of docs/design.md, section 1. `field` names the invalid part of the agent or task
+// being added ("id", "start", "goal", "tasks", "cell", "agents", "agents/2"). what() describes the
+// error.
 class InstanceError : public std::invalid_argument {
  public:
   InstanceError(std::string field, const std::string& message)
@@ -74,17 +77,17 @@ class InstanceError : public std::invalid_argument {
   std::string field_;
 };
 
-// A valid instance. Immutable once built, so any number of threads may read one. Copies share the
-// map.
+// A valid instance. Immutable: any thread may read it. Copies share the map.
 class Instance {
  public:
   const World& world() const { return *world_; }
   const Map& map() const { return *map_; }
-  // To build others on: what was computed for one map holds for all of its instances.
+  // The map, to build other instances with. Data that depends only on the map is valid for all of
+  // them.
   std::shared_ptr<const Map> shared_map() const { return map_; }
-  // Null if every state is its place.
+  // Returns nullptr if every state is equal to its place.
   const MotionWorld* motion_world() const { return motion_world_.get(); }
-  // Null if the map is a grid.
+  // Returns nullptr if the map is a grid.
   const Roadmap* roadmap() const { return std::get_if<Roadmap>(map_.get()); }
   bool is_on_grid() const { return std::holds_alternative<Grid>(*map_); }
   // Throws std::bad_variant_access if the map is a roadmap.
@@ -95,19 +98,20 @@ class Instance {
   const Task& task(TaskIndex i) const { return tasks_[i]; }
   int agent_count() const { return static_cast<int>(agents_.size()); }
   int task_count() const { return static_cast<int>(tasks_.size()); }
-  // May an agent enter a place in the step in which another leaves it? As a rule it may.
+  // True, as by default, if an agent may enter a place in the step in which another one leaves it.
   bool may_follow() const { return may_follow_; }
-  // The same instance where it may not, as robots that hold a place until they have left it would
-  // have it ("1-robust plans", Atzmon et al. 2020).
+  // The same instance without following, for robots that hold a place until they have left it
+  // ("1-robust plans", Atzmon et al. 2020).
   Instance without_following() const {
     Instance instance = *this;
     instance.may_follow_ = false;
     return instance;
   }
-  // What an InstanceBuilder would be told to add this agent.
+  // The specification with which InstanceBuilder::add_agent() would add this agent.
   AgentSpec spec(AgentIndex agent) const;
 
-  // The base state of this agent's kind, and back (of the state in which it works, if it does).
+  // Converts between poses and base states of the agent's kind. pose_of() of a state of work is the
+  // pose in which the agent works.
   State state_of(AgentIndex agent, const Pose& pose) const {
     return motion_world_ ? motion_world_->state(agents_[agent].kind, pose) : pose.place;
   }
@@ -116,7 +120,8 @@ class Instance {
     return world_->kind(base) == 0 ? Pose{.place = base} : motion_world_->pose(base);
   }
 
-  // Is the task visited by an agent in this state (at work: when it is completed)?
+  // True if an agent in `state` visits the task. A task that takes time is visited when its work is
+  // completed.
   bool is_visited(TaskIndex task, State state) const {
     const Task& t = tasks_[task];
     if (t.duration == 0) return world_->place(state) == t.cell;
@@ -124,15 +129,17 @@ class Instance {
     const Work& work = world_->work(state);
     return work.task == task && work.completed;
   }
-  // May the agent come to rest in this state, if nothing is left to do?
+  // True if the agent may rest in `state`, provided that no task is left.
   bool may_rest(AgentIndex agent, State state) const;
-  // All states in which that is so; empty: in any.
+  // All states in which is_visited() or may_rest() is true. states_to_rest() is empty for an idle
+  // agent, which may rest in any state.
   std::vector<State> states_visiting(TaskIndex task) const;
   std::vector<State> states_to_rest(AgentIndex agent) const;
-  // Does it rest on the last one of its sequence? (So it is of agents without a destination whose
-  // tasks take no time: they can be visited again at the end.)
+  // True if the agent rests on the last stop of its sequence. This holds for agents without a
+  // destination whose tasks take no time, because such a task can be visited again at the end.
   bool rests_on_last_stop(AgentIndex agent) const;
-  // What the agent does, in an order of its stops given by their positions.
+  // The agent's tasks in the order in which they are visited. `stops`: an order of its stops, as
+  // positions in Agent::stops.
   std::vector<TaskIndex> tasks_in_order(AgentIndex agent,
                                         std::span<const std::uint8_t> stops) const;
 
@@ -148,39 +155,41 @@ class Instance {
   bool may_follow_ = true;
 };
 
-// Collects agents, then tasks, and checks every rule as they come. The only way to make an
-// Instance.
+// Builds instances: collects agents, then tasks, and checks every rule when they are added. There
+// is no other way to make an Instance.
 class InstanceBuilder {
  public:
   explicit InstanceBuilder(Map map);
   explicit InstanceBuilder(std::shared_ptr<const Map> map);
-  // With the map and the rules of another instance.
+  // Begins with the map and the rules of `instance`.
   static InstanceBuilder like(const Instance& instance);
   const Map& map() const { return instance_.map(); }
   const Roadmap* roadmap() const { return instance_.roadmap(); }
 
   void forbid_following() { instance_.may_follow_ = false; }
 
-  // On a grid. Throws InstanceError: empty or repeated id; start or goal outside, blocked or taken.
+  // Adds an agent on a grid. Throws InstanceError for an empty or repeated id, and for a start or
+  // goal that is outside, blocked or taken.
   AgentIndex add_agent(std::string id, Position start, std::optional<Position> goal);
-  // The same on any map, by state and place of its world.
+  // The same on any map; `start` and `goal` are places.
   AgentIndex add_agent(std::string id, Place start, std::optional<Place> goal);
   AgentIndex add_agent(AgentSpec spec);
 
-  // On a grid. Throws InstanceError: empty or repeated id; cell outside or blocked; no agent, an
-  // unknown or a repeated one, or one with more than kMaxTasksPerAgent tasks; a duration out of
-  // range.
+  // Adds a task on a grid. Throws InstanceError for: an empty or repeated id; a cell that is
+  // outside or blocked; no agent, an unknown or repeated agent, or one with more than
+  // kMaxTasksPerAgent tasks; a duration out of range.
   TaskIndex add_task(std::string id, Position cell, std::span<const std::string> agent_ids,
                      Time duration = 0);
   // The same on any map.
   TaskIndex add_task(std::string id, Place place, std::span<const std::string> agent_ids,
                      Time duration = 0);
 
-  // The longest work or quarter turn.
+  // The maximum duration of a task or a quarter turn, in steps.
   static constexpr Time kLongest = 1 << 16;
 
-  // Throws InstanceError (field "agents" or "agents/<i>/working/..."): no agents at all, or one at
-  // work on what is not its own, not where it starts, or done; ("map") too many states.
+  // Throws InstanceError. Field "agents" or "agents/<i>/working/...": there are no agents, or an
+  // agent is at work on a task that is not its own, is not on its start, or is complete. Field
+  // "map" or "roadmap": too many states.
   Instance build() &&;
 
  private:
@@ -193,7 +202,7 @@ class InstanceBuilder {
 
   Instance instance_;
   std::vector<AgentSpec> specs_;  // by AgentIndex
-  std::vector<Motion> motions_;   // with turns, distinct
+  std::vector<Motion> motions_;   // distinct motions with turns
   std::unordered_map<std::string, AgentIndex> agent_by_id_;
   std::unordered_map<std::string, TaskIndex> task_by_id_;
   std::unordered_map<Place, AgentIndex> agent_by_start_;

@@ -14,9 +14,10 @@ namespace grove::detail {
 namespace {
 
 constexpr Limits::Clock::duration kMemoryLookInterval = std::chrono::milliseconds(5);
-constexpr double kForEver = 4e9;  // seconds; the clock counts no further
+constexpr double kForEver = 4e9;  // seconds; larger values could overflow the clock
 
-// Of the memory that this process shares.
+// Set by set_shared_memory_accounting(): the number of processes that share memory, and the bytes
+// that they share.
 std::atomic<std::size_t> sharers{1};
 std::atomic<std::size_t> shared_bytes{0};
 

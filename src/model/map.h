@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What agents move on.
+// The map of an instance: a grid or a roadmap.
 #pragma once
 
 #include <variant>

@@ -15,9 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 62;  // version 1 has a number for it
+constexpr std::uint64_t kUnlimited =
+    std::uint64_t{1} << 62;  // at least this: no limit; cgroup version 1 writes such a number
 
-// The least of what the group's files say; a file may be missing, or say "max".
+// The minimum of the limits in the files of a control group. A file may be missing or contain
+// "max".
 std::uint64_t limit_of(const fs::path& group) {
   std::uint64_t least = kUnlimited;
   for (const char* name : {"memory.max", "memory.high", "memory.limit_in_bytes"}) {
@@ -27,8 +29,8 @@ std::uint64_t limit_of(const fs::path& group) {
   return least;
 }
 
-// `group` is the path of a group below `folder`; in a container that path may be the host's, and
-// the container's own group all that is there.
+// The minimum of the limits of `folder` and of the groups on the path `group` below it. In a
+// container `group` may be the path on the host, while only the container's own group exists.
 std::uint64_t limit_within(const fs::path& folder, std::string_view group) {
   std::uint64_t least = limit_of(folder);
   fs::path inner = folder;
@@ -40,7 +42,7 @@ std::uint64_t limit_within(const fs::path& folder, std::string_view group) {
   return least;
 }
 
-// "a,b,c" with `name` among them.
+// True if `controllers`, such as "a,b,c", contains `name`.
 bool lists(std::string_view controllers, std::string_view name) {
   while (!controllers.empty()) {
     const std::string_view first = controllers.substr(0, controllers.find(','));
@@ -50,14 +52,14 @@ bool lists(std::string_view controllers, std::string_view name) {
   return false;
 }
 
-// A number from 1 on; nullopt if it is none, or not set.
+// The value of a variable if it is a number >= 1. Returns nullopt if it is not, or is not set.
 std::optional<std::int64_t> count(const Environment& environment, const char* name) {
   const char* value = environment(name);
   if (value == nullptr) return std::nullopt;
   return parse_number<std::int64_t>(value, 1, std::numeric_limits<std::int32_t>::max());
 }
 
-// Slurm counts in MB of 1024 kB. With `--mem=0`, all memory of the node, it sets no variable.
+// Slurm counts in MB of 1024 kB. With `--mem=0` (all memory of the node) it sets no variable.
 std::uint64_t limit_of_slurm(const Environment& environment) {
   constexpr std::uint64_t kMegabyte = std::uint64_t{1} << 20;
   std::uint64_t least = kUnlimited;

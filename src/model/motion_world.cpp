@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Base states of a kind with turns on one place, in this order: the four headings; then for each
-// heading the states within its turn to the right, and for each heading those within its turn to
-// the left.
+// Order of the base states of a kind with turns on one place: the four headings; then, for each
+// heading, the states within its turn to the right; then, for each heading, the states within its
+// turn to the left.
 #include "model/motion_world.h"
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ int states_on_a_place(Motion motion) {
   return motion.turn_steps == 0 ? 1 : 4 + 8 * (motion.turn_steps - 1);
 }
 
-// Within one place.
+// The rank of a pose among the base states of its kind on its place.
 int rank_of_pose(Motion motion, const Pose& pose) {
   if (pose.steps == 0) return number(pose.heading);
   const int turn = (pose.to == left_of(pose.heading) ? 4 : 0) + number(pose.heading);
@@ -42,8 +42,8 @@ Pose pose_of_rank(Motion motion, Place place, int rank) {
           (rank - 4) % (motion.turn_steps - 1) + 1};
 }
 
-// From any base state to any other: the turn under way is completed, two more are made, and the one
-// that the other is within is begun.
+// The maximum time from one base state to another one on the same place: the agent completes the
+// current turn, makes two more, and begins the turn that contains the other state.
 Time steps_about(Motion motion) {
   return motion.turn_steps == 0 ? 0 : 4 * motion.turn_steps - 2;
 }
@@ -55,12 +55,12 @@ std::int64_t count_bases(const World& ground, std::span<const Motion> motions) {
   return count;
 }
 
-// Makes the rows of moves, state by state.
+// Generates the moves of base states.
 class MovesOfBases {
  public:
   MovesOfBases(const Map& map, std::span<const Motion> motions) : map_(map), motions_(motions) {}
 
-  // Of a base state, without those to work.
+  // Sets `moves` to the moves of a base state, except for those that begin work.
   void add(State state, int kind, State first, std::vector<State>& moves) const {
     if (kind == 0) {
       const auto ways = ground(map_).moves(state);
@@ -146,7 +146,8 @@ MotionWorld::Parts MotionWorld::parts(const Map& map, std::span<const Motion> mo
     parts.kinds.push_back({first, states_on_a_place(motion), steps_about(motion)});
     first += states_on_a_place(motion) * places.place_count();
   }
-  std::unordered_map<State, std::vector<State>> entries;  // by base state: of its chains
+  std::unordered_map<State, std::vector<State>>
+      entries;  // by base state: first states of its chains of work
   for (const Job& job : jobs) {
     const Time first = job.from_nothing ? 0 : 1;
     entries[job.base].push_back(static_cast<State>(bases + std::ssize(parts.work)) + 1 - first);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Agents that need time to turn, and work that takes time, over the places of a map.
+// The world of agents that need time to turn, and of tasks that take time.
 #pragma once
 
 #include <array>
@@ -15,25 +15,26 @@
 
 namespace grove::detail {
 
-// On a grid; N is up, y smaller.
+// On a grid. North is up, towards smaller y.
 enum class Heading : std::uint8_t { kNorth, kEast, kSouth, kWest };
 inline constexpr std::array<Heading, 4> kHeadings{Heading::kNorth, Heading::kEast, Heading::kSouth,
                                                   Heading::kWest};
-// 'N', 'E', 'S', 'W', and back; none.
+// letter() returns 'N', 'E', 'S' or 'W'. heading_of() is the inverse and returns nullopt for any
+// other text.
 char letter(Heading heading);
 std::optional<Heading> heading_of(std::string_view text);
-// The next one clockwise, and the other way round.
+// The next heading clockwise, and the next one counterclockwise.
 Heading right_of(Heading heading);
 Heading left_of(Heading heading);
 
-// How an agent moves: it turns for nothing, or by quarter turns of so many steps each.
+// How an agent moves: it turns freely, or a quarter turn takes `turn_steps` steps.
 struct Motion {
   Time turn_steps = 0;  // 0: it turns freely
   friend bool operator==(const Motion&, const Motion&) = default;
 };
 
-// Where an agent is and which way it looks; on its way to `to`, the next heading on either side, if
-// `steps` > 0: so many steps of a quarter turn are made.
+// An agent's place and heading. If `steps` > 0, it is within a quarter turn to `to`, an adjacent
+// heading, and has made `steps` steps of this turn.
 struct Pose {
   Place place = kNoPlace;
   Heading heading = Heading::kNorth;
@@ -44,16 +45,18 @@ struct Pose {
 
 // A world over the places of a map (docs/design.md, section 1) with
 //
-// - for each motion with turns (grids only) a kind of base states: four headings on each place and,
-//   if a quarter turn takes d > 1 steps, d - 1 states within each of the eight turns. A move goes
-//   one cell ahead, or makes one step of a turn; from within a turn it only goes on;
-// - for each task that takes d steps and each base state it may be done in a chain of d states at
-//   work, entered from that state; the last one has the moves of the state itself. (An agent that
-//   starts at work with nothing done starts before the first.)
+// - for each motion with turns (grids only), a kind of base states: four headings on each place
+//   and, if a quarter turn takes d > 1 steps, d - 1 states within each of the eight turns. A move
+//   leads one cell ahead, or makes one step of a turn. From a state within a turn the only move
+//   continues this turn;
+// - for each task that takes d steps, and for each base state in which it may be done, a chain of d
+//   states of work. A move leads from the base state to the first one. The last one has the moves
+//   of the base state. (An agent that starts at work with no step done starts in an additional
+//   state before the first one.)
 class MotionWorld : public World {
  public:
-  // A task that takes `duration` steps in this base state. `from_nothing`: with a state before the
-  // first step as well.
+  // A task that takes `duration` steps, done in base state `base`. With `from_nothing` there is an
+  // additional state before the first step.
   struct Job {
     TaskIndex task;
     Time duration;
@@ -61,25 +64,26 @@ class MotionWorld : public World {
     bool from_nothing = false;
   };
 
-  // `motions`: those with turns, distinct; motion i is kind i + 1. Jobs are distinct. Throws
-  // std::invalid_argument for turns on a map that is no grid, and where states are too many.
+  // `motions`: distinct motions with turns; motion i is kind i + 1. `jobs`: distinct. Throws
+  // std::invalid_argument for turns on a map that is not a grid, and for too many states.
   MotionWorld(std::shared_ptr<const Map> map, std::vector<Motion> motions,
               std::span<const Job> jobs);
 
-  // The same before there are jobs: the numbers of base states do not depend on them.
+  // The same as state(), before there are jobs. The numbers of base states do not depend on jobs.
   static State base_state(const Map& map, std::span<const Motion> motions, int kind,
                           const Pose& pose);
 
   State state(int kind, const Pose& pose) const { return base_state(*map_, motions_, kind, pose); }
-  // Of base states that are not of kind 0.
+  // The pose of a base state. Precondition: its kind is not 0.
   Pose pose(State base) const;
-  // The state of an agent at work on this task in a base state, `done` steps of it done. There must
-  // be such work.
+  // The state of an agent that works on this task in base state `base`, with `done` steps done.
+  // Throws std::invalid_argument if the world has no such state.
   State working(TaskIndex task, State base, Time done) const;
 
   std::string name(State state) const override;
 
-  // States are numbers of 32 bits, and there are tables of several numbers for each.
+  // The maximum number of states. States are 32-bit numbers, and there are tables with several
+  // numbers for each state.
   static constexpr std::int64_t kMostStates = std::int64_t{1} << 28;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The suboptimality factor w and the one test that decides with it.
+// The suboptimality factor w and the test cost <= (1 + w) * lower bound.
 #pragma once
 
 #include <cstdint>
@@ -8,30 +8,30 @@
 
 namespace grove::detail {
 
-// The sum of all agents' costs, in steps. Also used for bounds on it.
+// The sum of all agents' costs, or a bound on it, in steps.
 using Cost = std::int64_t;
-// A cost or bound that no plan reaches.
+// Greater than the cost of every plan.
 inline constexpr Cost kInfiniteCost = std::int64_t{1} << 60;
 
-// w of "cost <= (1 + w) * lower bound" as an exact decimal fraction, so that the test needs no
-// floating point: a multiple of 1e-9, or infinite. A value; compares by size.
+// w in "cost <= (1 + w) * lower bound", as an exact decimal fraction, so that the test needs no
+// floating point: a multiple of 1e-9, or infinite. A value type, ordered by size.
 class Omega {
  public:
   constexpr Omega() = default;  // w = 0: optimal
   static constexpr Omega infinite() { return Omega(kInfinite); }
 
-  // Reads "0", "0.01", "1e-2", "inf". Throws std::invalid_argument saying what was expected: not a
-  // number, negative, over 1e6, or with more than 9 decimals.
+  // Reads text such as "0", "0.01", "1e-2" or "inf". Throws std::invalid_argument with what was
+  // expected if the text is not a number, is negative, exceeds 1e6, or has more than 9 decimals.
   static Omega parse(std::string_view text);
-  // The nearest multiple of 1e-9. Throws std::invalid_argument when negative, over 1e6 or not a
-  // number.
+  // Returns the nearest multiple of 1e-9. Throws std::invalid_argument if `value` is negative,
+  // exceeds 1e6 or is not a number.
   static Omega from_double(double value);
 
   constexpr bool is_infinite() const { return billionths_ == kInfinite; }
-  double value() const;           // for output only; infinity when infinite
+  double value() const;           // for output only; infinity if infinite
   std::string to_string() const;  // shortest decimal, or "inf"
 
-  // cost <= (1 + w) * bound, exactly. True for every cost when w is infinite.
+  // True if cost <= (1 + w) * bound, computed exactly. True for every cost if w is infinite.
   constexpr bool accepts(Cost cost, Cost bound) const {
     if (is_infinite()) return true;
     return static_cast<Wide>(cost) * kUnit <= static_cast<Wide>(bound) * (kUnit + billionths_);

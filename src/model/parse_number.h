@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers that people and files write, read strictly.
+// Strict parsing of numbers from files and command lines.
 #pragma once
 
 #include <charconv>
@@ -10,7 +10,8 @@
 
 namespace grove::detail {
 
-// The decimal number that `text` is, all of it; none if it is none in that range.
+// The decimal number in `text`. Returns nullopt if the whole text is not a number from `least` to
+// `most`.
 template <class Number>
 std::optional<Number> parse_number(std::string_view text,
                                    Number least = std::numeric_limits<Number>::lowest(),

@@ -26,7 +26,8 @@ Time last_arrival(const World& world, const Path& path) {
 
 namespace {
 
-// The work begun by the step that ends at `time`, if any was; none has waited within.
+// The work that begins with the step that ends at `time`. Returns nullopt if none begins then.
+// Precondition: the path does not wait between two states of the same work.
 std::optional<WorkTime> work_begun(const Instance& instance, const Path& path, Time time) {
   const World& world = instance.world();
   if (!world.is_working(path[time])) return std::nullopt;
@@ -59,8 +60,8 @@ AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
   return plan;
 }
 
-// Work within a turn is put before the turn, all on one place: only there the world has states for
-// it (but for the turn that the agent starts in).
+// Moves work within a turn to before the turn, on the same place. The world has states for work
+// within a turn only for the turn that the agent starts in.
 AgentPlan with_work_before_turns(const Instance& instance, AgentPlan plan) {
   for (WorkTime& work : plan.work) {
     if (work.begin <= 0) continue;
@@ -117,7 +118,7 @@ std::optional<Status> parse_status(std::string_view text) {
 Status status_of(std::optional<Cost> cost, Cost lower_bound, Omega omega) {
   if (!cost) return Status::kUnknown;
   if (*cost <= lower_bound) return Status::kOptimal;
-  // With w = inf nothing was asked for that the bound could prove.
+  // With w = inf the caller did not request a bound, so the bound proves no tolerance.
   if (!omega.is_infinite() && omega.accepts(*cost, lower_bound)) return Status::kBounded;
   return Status::kFeasible;
 }

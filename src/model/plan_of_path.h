@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What an agent does on a path of which only the states are known.
+// Derives an agent's plan from a path that consists of states only.
 #pragma once
 
 #include "model/plan.h"
 
 namespace grove::detail {
 
-// The plan of an agent that walks this path, which ends at rest with everything visited. Its stops
-// come in the order of their first visits; where it rests on the last one, that is where it ends.
+// The plan of an agent that follows this path. Precondition: the path ends at rest with every task
+// visited. The stops are ordered by their first visits. If the agent rests on its last stop, the
+// stop at the end of the path comes last.
 AgentPlan plan_of_path(const Instance& instance, AgentIndex agent, const Path& path);
 
 }  // namespace grove::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Random numbers that are the same everywhere. The standard fixes std::mt19937_64 and std::seed_seq
-// to the bit, but neither its distributions nor std::shuffle: those are done here.
+// Random numbers that are the same on every machine. The C++ standard specifies std::mt19937_64 and
+// std::seed_seq bit by bit, but not its distributions and std::shuffle. This file implements these.
 #pragma once
 
 #include <concepts>
@@ -12,8 +12,8 @@
 
 namespace grove::detail {
 
-// The draw of this number of a sequence, in [0, 1): they do not depend on which of them are drawn,
-// or when (SplitMix64, Steele et al. 2014).
+// Draw number `number` of the sequence of `seed`, in [0, 1). A draw does not depend on which other
+// ones are made, or when (SplitMix64, Steele et al. 2014).
 inline double unit_draw(std::uint64_t seed, std::uint64_t number) {
   std::uint64_t z = seed + (number + 1) * 0x9E3779B97F4A7C15;
   z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9;
@@ -21,23 +21,24 @@ inline double unit_draw(std::uint64_t seed, std::uint64_t number) {
   return static_cast<double>((z ^ z >> 31) >> 11) * 0x1p-53;
 }
 
-// A sequence of draws that the seed settles. For one thread.
+// A sequence of random numbers that depends only on the seed. One thread at a time.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
-  // For one of many uses of a seed: their sequences do not depend on each other.
+  // One of several sequences of the same seed. Sequences with different `use` are independent of
+  // each other.
   Random(std::uint64_t seed, std::uint32_t use) : engine_(of_use(seed, use)) {}
 
-  // A uniform draw from 0 .. bound - 1; `bound` must be positive.
+  // A uniform draw from 0, ..., bound - 1. Precondition: bound > 0.
   template <std::integral Int>
   Int below(Int bound) {
     const auto n = static_cast<std::uint64_t>(bound);
     std::uint64_t draw = engine_();
-    // 2^64 mod n: so many of the lowest draws are one too many
+    // Rejects the lowest 2^64 mod n draws, so that the result is uniform.
     while (draw < n && draw < -n % n) draw = engine_();
     return static_cast<Int>(draw % n);
   }
-  // In [0, 1).
+  // A uniform draw from [0, 1).
   double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
 
   template <class T>

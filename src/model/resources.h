@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What this process may use of the machine.
+// The resources of the machine that this process may use.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@ namespace grove::detail {
 
 // The memory of the machine, in bytes.
 std::uint64_t physical_memory();
-// In bytes: the machine's memory, or less where a container or a batch system grants no more.
+// The memory of the machine in bytes, or less if a container or a batch system grants less.
 std::uint64_t usable_memory();
-// The cores that this process may use; at least 1.
+// The number of cores that this process may use, >= 1.
 int usable_cores();
 
 }  // namespace grove::detail

@@ -24,7 +24,7 @@ void require_roads_between(const std::vector<Road>& roads, std::size_t vertices)
   }
 }
 
-// The first inner place of each road; those of a road follow each other.
+// The first inner place of each road. The inner places of a road are numbered consecutively.
 std::vector<Place> inner_places(const std::vector<Road>& roads, std::size_t vertices) {
   require_roads_between(roads, vertices);
   std::vector<Place> first{static_cast<Place>(vertices)};

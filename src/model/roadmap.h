@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Roads between named points, as fleets drive on (docs/design.md, section 1).
+// Roadmap: roads between named vertices (docs/design.md, section 1).
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@
 
 namespace grove::detail {
 
-// Metres.
+// In metres.
 struct Point {
   double x = 0;
   double y = 0;
@@ -27,7 +27,7 @@ struct Vertex {
   Point at;
 };
 
-// From one vertex to another in so many steps; back as well, unless it is one way.
+// A road that takes `steps` steps, from vertex `from` to `to` and, unless `one_way`, back.
 struct Road {
   int from = 0;  // positions in Roadmap::vertices()
   int to = 0;
@@ -35,20 +35,19 @@ struct Road {
   bool one_way = false;
 };
 
-// A world of vertices and roads. A road of d steps has d - 1 places between its ends, where agents
-// may wait and, on a two-way road, turn back. Immutable after construction, so any number of
-// threads may read one.
+// The world of vertices and roads. A road of d steps has d - 1 inner places, where agents may wait
+// and, on a two-way road, turn back. Immutable: any thread may read it.
 class Roadmap : public World {
  public:
-  // Where a place is: at a vertex, or on a road.
+  // Position of a place: at a vertex, or on a road.
   struct Spot {
     int vertex = -1;  // -1: on a road
     int road = -1;
-    Time steps = 0;  // from where the road begins
+    Time steps = 0;  // from the beginning of the road
   };
 
-  // Throws std::invalid_argument for no vertex at all, roads of no steps or between vertices that
-  // are not there, ids that are empty or repeated, and more than kMostPlaces places.
+  // Throws std::invalid_argument if there is no vertex, a road has less than one step or an unknown
+  // vertex, an id is empty or repeated, or there are more than kMostPlaces places.
   Roadmap(std::vector<Vertex> vertices, std::vector<Road> roads);
 
   static constexpr Place kMostPlaces = 1 << 26;
@@ -56,13 +55,14 @@ class Roadmap : public World {
   const std::vector<Vertex>& vertices() const { return vertices_; }
   const std::vector<Road>& roads() const { return roads_; }
 
-  // The vertex with this id, by position; none.
+  // The position of the vertex with this id. Returns nullopt if there is none.
   std::optional<int> vertex(std::string_view id) const;
-  // The place of a vertex, and the one `steps` from the beginning of a road: 0 .. its length.
+  // The place of a vertex, and the place `steps` steps from the beginning of a road, 0 <= steps <=
+  // length of the road.
   Place place_of_vertex(int vertex) const { return vertex; }
   Place place_on_road(int road, Time steps) const;
   Spot spot(Place place) const;
-  // In metres; places on a road are spread evenly over it.
+  // Coordinates in metres. The places on a road are spread evenly.
   Point at(Place place) const;
   // The roads that join two vertices, in either direction; often none.
   std::span<const int> roads_between(int a, int b) const;

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Why nobody reads what is not there. An array goes from untouched to in hand by compare-exchange,
-// so at most one thread of all members fills it, and that one alone stores what comes of it:
-// ready, after the last byte (release), or refused. Who reads has seen ready (acquire), hence all
-// bytes, and nobody writes to an array that is ready. A member that ends or stands still while it
-// fills an array leaves it in hand for ever: then nobody reads it, and each makes its own.
+// Why a process never reads an array that is not complete.
 //
-// What is read is what one would have computed: members have the same program and the same instance
-// (who makes them members makes sure of that), and what fills an array depends on these alone.
+// Claim: if await() returns an array, then all of its bytes are written, and no thread writes to it
+// any more.
+// Proof: an array changes from kUntouched to kInHand by compare-exchange. So at most one thread of
+// all members fills it. Only that thread stores the result: kReady after the last byte (release),
+// or kRefused. A reader has loaded kReady (acquire), hence it sees all bytes. No thread writes to
+// an array that is kReady.
+// A member that ends or becomes unresponsive while it fills an array leaves it kInHand for ever.
+// Then no process reads that array, and each process makes its own.
+//
+// Claim: the array that a process reads is equal to the one that it would compute. Proof: all
+// members run the same program on the same instance (the code that sets up the members ensures
+// this), and the content of an array depends only on these two.
 #include "model/shared_arrays.h"
 
 #include <chrono>
@@ -19,8 +25,8 @@
 namespace grove::detail {
 namespace {
 
-// The dearest array takes some ten milliseconds, with many ranks on a core a multiple of that. What
-// is made twice costs no more than memory.
+// The most expensive array takes some ten milliseconds, and a multiple of that with many ranks on a
+// core. If two processes make the same array, this costs only memory.
 constexpr auto kPatience = std::chrono::seconds(1);
 constexpr auto kNap = std::chrono::microseconds(200);
 
@@ -82,7 +88,7 @@ SharedArray SharedArrays::array(ArrayKind kind, std::size_t number) const {
   if (number >= rooms.size()) return {};
   const Room& room = rooms[number];
   std::byte* const begin = memory_.data();
-  // Its bytes were zero, which is what an atomic of an integral type is that was made with 0.
+  // The bytes of the flag were zero, which is the representation of an atomic integer with value 0.
   return {reinterpret_cast<SharedArray::Flag*>(begin + room.flag), begin + room.begin, room.bytes};
 }
 

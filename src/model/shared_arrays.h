@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Arrays that several processes make together and all of them read: which there are, where they
-// lie, and who makes which.
+// Arrays in memory that several processes share. The processes compute them together, and each
+// process reads all of them. This file defines which arrays there are, where they lie, and which
+// process computes which.
 #pragma once
 
 #include <array>
@@ -14,38 +15,40 @@
 
 namespace grove::detail {
 
-// What an array holds, and by what such arrays are numbered.
+// The content of an array, and the meaning of its number.
 enum class ArrayKind : std::uint8_t {
-  kDistances,      // distances of 16 bits (DistanceFields); by set of states
-  kStopsOfStates,  // the stop at each state (AgentStops); by agent
-  kSequenceTable,  // costs to go (Completions); by agent
+  kDistances,      // 16-bit distances (DistanceFields); number: set of states
+  kStopsOfStates,  // the stop at each state (AgentStops); number: agent
+  kSequenceTable,  // costs to go (CostToGo); number: agent
 };
 inline constexpr int kArrayKinds = 3;
 
-// How many bytes each array may take, by kind and number; 0: there is none.
+// The size of each array in bytes, by kind and number; 0: there is no such array.
 using ArrayLayout = std::array<std::vector<std::size_t>, kArrayKinds>;
 
 class SharedArrays;
 
-// One of the arrays, or none. Refers to the SharedArrays that it is of. Any thread may use it.
+// One shared array, or none. Refers to the memory of its SharedArrays. Thread-safe.
 class SharedArray {
  public:
   SharedArray() = default;  // none
 
-  // There is one, with room for so many bytes.
+  // True if there is an array with room for `bytes` bytes.
   bool has_room(std::size_t bytes) const { return bytes <= room_; }
 
-  // Makes the array unless another process, or thread, has begun to: calls fill(begin), which is
-  // given room() bytes, says whether it succeeded, and must give the same bytes in all processes.
+  // Computes the array unless another process or thread has begun to. Calls fill(begin), where
+  // `begin` points to the memory of the array, of the size in the layout. fill() returns true if it
+  // succeeded. It must write the same bytes in all processes.
   template <class Fill>
   void make(const Fill& fill) const;
 
-  // The array as it was made; waits for who makes it, but not for long. Null: each has to make its
-  // own, for it could not be made, nobody has begun to, whoever did does not go on, or `limits`
-  // struck.
+  // Returns the complete array. While another process or thread computes it, waits up to 1 s.
+  // Returns nullptr if the array could not be computed, no process has begun to compute it, the
+  // process that did is unresponsive, or `limits` is reached. Then the caller must compute an array
+  // of its own.
   const std::byte* await(const Limits& limits) const;
 
-  // Makes it or waits for it.
+  // make(), then await().
   template <class Fill>
   const std::byte* get(const Limits& limits, const Fill& fill) const {
     make(fill);
@@ -54,7 +57,7 @@ class SharedArray {
 
  private:
   friend class SharedArrays;
-  // What is said of an array in the memory shared.
+  // The phase of an array, in shared memory.
   enum Progress : std::uint32_t { kUntouched, kInHand, kReady, kRefused };
   using Flag = std::atomic<std::uint32_t>;
   static_assert(Flag::is_always_lock_free, "else it would be of one process alone");
@@ -62,7 +65,8 @@ class SharedArray {
   SharedArray(Flag* flag, std::byte* begin, std::size_t room)
       : flag_(flag), begin_(begin), room_(room) {}
   bool claim() const;
-  // Whatever comes of it, others hear of it.
+  // Stores the result when it is destroyed, also after an exception, so that other processes see
+  // it.
   class Claimed {
    public:
     explicit Claimed(Flag& flag) : flag_(flag) {}
@@ -80,25 +84,27 @@ class SharedArray {
   std::size_t room_ = 0;
 };
 
-// All arrays of a layout in memory that somebody else owns, and that any number of processes, the
-// *members*, may have mapped. What all of them compute alike from one instance each computes a
-// share of. Does not change; any thread may use it.
+// All arrays of a layout, in memory that the caller owns. Any number of processes, the *members*,
+// may have mapped this memory. All members compute the same data from one instance, so each member
+// computes a part of it. Immutable: any thread may read it.
 class SharedArrays {
  public:
-  // The memory that such arrays take, in bytes; so many of them, at the beginning, must be zero
-  // before the first member makes this.
+  // bytes(): the size of the memory for such arrays, in bytes. The first zero_bytes() bytes of it
+  // must be zero before the first member constructs a SharedArrays.
   static std::size_t bytes(const ArrayLayout& layout);
   static std::size_t zero_bytes(const ArrayLayout& layout);
 
-  // `memory` begins at a multiple of kAlignment, else throws std::invalid_argument, and must
-  // outlive this. All members give the same layout, and numbers from 0 to `members` - 1.
+  // `memory` must outlive this object. All members pass the same layout, and `member` numbers from
+  // 0 to `members` - 1. Throws std::invalid_argument if `memory` does not begin at a multiple of
+  // kAlignment.
   SharedArrays(std::span<std::byte> memory, const ArrayLayout& layout, int member, int members);
 
-  // None where the layout has none.
+  // Returns no array (has_room() is false) if the layout does not contain it.
   SharedArray array(ArrayKind kind, std::size_t number) const;
 
   int members() const { return members_; }
-  // Of `count` arrays, where this member had better begin: each begins elsewhere.
+  // The index in 0, ..., `count` - 1 at which this member should begin to compute `count` arrays.
+  // Each member begins at a different part.
   std::size_t first_of(std::size_t count) const {
     return count * static_cast<std::size_t>(member_) / static_cast<std::size_t>(members_);
   }

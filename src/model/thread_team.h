@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Threads that do one piece of work after another together.
+// A team of threads that runs one function at a time on all of its threads.
 #pragma once
 
 #include <condition_variable>
@@ -11,10 +11,11 @@
 
 namespace grove::detail {
 
-// Only the thread that made it may use it.
+// Only the thread that constructed it may use it.
 class ThreadTeam {
  public:
-  // `threads` >= 1, of which the caller's is one. The system may grant fewer.
+  // `threads` >= 1 includes the caller's thread. If the system grants fewer threads, the team is
+  // smaller.
   explicit ThreadTeam(int threads);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
@@ -22,8 +23,8 @@ class ThreadTeam {
 
   int size() const { return static_cast<int>(others_.size()) + 1; }
 
-  // Calls work(i) on every thread i of the team, 0 being the caller's, and returns when all calls
-  // have returned. Then throws what one of them threw.
+  // Calls work(i) on every thread i of the team, where the caller's is thread 0. Returns when all
+  // calls have returned. If a call threw an exception, then rethrows one of them.
   void run(const std::function<void(int thread)>& work);
 
  private:
@@ -34,8 +35,8 @@ class ThreadTeam {
   std::condition_variable begun_;
   std::condition_variable ended_;
   const std::function<void(int thread)>* work_ = nullptr;
-  int round_ = 0;  // of calls of run()
-  int busy_ = 0;   // others that still work in this round
+  int round_ = 0;  // number of calls of run()
+  int busy_ = 0;   // other threads that still work in this round
   bool closed_ = false;
   std::exception_ptr thrown_;
   std::vector<std::thread> others_;

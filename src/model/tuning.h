@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The numbers of the search that were chosen by measuring, or have yet to be.
+// Tunable parameters of the search. Most defaults were chosen by measuring.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,9 @@
 
 namespace grove::detail {
 
-// All of them stand in tunables.def, with what they do and what is known of them. None changes what
-// is proven, only how fast and by which way. A value.
+// All parameters, as defined in tunables.def, each with its meaning and the evidence for its
+// default. No parameter changes what is proven. They change only the speed and the order of the
+// search. A value type.
 struct Tuning {
   using int64_t = std::int64_t;
 #define GROVE_TUNABLE(type, name, value, least, most, what, measured) type name = value;
@@ -21,25 +22,25 @@ struct Tuning {
   friend bool operator==(const Tuning&, const Tuning&) = default;
 };
 
-// One of these numbers.
+// Description of one parameter.
 struct Tunable {
   std::string_view member;
   std::variant<std::int64_t Tuning::*, double Tuning::*> place;
   double least;
   double most;
-  std::string_view what;      // it does
-  std::string_view measured;  // what stands behind the default; empty: nothing on record
+  std::string_view what;      // meaning
+  std::string_view measured;  // evidence for the default; empty: no measurement is on record
 
-  // On the command line: as the member, with '-' for '_'.
+  // The name on the command line: `member` with '-' for '_'.
   std::string name() const;
-  // The number in `tuning`, as short a text as is exact.
+  // The value in `tuning`, as the shortest text that is exact.
   std::string value(const Tuning& tuning) const;
 };
 
-// All of them, in the order of the struct.
+// All parameters, in the order of the struct.
 std::span<const Tunable> tunables();
-// "pair-expansions=20": sets one number. Throws std::invalid_argument, saying what was expected,
-// where there is no such number or the text is none in its range.
+// Sets one parameter from text such as "pair-expansions=20". Throws std::invalid_argument, with
+// what was expected, if the parameter does not exist or the value is not a number in its range.
 void set(Tuning& tuning, std::string_view text);
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where agents can be, and what they block there.
+// The graph that agents move on: places (what agents block), states, and moves between states.
 #pragma once
 
 #include <cstddef>
@@ -11,26 +11,26 @@
 
 namespace grove::detail {
 
-// What one agent blocks: a cell of a grid, say. Meaningful only together with its world.
+// What one agent blocks: for example, a cell of a grid. Meaningful only together with its world.
 using Place = std::int32_t;
 inline constexpr Place kNoPlace = -1;
 
-// Where an agent can be in its own motion: it stands on a place, perhaps with a heading or at work.
-// Meaningful only together with its world.
+// A vertex of the graph that one agent moves on: its place, perhaps with a heading or with progress
+// of work. Meaningful only together with its world.
 using State = std::int32_t;
 inline constexpr State kNoState = -1;
 
 // A discrete time or a duration, in steps.
 using Time = std::int32_t;
-// No time at all: later than every time a plan can mention. Safe to add small durations to.
+// No time: later than every time in a plan. Adding small durations does not overflow.
 inline constexpr Time kNever = 1 << 30;
 
 using TaskIndex = std::int32_t;  // position in Instance::tasks()
 
-// Lists of numbers, one after the other in one array.
+// Rows of numbers in compressed sparse row format: all rows lie in one array.
 class CsrArray {
  public:
-  // Appends to the row under way, and ends it.
+  // add() appends to the current row; end_row() ends the row.
   void add(std::int32_t item) { items_.push_back(item); }
   void end_row() { first_.push_back(static_cast<std::int32_t>(items_.size())); }
 
@@ -41,31 +41,32 @@ class CsrArray {
   std::span<const std::int32_t> items() const { return items_; }
 
  private:
-  std::vector<std::int32_t> first_{0};  // by row; one more at the end
+  std::vector<std::int32_t> first_{0};  // offset of each row, and the end of the last one
   std::vector<std::int32_t> items_;
 };
 
-// States first .. end - 1.
+// The states first, ..., end - 1.
 struct StateRange {
   State first = 0;
   State end = 0;
 };
 
-// An agent at work on a task: its work has taken `done` steps of as many as the task takes; then it
-// is completed.
+// An agent's work on a task: `done` of the task's steps are done. `completed` is true when all are
+// done.
 struct Work {
   TaskIndex task = -1;
   Time done = 0;
   bool completed = false;
-  State base = kNoState;  // in which it works
+  State base = kNoState;  // the base state in which the agent works
 };
 
-// Places, the states that stand on them, and the moves of one step between states; waiting is
-// possible in every state and no move (docs/design.md, section 1). States come in *kinds*, one for
-// each way to move, between which no move leads. States 0 .. place_count() - 1 are kind 0, that of
-// agents that turn freely: each is its place, and grids and roadmaps have no others. Beyond these
-// *base* states there are those of agents at work (motion_world.h). Immutable after construction,
-// so any number of threads may read one.
+// The graph of an instance: places, states on these places, and moves of one step between states.
+// An agent may wait in every state; a wait is not a move (docs/design.md, section 1).
+// States belong to *kinds*, one for each way to move. No move leads from one kind to another. The
+// states 0, ..., place_count() - 1 are of kind 0, for agents that turn freely: each of them is
+// equal to its place. Grids and roadmaps have no other states. After the *base* states of all kinds
+// come the states of agents at work (motion_world.h).
+// Immutable: any thread may read it.
 class World {
  public:
   World(const World&) = default;
@@ -74,32 +75,31 @@ class World {
   World& operator=(World&&) = default;
   virtual ~World() = default;
 
-  // Places and states are numbered 0 .. count - 1.
+  // Places and states are numbered 0, ..., count - 1.
   Place place_count() const { return places_; }
   State state_count() const { return moves_.count(); }
   Place place(State state) const {
     return state < places_ ? state : place_of_[static_cast<std::size_t>(state - places_)];
   }
 
-  // The states that one step leads to from `state`, and those from which one leads to it. None for
-  // a blocked cell.
+  // The successors of `state`, and its predecessors, by one move. A blocked cell has neither.
   std::span<const State> moves(State state) const { return moves_[state]; }
   std::span<const State> moves_to(State state) const {
     return is_symmetric_ ? moves_[state] : moves_back_[state];
   }
-  // The places that a step leads to from this one or leads from to it.
+  // The places to which a move leads from `place`, or from which a move leads to it.
   std::span<const Place> neighbors(Place place) const {
     return has_other_neighbors_ ? neighbors_[place] : moves_[place];
   }
 
-  // States on one place, of all kinds and at work, which are numbered from 0 there: one, on grids
-  // and roadmaps.
+  // The number of states on `place`, of all kinds and at work; 1 on grids and roadmaps. Their ranks
+  // are 0, ..., states_on(place) - 1.
   int states_on(Place place) const {
     return states_are_places() ? 1 : bases_on_a_place_ + static_cast<int>(working_[place].size());
   }
   int most_states_on_a_place() const { return most_states_on_a_place_; }
   int rank_on_place(State state) const { return state < places_ ? 0 : rank_of(state); }
-  // Calls visit(state) for each of them, in the order of their ranks.
+  // Calls visit(state) for each state on `place`, in order of rank.
   template <class Visit>
   void for_each_state(Place place, Visit visit) const {
     visit(place);
@@ -109,51 +109,52 @@ class World {
     for (const State s : working_[place]) visit(s);
   }
 
-  // The base states of a kind on a place.
+  // kind_count() includes kind 0. bases() returns the base states of a kind on a place.
   int kind_count() const { return static_cast<int>(kinds_.size()); }
   int kind(State state) const { return state < places_ ? 0 : kind_of_base(base(state)); }
   StateRange bases(Place place, int kind) const {
     const Kind& k = kinds_[kind];
     return {k.first + place * k.on_a_place, k.first + (place + 1) * k.on_a_place};
   }
-  // The state itself, or that in which an agent at work works: the moves of the last state of work
-  // are those of its base state.
+  // The base state in which the agent works if `state` is a state of work, else `state` itself. The
+  // last state of work has the moves of its base state.
   State base(State state) const {
     return state < first_working_ ? state : work_[state - first_working_].base;
   }
   bool is_working(State state) const { return state >= first_working_; }
-  // Only of those that are.
+  // Precondition: is_working(state).
   const Work& work(State state) const { return work_[state - first_working_]; }
-  // How many steps it takes at most to come from any base state of an agent's kind to any other on
-  // the same place.
+  // The maximum number of steps from any base state of this kind to any other one on the same
+  // place.
   Time max_turn_time(int kind) const { return kinds_[kind].max_turn_time; }
 
-  // Every state is its place.
+  // True if every state is equal to its place.
   bool states_are_places() const { return state_count() == places_; }
-  // And every step can be undone.
+  // True if also every move can be undone in one step.
   bool is_plain() const { return is_symmetric_ && states_are_places(); }
-  // If the places are the cells of a grid, how many there are in a row of it; else 0.
+  // The number of cells in a row if the places are the cells of a grid; else 0.
   Place row_width() const { return row_width_; }
-  // How many moves there are from a state at most.
+  // The maximum number of moves from one state.
   int most_moves() const { return most_moves_; }
 
-  // For people: "[3, 4]".
+  // A name for messages, for example "[3, 4]".
   virtual std::string name(State state) const = 0;
 
  protected:
-  // States of one kind: so many on each place, place by place from `first` on.
+  // The states of one kind: `on_a_place` states on each place, place by place from `first` on.
   struct Kind {
     State first = 0;
     int on_a_place = 1;
     Time max_turn_time = 0;
   };
 
-  // One state for each place; moves by place.
+  // A world with one state for each place. `moves` has one row for each place.
   explicit World(CsrArray moves);
-  // The same for the cells of a grid, so many in a row, with moves that can all be undone.
+  // The same for the cells of a grid with `row_width` cells in a row. Every move can be undone.
   World(CsrArray moves, Place row_width);
-  // The places of another world, with further kinds of states, and states at work. Moves by state;
-  // `work` is of the states behind those of all kinds.
+  // A world with the places of `ground`, with further kinds of states, and with states at work.
+  // `work` describes the states after the base states of all kinds. `moves` has one row for each
+  // state.
   World(const World& ground, std::vector<Kind> kinds, std::vector<Work> work, CsrArray moves);
 
  private:
@@ -168,14 +169,14 @@ class World {
   bool is_symmetric_ = true;
   bool has_other_neighbors_ = false;
   State first_working_;
-  CsrArray moves_;       // by state
-  CsrArray moves_back_;  // by state, unless they are the same
-  CsrArray neighbors_;   // by place, unless they are the moves of the states
-  CsrArray working_;     // by place: the states at work there, if any state is not its place
-  std::vector<Place> place_of_;  // of the states that are not their place
+  CsrArray moves_;               // by state
+  CsrArray moves_back_;          // by state; empty if it would be equal to moves_
+  CsrArray neighbors_;           // by place; empty if it would be equal to moves_
+  CsrArray working_;             // by place: its states at work; empty if every state is its place
+  std::vector<Place> place_of_;  // by state, from places_ on
   std::vector<Kind> kinds_{Kind{}};
-  std::vector<Work> work_;               // of the states from first_working_ on
-  std::vector<std::int32_t> work_rank_;  // of the same: in working_ of the place
+  std::vector<Work> work_;               // by state, from first_working_ on
+  std::vector<std::int32_t> work_rank_;  // the same index: rank on its place
 };
 
 }  // namespace grove::detail
