@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 // FNV-1a (Fowler, Noll, Vo) over 64-bit numbers, least significant byte first.
+//
+// The sequence of numbers determines the instance: each list follows its length, and kOptional,
+// which no place and no length is, precedes what only some tasks and agents have.
 #include "model/fingerprint.h"
 
 namespace grove::detail {
 namespace {
+
+constexpr std::int64_t kOptional = -2;
 
 class Fnv1a {
  public:
@@ -43,13 +48,17 @@ std::uint64_t fingerprint(const Instance& instance) {
   hash.add(instance.task_count());
   for (const Task& task : instance.tasks()) {
     hash.add(task.cell);
-    if (task.duration > 0) hash.add(task.duration);
+    if (task.duration > 0) {
+      hash.add(kOptional);
+      hash.add(task.duration);
+    }
   }
   hash.add(instance.agent_count());
   for (const Agent& agent : instance.agents()) {
     hash.add(agent.start);
     hash.add(agent.goal.value_or(kNoPlace));
     if (agent.motion.turn_steps > 0) {
+      hash.add(kOptional);
       hash.add(agent.motion.turn_steps);
       hash.add(agent.goal_heading ? static_cast<std::int64_t>(*agent.goal_heading) : -1);
     }

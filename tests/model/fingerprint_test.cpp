@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "model/fingerprint.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "tests/support/instances.h"
 
@@ -43,6 +46,18 @@ TEST(Fingerprint, TellsInstancesApart) {
   EXPECT_TRUE(is_new(other([](Agents& a) { std::swap(a[0].tasks[0], a[0].tasks[1]); })));
   EXPECT_TRUE(is_new(other([](Agents& a) { std::swap(a[0], a[1]); })));
   EXPECT_TRUE(is_new(other([](Agents& a) { a.pop_back(); })));
+}
+
+// Their cells and durations are the same sequence of numbers.
+TEST(Fingerprint, TellsDurationsFromCells) {
+  const auto with_tasks = [](std::vector<std::pair<Position, Time>> tasks) {
+    InstanceBuilder builder(testing::grid_of({"............"}));
+    builder.add_agent("a", {0, 0}, {});
+    for (const auto& [cell, duration] : tasks)
+      builder.add_task(fmt::format("t{}", cell.x), cell, std::vector<std::string>{"a"}, duration);
+    return fingerprint(std::move(builder).build());
+  };
+  EXPECT_NE(with_tasks({{{5, 0}, 7}, {{9, 0}, 0}}), with_tasks({{{5, 0}, 0}, {{7, 0}, 9}}));
 }
 
 TEST(Fingerprint, DoesNotCountNames) {
