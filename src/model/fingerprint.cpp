@@ -32,6 +32,7 @@ void add(const Grid& grid, Fnv1a& hash) {
 
 void add(const Roadmap& roadmap, Fnv1a& hash) {
   hash.add(static_cast<std::int64_t>(roadmap.vertices().size()));
+  hash.add(static_cast<std::int64_t>(roadmap.roads().size()));
   for (const Road& road : roadmap.roads()) {
     hash.add(road.from);
     hash.add(road.to);
