@@ -114,6 +114,11 @@ def private_headers(cmake):
     return [header for call in calls for header in call.split()[1:]]
 
 
+def as_included(path):
+    """How sources include the header at `path`: "search/frontier.h"."""
+    return path.relative_to(ROOT / "src" if (ROOT / "src") in path.parents else ROOT).as_posix()
+
+
 def closure(layer, declared):
     reached = {layer}
     for other in declared.get(layer, []):
@@ -177,10 +182,8 @@ class TheTree(unittest.TestCase):
                 used_by.setdefault(header, set()).add(layer)
         marked = []
         for path in [*(ROOT / "src").rglob("CMakeLists.txt"), *(ROOT / "mpi").rglob("CMakeLists.txt")]:
-            folder = path.parent.relative_to(ROOT / "src" if (ROOT / "src") in path.parents else ROOT)
-            marked += [str(folder / header) for header in private_headers(path.read_text())]
-        headers = [path.relative_to(ROOT / "src" if (ROOT / "src") in path.parents else ROOT).as_posix()
-                   for path, _ in self.sources("src", "mpi", suffixes={".h"})]
+            marked += [as_included(path.parent / header) for header in private_headers(path.read_text())]
+        headers = [as_included(path) for path, _ in self.sources("src", "mpi", suffixes={".h"})]
         private = [header for header in headers if used_by.get(header, set()) <= {header.split("/")[0]}]
         self.assertEqual(sorted(marked), sorted(private))
 
