@@ -179,8 +179,8 @@ void serialize(Archive& archive, Incumbent& incumbent) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Restart& anew) {
-  archive(anew.proven);
+void serialize(Archive& archive, Restart& restart) {
+  archive(restart.proven);
 }
 
 template <class Archive>

@@ -97,7 +97,7 @@ void Rank::handle(int from, message::Message&& message) {
             ledger_.adopt(std::move(incumbent.plan));
             nodes_.prune(cost);
           },
-          [&](message::Restart& anew) { begin_anew(anew.proven); },
+          [&](message::Restart& order) { restart(order.proven); },
           [&](message::SnapshotRequest&) { gather(); },
           [&](message::SnapshotNext&) { send_part(); }, [](message::Heartbeat&) {},
           [&](message::Terminate&) {
@@ -217,7 +217,7 @@ void Rank::send_part() {
   transport_.send(hierarchy_.top().rank, bytes_of(part, hierarchy_.top().level));
 }
 
-void Rank::begin_anew(Cost proven) {
+void Rank::restart(Cost proven) {
   nodes_.restart({}, proven);
   ++epoch_;
   parent_.urge();

@@ -85,7 +85,7 @@ class Rank {
   void speak_of_facts(double now);
   void receive(message::LearnedBounds& facts);
   void push(const std::vector<NodeRecord>& records, const std::vector<GroupBound>& findings);
-  void begin_anew(Cost proven);
+  void restart(Cost proven);
   message::Status status() const;
   RunStatistics survey(Stats counts) const;
   bool is_wanted(Cost bound) const;

@@ -103,14 +103,14 @@ int RankNodes::idlest() const {
   });
 }
 
-void RankNodes::begin_anew(Cost proven) {
+void RankNodes::broadcast_restart(Cost proven) {
   children_.broadcast(message::Restart{proven});
   ++epoch_;
   children_of_this_era_ = 0;
 }
 
 void RankNodes::restart(std::span<const NodePtr> roots, Cost proven) {
-  begin_anew(proven);
+  broadcast_restart(proven);
   for (const NodePtr& root : roots) push(root);
 }
 

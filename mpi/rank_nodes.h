@@ -45,7 +45,7 @@ class RankNodes : public LiveNodes {
   void tell(const Tree& tree);
   // Broadcasts Restart. Until the status of a child has the new epoch, the nodes of the child are
   // unknown.
-  void begin_anew(Cost proven);
+  void broadcast_restart(Cost proven);
 
  private:
   int idlest() const;

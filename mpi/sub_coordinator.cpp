@@ -50,7 +50,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
                    nodes_.assign(std::move(nodes));
                    parent_.urge();
                  },
-                 [&](message::Restart& anew) { begin_anew(anew); },
+                 [&](message::Restart& order) { restart(order); },
                  [&](message::Incumbent& incumbent) {
                    cutoff_ = std::min(cutoff_, incumbent.plan.cost);
                    children_.broadcast(incumbent);
@@ -106,8 +106,8 @@ void SubCoordinator::order(const message::SendNodes& order) {
   children_.tell(load_balancer_.donor(order.count), order);
 }
 
-void SubCoordinator::begin_anew(const message::Restart& anew) {
-  nodes_.begin_anew(anew.proven);
+void SubCoordinator::restart(const message::Restart& order) {
+  nodes_.broadcast_restart(order.proven);
   parent_.urge();
 }
 

@@ -36,7 +36,7 @@ class SubCoordinator {
   void gathered(const message::SnapshotTaken& gathered);
   void send_finished(const message::RankFinished& said);
   void order(const message::SendNodes& order);
-  void begin_anew(const message::Restart& anew);
+  void restart(const message::Restart& order);
   message::Status status() const;
 
   ChildLinks children_;

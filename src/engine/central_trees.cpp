@@ -63,7 +63,7 @@ void CentralTrees::refill_nodes() {
   if (!lock || nodes_.any()) return;
   if (is_due())
     grow();
-  else if (!begin_anew())
+  else if (!restart())
     ledger_.end();
 }
 
@@ -126,7 +126,7 @@ void CentralTrees::prepare_tree() {
 // Call when no node is live. If nodes were evicted, restarts from all roots, or first adds a tree
 // that is due by then. Returns false if no node was evicted, if w = inf, or if the last run did not
 // raise evicted_bound(). Requires growing_.
-bool CentralTrees::begin_anew() {
+bool CentralTrees::restart() {
   const Cost proven = nodes_.evicted_bound();
   if (proven == kInfiniteCost || options_.omega.is_infinite()) return false;
   if (ledger_.trees_from() < proven) {

@@ -48,7 +48,7 @@ class CentralTrees : public TreeSource {
   void instantiate(const NodePtr& root);
   void log_proof(const Node& root) const;
   void grow();
-  bool begin_anew();
+  bool restart();
 
   const SolveOptions& options_;
   Forest& forest_;  // under growing_

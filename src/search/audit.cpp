@@ -59,12 +59,12 @@ void audit(const Problem& problem, const Node& node, std::span<const AgentIndex>
 
 void audit(const Problem& problem, const ConflictAvoidanceTable& table,
            std::span<const Path> paths) {
-  ConflictAvoidanceTable anew(problem.instance.world());
-  for (const Path& path : paths) anew.add(path);
+  ConflictAvoidanceTable recomputed(problem.instance.world());
+  for (const Path& path : paths) recomputed.add(path);
   for (std::size_t agent = 0; agent < paths.size(); ++agent) {
     if (paths[agent].empty()) continue;
     const int shown = table.conflicts_of(paths[agent]);
-    const int there = anew.conflicts_of(paths[agent]);
+    const int there = recomputed.conflicts_of(paths[agent]);
     require(shown == there, "the table of paths sees {} conflicts of agent {}, there are {}", shown,
             agent, there);
   }

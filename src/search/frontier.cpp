@@ -170,7 +170,7 @@ Cost Frontier::evicted_bound() const {
 // Atomic, because in between there would be neither nodes nor a bound.
 void Frontier::restart(std::span<const NodePtr> roots, Cost proven) {
   const std::lock_guard lock(mutex_);
-  GROVE_ASSERT(open_.empty() && taken_.empty(), "a search begins anew when no node is live");
+  GROVE_ASSERT(open_.empty() && taken_.empty(), "a restart while a node is live");
   proven_ = proven;
   for (const NodePtr& root : roots) push_locked(root);
   evicted_ = kInfiniteCost;

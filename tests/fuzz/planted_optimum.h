@@ -16,7 +16,7 @@ namespace grove::detail::fuzz {
 // and whose constraints it obeys. From the first root that holds it on, some live node must,
 // whatever is branched, pruned or forbidden, until a plan as cheap is found; and none of them, nor
 // the search as a whole, may claim a bound above its cost. If the last of them is given up for want
-// of memory, the search may claim no more than its bound until it begins anew.
+// of memory, the search may claim no more than its bound until it restarts.
 class PlantedOptimum : public RunObserver {
  public:
   // `instance` must outlive this. `optimum` must be valid and cost-optimal.

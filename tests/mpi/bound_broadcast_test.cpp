@@ -114,10 +114,10 @@ TEST(BoundBroadcast, IsNotHeldUpByALongFact) {
   for (const int constraints : {150, 20'000}) {
     BoundBroadcast knowledge(0, 2, 1e6);
     knowledge.due(36'000);
-    LearnedBound dear;
-    dear.agents.emplace_back(0, 0, PackedConstraints(std::vector<Constraint>(constraints)));
-    dear.excess = {1, true, 1'000'000'000};
-    knowledge.add(dear);
+    LearnedBound expensive;
+    expensive.agents.emplace_back(0, 0, PackedConstraints(std::vector<Constraint>(constraints)));
+    expensive.excess = {1, true, 1'000'000'000};
+    knowledge.add(expensive);
     add_facts(100, knowledge);
     std::size_t count = 0;
     for (double now = 36'000; now < 43'200; now += 10)

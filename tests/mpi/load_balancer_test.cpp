@@ -128,7 +128,7 @@ TEST(LoadBalancer, PassesOnWhatItCannotMatch) {
   EXPECT_EQ(broker.surplus(), Surplus({{11, 2}}));
   EXPECT_EQ(broker.donor(100), 0);
   EXPECT_TRUE(broker.surplus().empty());
-  EXPECT_EQ(broker.donor(100), 0) << "somebody must";
+  EXPECT_EQ(broker.donor(100), 0) << "one rank has to be the donor";
 }
 
 }  // namespace broker_test

@@ -138,7 +138,7 @@ TEST(RankAlone, MayEndWithANodeUnfinished) {
   plan.cost = root->bound();
   r.rank.handle(0, message::Incumbent{plan});
   EXPECT_EQ(r.rank.nodes().frontier.live(), 0);
-  EXPECT_TRUE(r.rank.search().unfinished()) << "nobody else holds it";
+  EXPECT_TRUE(r.rank.search().unfinished()) << "no other rank holds it";
 }
 
 TEST(RankAlone, SaysMoreRarelyWhatCanWaitTheLongerARunTakes) {
@@ -365,10 +365,10 @@ TEST(SubCoordinatorAlone, ReleasesWhatWentBetweenItsRanksAndPassesOnTheRest) {
 TEST(SubCoordinatorAlone, IsOfTheOldEraUntilAllBelowHaveBegunAnew) {
   SubAlone s;
   EXPECT_EQ(s.status_after(0, message::Restart{7}).epoch, 0);
-  message::Status anew;
-  anew.epoch = 1;
-  for (const int rank : {3, 4}) EXPECT_EQ(s.status_after(rank, anew).epoch, 0);
-  EXPECT_EQ(s.status_after(5, anew).epoch, 1);
+  message::Status restarted;
+  restarted.epoch = 1;
+  for (const int rank : {3, 4}) EXPECT_EQ(s.status_after(rank, restarted).epoch, 0);
+  EXPECT_EQ(s.status_after(5, restarted).epoch, 1);
   for (const int rank : {3, 4, 5}) EXPECT_EQ(s.transport.sent<message::Restart>(rank).size(), 1);
 }
 
@@ -403,7 +403,7 @@ TEST(SubCoordinatorAlone, DropsPlansNoBetterThanTheIncumbentOnly) {
   plan.cost = 49;
   s.sub.handle(4, message::NewPlan{plan, PlanSource{}});
   s.sub.handle(5, message::NewPlan{plan, PlanSource{}});
-  EXPECT_EQ(s.transport.sent<message::NewPlan>(0).size(), 2) << "nobody has checked the first yet";
+  EXPECT_EQ(s.transport.sent<message::NewPlan>(0).size(), 2) << "the first is not yet checked";
 }
 
 TEST(SubCoordinatorAlone, SaysFarewellForAllAndThatAlone) {

@@ -185,11 +185,11 @@ TEST(Simulator, DearMessagesSlowTheCoordinatorAndTheRun) {
   const Case& c = cases().front();
   const SimulatedRun alone = run_of(c, with_start(c), 1);
   const ScalingRow cheap = scaling_row(run_of(c, with_start(c), 32), alone);
-  const ScalingRow dear = scaling_row(
+  const ScalingRow expensive = scaling_row(
       run_of(c, with_start(c), 32, {.message_cost = 1e-3, .seconds_per_work = 1e-6}), alone);
-  EXPECT_GT(dear.coordinator_wait_s, 5 * cheap.coordinator_wait_s);
-  EXPECT_GT(dear.coordinator_talking_share, cheap.coordinator_talking_share);
-  EXPECT_LT(dear.speed_up, cheap.speed_up);
+  EXPECT_GT(expensive.coordinator_wait_s, 5 * cheap.coordinator_wait_s);
+  EXPECT_GT(expensive.coordinator_talking_share, cheap.coordinator_talking_share);
+  EXPECT_LT(expensive.speed_up, cheap.speed_up);
 }
 
 TEST(Simulator, StopsAtItsLimits) {

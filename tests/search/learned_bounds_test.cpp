@@ -156,13 +156,13 @@ TEST(Facts, RefuseWhatCannotBe) {
 
 TEST(Facts, AreWorthMoreTheLongerTheyTookTheFewerConstraintsTheyHaveAndIfTheyRaiseBounds) {
   const PackedConstraints demands(std::vector<Constraint>{{3, kNoCell, 1, 2}});
-  const LearnedBound dear{{{0, 0, {}}, {0, 1, {}}}, {}, {1, true, 9}};
+  const LearnedBound expensive{{{0, 0, {}}, {0, 1, {}}}, {}, {1, true, 9}};
   const LearnedBound cheap{{{0, 0, {}}, {0, 1, {}}}, {}, {1, true, 2}};
   const LearnedBound special{{{0, 0, demands}, {0, 1, {}}}, {}, {1, true, 9}};
   const LearnedBound harmless{{{0, 0, {}}, {0, 1, {}}}, {}, {0, true, 9}};
-  EXPECT_GT(dear.utility(), cheap.utility());
-  EXPECT_GT(dear.utility(), harmless.utility());
-  EXPECT_GT(dear.utility(), special.utility());
+  EXPECT_GT(expensive.utility(), cheap.utility());
+  EXPECT_GT(expensive.utility(), harmless.utility());
+  EXPECT_GT(expensive.utility(), special.utility());
 }
 
 }  // namespace facts_test

@@ -260,7 +260,7 @@ class Farms : public ::testing::Test {
         }
   }
 
-  void begin_anew() { folder_ = directory_ / ("out" + std::to_string(++folders_)); }
+  void use_new_folder() { folder_ = directory_ / ("out" + std::to_string(++folders_)); }
   std::string csv() const { return file_content(fs::path(folder_) / "results.csv"); }
 
   TemporaryDirectory directory_;
@@ -270,7 +270,7 @@ class Farms : public ::testing::Test {
 
 TEST_F(Farms, SolveEveryInstanceOnce) {
   for_all([&](Trial run) {
-    begin_anew();
+    use_new_folder();
     simulate(run);
     EXPECT_EQ(finished_by_leaders(run), sorted_ids(run.entries));
     const auto table = rows();
@@ -300,7 +300,7 @@ TEST_F(Farms, SolveEveryInstanceOnce) {
 // A signal that reaches one rank ends the work of all.
 TEST_F(Farms, StopTogether) {
   for (const int rank : {-1, 0, 1, 2}) {
-    begin_anew();
+    use_new_folder();
     Trial run{.ranks = 3, .interrupt_at = 0.1, .interrupt_rank = rank};
     run.duration_s = [](int, const Entry&) { return 100; };
     simulate(run);
@@ -317,7 +317,7 @@ TEST_F(Farms, StopTogether) {
 TEST_F(Farms, GoOnAfterInterrupts) {
   int interrupted = 0;
   for_all([&](Trial run) {
-    begin_anew();
+    use_new_folder();
     Ids finished;
     for (int round = 0; round < 3; ++round) {
       Trial next = run;
@@ -344,7 +344,7 @@ TEST_F(Farms, GoOnAfterInterrupts) {
 // As SIGKILL does, wherever the ranks are: inside a write too, which the tests of tables try.
 TEST_F(Farms, GoOnAfterBeingKilled) {
   for_all([&](Trial run) {
-    begin_anew();
+    use_new_folder();
     std::size_t before = 0;
     for (int round = 0; round < 3; ++round) {
       Trial next = run;
@@ -362,7 +362,7 @@ TEST_F(Farms, GoOnAfterBeingKilled) {
 
 TEST_F(Farms, MakeRowsOfFailures) {
   for_all([&](Trial run) {
-    begin_anew();
+    use_new_folder();
     Trial broken = run;
     broken.work = [](int, const Entry& entry) {
       if (entry.id == "i0" || entry.id == "i5") throw std::runtime_error("cannot\ndo " + entry.id);
@@ -401,7 +401,7 @@ TEST_F(Farms, TellWhichRankFailed) {
 
 TEST_F(Farms, HandOutNothingAfterTheTotalTime) {
   for_all([&](Trial run) {
-    begin_anew();
+    use_new_folder();
     Trial first = run;
     first.total_time_limit_s = 0.04;
     simulate(first);
@@ -424,7 +424,7 @@ TEST_F(Farms, ServeOthersMeanwhile) {
     int ranks, per_group, slow;
   };
   for (const Case& c : {Case{2, 1, 0}, Case{5, 1, 0}, Case{4, 2, 1}}) {
-    begin_anew();
+    use_new_folder();
     Trial run{.ranks = c.ranks, .per_group = c.per_group};
     run.duration_s = [&](int rank, const Entry&) { return rank == c.slow ? 5 : 0.01; };
     double last_other = 0;
@@ -447,7 +447,7 @@ TEST_F(Farms, HandOutInOrder) {
 // A table that cannot be written is no fault of the instance under way.
 TEST_F(Farms, EndWhenTheTableBreaks) {
   for (const int ranks : {1, 3}) {
-    begin_anew();
+    use_new_folder();
     Trial run{.ranks = ranks};
     bool broken = false;
     run.watch = [&](const BatchState& state) {
