@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How work is divided between the tree and the primal search, in figures. The rule is at the head
-// of primal_share.cpp.
+// of primal_scheduler.cpp.
 #include "engine/primal_scheduler.h"
 
 #include <gtest/gtest.h>

@@ -136,7 +136,7 @@ TEST(FixedOrderSipp, WaitsNowhereOnceEveryWaitingPlaceIsBarred) {
       kInfeasible);
 }
 
-// The gates of goals_in_turn.h: the first visit of the task is of no use, a later one is.
+// The gates of fixed_order_goals.h: the first visit of the task is of no use, a later one is.
 TEST(FixedOrderSipp, ALaterVisitOfATaskIsTriedWhenTheFirstLeadsNowhere) {
   const Grid grid = grid_of({".....", "@@.@@"});
   const SingleAgent agent(grid, 0, {7}, 4);

@@ -2,7 +2,7 @@
 // All paths of one cost against a time-expanded graph that is written from the definitions of the
 // constraints alone. Two layered graphs have the same ways if, read side by side, no way of one
 // ends early in the other: so paths need not be listed, and maps, costs and windows may be larger
-// than in optimal_paths_test.cpp. The low level must find the least such cost.
+// than in mdd_test.cpp. The low level must find the least such cost.
 // GROVE_FUZZ_FACTOR multiplies the number of cases.
 #include <gtest/gtest.h>
 
