@@ -376,7 +376,8 @@ class Memory(Program):
 
     def held(self, ranks, instance, options):
         """The memory of all ranks together when all search, in bytes, and what was said."""
-        running = start(self.with_mca(options, mpirun(ranks, "solve", instance, "--threads", 1)), self.folder)
+        running = start(self.with_mca(options, mpirun(ranks, "solve", instance, "--omega", 0, "--threads", 1)),
+                        self.folder)
         processes = self.searching_ranks(running, ranks)
         held = sum(held_by(pid) for pid in processes.values())
         return held, self.end_well(running, processes)
@@ -430,7 +431,7 @@ class Memory(Program):
         self.assertIn("too little room in /dev/shm", said)
 
     def test_a_rank_that_stands_still_while_fields_are_made(self):
-        running = start(mpirun(3, "solve", self.large(), "--threads", 1), self.folder)
+        running = start(mpirun(3, "solve", self.large(), "--omega", 0, "--threads", 1), self.folder)
         self.addCleanup(running.kill)
 
         def making_fields():
