@@ -14,7 +14,7 @@
 namespace grove {
 
 /// A robot that is where the plan had it some steps ago.
-struct Late {
+struct Delay {
   std::string agent = {};  ///< Its id.
   int steps = 0;           ///< So many steps ago, at least 0.
 };
@@ -51,7 +51,7 @@ class GROVE_API Session {
   /// others perhaps for their sake. Beyond the end of the plan all robots stand where it ends.
   /// Throws InvalidArgument, and nothing has changed: field() is "/late" if a robot is said to be
   /// later than `steps`, is named twice, or cannot be where it is said to be.
-  void advance(int steps, const std::vector<Late>& late = {});
+  void advance(int steps, const std::vector<Delay>& late = {});
 
   /// From now on it is so; the next replan() heeds it. Throws InvalidArgument, and nothing has
   /// changed, where it cannot be: a robot is on what is to be closed, or has to go there, or it is

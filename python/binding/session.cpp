@@ -36,7 +36,7 @@ void change(Session& session, const py::object& new_tasks, const py::object& dro
 }
 
 void advance(Session& session, const py::object& steps, const py::dict& late) {
-  std::vector<Late> all;
+  std::vector<Delay> all;
   for (const auto& [agent, by] : late)
     all.push_back({value_of<std::string>(agent, "/late", "ids of agents"),
                    value_of<int>(by, "/late", "a whole number of steps for each agent")});

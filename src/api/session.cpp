@@ -50,12 +50,12 @@ std::optional<Plan> Session::plan() const {
   return told_plan(session.instance(), *session.plan());
 }
 
-void Session::advance(int steps, const std::vector<Late>& late) {
+void Session::advance(int steps, const std::vector<Delay>& late) {
   detail::Session& session = impl_->session;
   if (!session.plan()) throw InvalidArgument("", "there is no plan to advance by");
   if (steps < 0)
     throw InvalidArgument("/steps", fmt::format("found {}; expected at least 0", steps));
-  std::vector<detail::Late> those;
+  std::vector<detail::Delay> those;
   for (std::size_t i = 0; i < late.size(); ++i) {
     const std::string field = fmt::format("/late/{}", i);
     those.push_back({agent_of(session.instance(), late[i].agent, field), late[i].steps});
@@ -64,7 +64,7 @@ void Session::advance(int steps, const std::vector<Late>& late) {
   translated([&] {
     try {
       session.advance(steps, those);
-    } catch (const detail::ImpossibleLateness& error) {
+    } catch (const detail::InfeasibleDelay& error) {
       throw InvalidArgument("/late", error.what());
     }
   });

@@ -207,13 +207,13 @@ class Session::Impl {
   const Instance& instance() const { return instance_; }
   const std::optional<Plan>& plan() const { return plan_; }
 
-  void advance(Time steps, std::span<const Late> late) {
+  void advance(Time steps, std::span<const Delay> late) {
     GROVE_ASSERT(plan_, "time goes on by a plan");
     const bool is_anyone_late =
-        std::ranges::any_of(late, [](const Late& l) { return l.steps != 0; });
+        std::ranges::any_of(late, [](const Delay& l) { return l.steps != 0; });
     const Plan driven =
         is_anyone_late
-            ? late_plan(instance_, *plan_, ActionDependencyGraph(instance_, *plan_), steps, late)
+            ? delayed_plan(instance_, *plan_, ActionDependencyGraph(instance_, *plan_), steps, late)
             : *plan_;
     Remainder rest =
         grove::detail::advance(instance_, driven, steps, Rests::kAnywhere, ends_with_plan_);
@@ -348,7 +348,7 @@ const Instance& Session::instance() const {
 const std::optional<Plan>& Session::plan() const {
   return impl_->plan();
 }
-void Session::advance(Time steps, std::span<const Late> late) {
+void Session::advance(Time steps, std::span<const Delay> late) {
   impl_->advance(steps, late);
 }
 void Session::change(const InstanceChange& change) {

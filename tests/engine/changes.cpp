@@ -82,12 +82,12 @@ class Campaign {
     const Time end = std::ranges::max(plan_.agents, {}, &AgentPlan::cost).cost;
     const Time time = random.below(end * 3 / 4 + 1);
     try {
-      session.advance(time, testing::random_lateness(instance_, time, random));
+      session.advance(time, testing::random_delays(instance_, time, random));
       const Instance before = session.instance();
       const Plan old = *session.plan();
       session.change(testing::random_change(before, random));
       answer(session, old);
-    } catch (const ImpossibleLateness&) {
+    } catch (const InfeasibleDelay&) {
       ++results_.impossible;
     } catch (const InstanceError&) {
       ++results_.impossible;

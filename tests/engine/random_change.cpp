@@ -29,8 +29,8 @@ NewTask random_task(const Instance& instance, Random& random) {
 
 }  // namespace
 
-std::vector<Late> random_lateness(const Instance& instance, Time time, Random& random) {
-  std::vector<Late> late;
+std::vector<Delay> random_delays(const Instance& instance, Time time, Random& random) {
+  std::vector<Delay> late;
   if (time == 0) return late;
   for (int i = random.below(3); i > 0; --i) {
     const AgentIndex agent = random.below(instance.agent_count());

@@ -67,7 +67,7 @@ TEST(Session, WhoIsLateIsWhereItWas) {
   Session session = session_of(instance_of(
       {"......"}, {AgentSpec{{0, 0}, Position{4, 0}, {}}, AgentSpec{{1, 0}, Position{5, 0}, {}}}));
   // The second one is in the way of the first.
-  const Late late{1, 2};
+  const Delay late{1, 2};
   session.advance(3, {&late, 1});
   const Grid& grid = session.instance().grid();
   EXPECT_EQ(session.instance().agent(1).start, grid.cell({2, 0}));
@@ -84,7 +84,7 @@ TEST(Session, NoStepsLateIsOnTime) {
   ++first.cost;
   ++waits.cost;
   Session session(instance, waits);
-  const Late late{0, 0};
+  const Delay late{0, 0};
   session.advance(0, {&late, 1});
   EXPECT_EQ(session.plan()->agents[0].path, first.path);
 }
@@ -92,9 +92,9 @@ TEST(Session, NoStepsLateIsOnTime) {
 TEST(Session, LatenessThatCannotBeIsRefused) {
   Session session = session_of(instance_of(
       {"......"}, {AgentSpec{{0, 0}, Position{4, 0}, {}}, AgentSpec{{1, 0}, Position{5, 0}, {}}}));
-  const Late late[] = {{1, 3}, {0, 1}};
+  const Delay late[] = {{1, 3}, {0, 1}};
   const Plan before = *session.plan();
-  EXPECT_THROW(session.advance(3, late), ImpossibleLateness);
+  EXPECT_THROW(session.advance(3, late), InfeasibleDelay);
   EXPECT_EQ(session.plan()->cost, before.cost);
   EXPECT_EQ(session.instance().agent(0).start, session.instance().grid().cell({0, 0}));
 }
@@ -147,7 +147,7 @@ TEST(Session, WhereNoneMayFollowALateRobotIsNotFollowed) {
   Session session = session_of(instance_of({"......."}, {AgentSpec{{0, 0}, Position{4, 0}, {}},
                                                          AgentSpec{{2, 0}, Position{6, 0}, {}}})
                                    .without_following());
-  const Late late{1, 2};
+  const Delay late{1, 2};
   session.advance(3, {&late, 1});
   EXPECT_EQ(wrong_with(session.instance(), *session.plan()), "");
   for (const Time commit : {0, 2}) {
@@ -159,10 +159,10 @@ TEST(Session, WhereNoneMayFollowALateRobotIsNotFollowed) {
 
 TEST(Session, RobotsCannotBeLateBeyondTheirStart) {
   Session session = session_of(instance_of({"....."}, {AgentSpec{{0, 0}, Position{4, 0}, {}}}));
-  const Late beyond{0, 3};
-  EXPECT_THROW(session.advance(2, {&beyond, 1}), ImpossibleLateness);
-  const Late twice[] = {{0, 1}, {0, 1}};
-  EXPECT_THROW(session.advance(2, twice), ImpossibleLateness);
+  const Delay beyond{0, 3};
+  EXPECT_THROW(session.advance(2, {&beyond, 1}), InfeasibleDelay);
+  const Delay twice[] = {{0, 1}, {0, 1}};
+  EXPECT_THROW(session.advance(2, twice), InfeasibleDelay);
   EXPECT_EQ(session.instance().agent(0).start, 0);
 }
 
@@ -179,7 +179,7 @@ Instance at_work() {
 TEST(Session, WorkBegunBeforeTheStartIsLateToo) {
   for (const Time steps : {0, 1, 2, 3}) {
     Session session = session_of(at_work());
-    const Late late{0, steps};
+    const Delay late{0, steps};
     session.advance(3, {&late, 1});
     const auto working = session.instance().spec(0).working;
     ASSERT_TRUE(working) << steps;
@@ -189,7 +189,7 @@ TEST(Session, WorkBegunBeforeTheStartIsLateToo) {
   }
   // On time it would have ended its work.
   Session session = session_of(at_work());
-  const Late late{0, 4};
+  const Delay late{0, 4};
   session.advance(6, {&late, 1});
   EXPECT_EQ(session.instance().spec(0).working->done, 3);
 }
@@ -339,16 +339,16 @@ Instance random_instance(std::uint64_t seed) {
 void advance_and_look(Session& session, Time time, Random& random) {
   const Instance before = session.instance();
   const Plan plan = *session.plan();
-  std::vector<Late> late = testing::random_lateness(before, time, random);
+  std::vector<Delay> late = testing::random_delays(before, time, random);
   try {
     session.advance(time, late);
-  } catch (const ImpossibleLateness&) {
+  } catch (const InfeasibleDelay&) {
     late.clear();
     session.advance(time);
   }
   ASSERT_EQ(wrong_with(session.instance(), *session.plan()), "");
   ASSERT_EQ(session.instance().may_follow(), before.may_follow());
-  for (const Late& l : late) {
+  for (const Delay& l : late) {
     const detail::AgentSpec then = advance(before, plan, time - l.steps).instance.spec(l.agent);
     const detail::AgentSpec now = session.instance().spec(l.agent);
     ASSERT_EQ(now.start, then.start) << now.id;

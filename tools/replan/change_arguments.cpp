@@ -31,13 +31,13 @@ struct Field {
 
 }  // namespace
 
-std::vector<Late> late_robots(const ChangeArguments& arguments, const Instance& instance) {
-  std::vector<Late> late;
+std::vector<Delay> late_robots(const ChangeArguments& arguments, const Instance& instance) {
+  std::vector<Delay> late;
   for (const std::string& text : arguments.late) {
     const auto split = text.rfind('=');
     if (split == std::string::npos) refuse("--late", text, "ROBOT=STEPS");
     const AgentIndex robot = robot_of("--late", text, text.substr(0, split), instance);
-    if (std::ranges::count(late, robot, &Late::agent) > 0)
+    if (std::ranges::count(late, robot, &Delay::agent) > 0)
       refuse("--late", text, "each robot once");
     late.push_back(
         {robot, static_cast<Time>(parse_integer("--late", text.substr(split + 1), kPlanSteps))});

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "execution/change.h"
-#include "execution/late.h"
+#include "execution/delay.h"
 #include "io/change_file.h"
 
 namespace grove::detail {
@@ -20,7 +20,7 @@ struct ChangeArguments {
 };
 
 // Throw CLI::ValidationError, naming option and value; InputError for files.
-std::vector<Late> late_robots(const ChangeArguments& arguments, const Instance& instance);
+std::vector<Delay> late_robots(const ChangeArguments& arguments, const Instance& instance);
 
 // The change, with where each part of it was said.
 class AskedChange {

@@ -112,10 +112,10 @@ class Replanning {
 
   void advance() {
     require_time_of_plan();
-    const std::vector<Late> late = late_robots(a_.change, loaded_.instance);
+    const std::vector<Delay> late = late_robots(a_.change, loaded_.instance);
     try {
       session_.advance(static_cast<Time>(a_.at), late);
-    } catch (const ImpossibleLateness& error) {
+    } catch (const InfeasibleDelay& error) {
       throw CLI::ValidationError("--late", one_line(error.what()));
     }
   }

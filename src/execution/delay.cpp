@@ -13,7 +13,7 @@
 // (execution_trace.h): it enters a place at least one step after the other robot has left it. Such
 // a plan has no rings, so these waits have no cycle either (action_dependency_graph.cpp). If no
 // robot is late, the plan does not change, because its own actions wait at least as long.
-#include "execution/late.h"
+#include "execution/delay.h"
 
 #include <fmt/format.h>
 
@@ -26,9 +26,9 @@ namespace {
 // The begin times of actions if no other robot were in the way.
 class Wishes {
  public:
-  Wishes(const ActionDependencyGraph& order, Time time, std::span<const Late> late)
+  Wishes(const ActionDependencyGraph& order, Time time, std::span<const Delay> late)
       : order_(order), time_(time), late_(static_cast<std::size_t>(order.agent_count())) {
-    for (const Late& l : late) late_[l.agent] = l.steps;
+    for (const Delay& l : late) late_[l.agent] = l.steps;
   }
 
   Time begin(ActionIndex index) const {
@@ -63,29 +63,29 @@ class Wishes {
   const std::string before =
       other == kNoAction ? "others"
                          : fmt::format("'{}'", instance.agent(order.actions()[other].agent).id);
-  throw ImpossibleLateness(
+  throw InfeasibleDelay(
       action.agent,
       fmt::format("'{}' cannot have come to {} by step {}, for {} had not left it",
                   instance.agent(action.agent).id, instance.world().name(action.to), time, before));
 }
 
-void require_possible(const Instance& instance, Time time, std::span<const Late> late) {
-  for (const Late& l : late) {
+void require_possible(const Instance& instance, Time time, std::span<const Delay> late) {
+  for (const Delay& l : late) {
     const std::string& id = instance.agent(l.agent).id;
     if (l.steps > time)
-      throw ImpossibleLateness(
+      throw InfeasibleDelay(
           l.agent, fmt::format("'{}' cannot be {} steps late; expected at most {}, the steps that "
                                "have passed",
                                id, l.steps, time));
-    if (std::ranges::count(late, l.agent, &Late::agent) > 1)
-      throw ImpossibleLateness(l.agent, fmt::format("'{}' is named twice; expected once", id));
+    if (std::ranges::count(late, l.agent, &Delay::agent) > 1)
+      throw InfeasibleDelay(l.agent, fmt::format("'{}' is named twice; expected once", id));
   }
 }
 
 // In every plan of an instance, work in progress at the start continues at once. For a late robot
 // it does not, so its work is moved by the delay.
-void delay_work_begun_before(const Instance& instance, std::span<const Late> late, Plan& plan) {
-  for (const Late& l : late) {
+void delay_work_begun_before(const Instance& instance, std::span<const Delay> late, Plan& plan) {
+  for (const Delay& l : late) {
     if (!instance.world().is_working(instance.agent(l.agent).start)) continue;
     AgentPlan& robot = plan.agents[l.agent];
     WorkTime& work = robot.work.front();
@@ -100,8 +100,8 @@ void delay_work_begun_before(const Instance& instance, std::span<const Late> lat
 
 }  // namespace
 
-Plan late_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
-               Time time, std::span<const Late> late) {
+Plan delayed_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
+                  Time time, std::span<const Delay> late) {
   require_possible(instance, time, late);
   const Wishes wishes(order, time, late);
   ExecutionTrace drive{std::vector<Time>(order.actions().size()),

@@ -11,16 +11,16 @@
 namespace grove::detail {
 
 // The robot is `steps` steps behind the plan.
-struct Late {
+struct Delay {
   AgentIndex agent = -1;
   Time steps = 0;
 };
 
 // Thrown for a delay that is impossible: the robot would be at a time before its start, or another
 // late robot would be in its way.
-class ImpossibleLateness : public std::invalid_argument {
+class InfeasibleDelay : public std::invalid_argument {
  public:
-  ImpossibleLateness(AgentIndex agent, const std::string& message)
+  InfeasibleDelay(AgentIndex agent, const std::string& message)
       : std::invalid_argument(message), agent_(agent) {}
   AgentIndex agent() const { return agent_; }
 
@@ -38,8 +38,8 @@ class ImpossibleLateness : public std::invalid_argument {
 // the other leaves it or, if Instance::may_follow() is false, in the next step. If `late` is empty,
 // the result is equal to `plan` up to `time`. A late robot that starts at work continues this work
 // later than a valid plan may: its WorkTime is moved by its delay, as advance() requires. Throws
-// ImpossibleLateness.
-Plan late_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
-               Time time, std::span<const Late> late);
+// InfeasibleDelay.
+Plan delayed_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
+                  Time time, std::span<const Delay> late);
 
 }  // namespace grove::detail
