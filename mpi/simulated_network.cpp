@@ -22,7 +22,7 @@ class SimulatedNetwork::End : public Transport {
   const int rank_;
 };
 
-SimulatedNetwork::SimulatedNetwork(int ranks, Delay delay)
+SimulatedNetwork::SimulatedNetwork(int ranks, DelayModel delay)
     : delay_(std::move(delay)),
       inboxes_(static_cast<std::size_t>(ranks)),
       last_arrival_(static_cast<std::size_t>(ranks)) {

@@ -109,7 +109,7 @@ struct Process {
 
 // Each link has a pace of its own: what one rank says to another may be overtaken for long by what
 // both say to the coordinator.
-SimulatedNetwork::Delay random_delays(Dice& dice, int ranks) {
+SimulatedNetwork::DelayModel random_delays(Dice& dice, int ranks) {
   const std::vector<double> paces{0, 1, 10, 100, 3000, 20'000};
   const double usual = paces[dice() % 4];
   std::vector<double> typical;

@@ -110,7 +110,7 @@ class Simulation {
     return std::min(run_.per_group, run_.ranks - group * run_.per_group);
   }
 
-  SimulatedNetwork::Delay delay() {
+  SimulatedNetwork::DelayModel delay() {
     return [this](int, int, std::size_t) {
       const bool is_late = random_() % 8 == 0;
       return std::uniform_real_distribution<double>(0, is_late ? 0.03 : 0.002)(random_);
