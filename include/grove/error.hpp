@@ -38,7 +38,7 @@ class GROVE_API InvalidArgument : public Error {
   InvalidArgument(const InvalidArgument&) = default;             ///< A copy.
   InvalidArgument& operator=(const InvalidArgument&) = default;  ///< Makes it a copy.
   ~InvalidArgument() override;
-  /// What is wrong, as a JSON path: "/agents/2/goal", "/omega"; empty where it is the whole.
+  /// What is wrong, a JSON Pointer: "/agents/2/goal", "/omega"; empty: the whole.
   const std::string& field() const noexcept { return field_; }
 
  private:

@@ -87,8 +87,10 @@ struct Solution {
 
 /// One thing that is wrong with a plan.
 struct Violation {
-  std::string place = {};    ///< A JSON path of the plan file: "/agents/0/path/7".
-  std::string message = {};  ///< One line, fit for a person.
+  std::string json_pointer =
+      {};                    ///< JSON Pointer (RFC 6901) into the plan file: "/agents/0/path/7".
+  std::string message = {};  ///< One line for a person.
+  std::string place = {};    ///< \deprecated Equal to json_pointer; removed in 0.2.
 };
 
 /// Everything that is wrong with a plan, at most `limit`: worked out by a checker that shares

@@ -19,6 +19,9 @@ struct Delay {
   int steps = 0;           ///< So many steps ago, at least 0.
 };
 
+/// \deprecated Old name of Delay; removed in 0.2.
+using Late [[deprecated("use grove::Delay")]] = Delay;
+
 /// What else is to be done, or no more, and what is closed.
 struct Change {
   std::vector<Task> new_tasks = {};             ///< Of robots that there are.

@@ -125,7 +125,7 @@ OwnPlan from_paths(const Instance& instance, const py::object& given) {
 
 py::list told(const std::vector<Violation>& violations) {
   py::list all;
-  for (const Violation& v : violations) all.append(py::make_tuple(v.place, v.message));
+  for (const Violation& v : violations) all.append(py::make_tuple(v.json_pointer, v.message));
   return all;
 }
 

@@ -32,7 +32,8 @@ std::unordered_map<std::string, detail::TaskIndex> tasks_by_id(const detail::Ins
 
 std::vector<Violation> told(const std::vector<detail::Violation>& violations) {
   std::vector<Violation> all;
-  for (const detail::Violation& v : violations) all.push_back({v.place, v.message});
+  for (const detail::Violation& v : violations)
+    all.push_back({v.json_pointer, v.message, v.json_pointer});
   return all;
 }
 
@@ -91,7 +92,8 @@ detail::Plan valid_plan_of(const detail::Instance& instance, const Plan& plan,
   solution.plan = plan_of(instance, plan);
   solution.status = detail::status_of(plan.cost, 0, solution.omega);
   const auto wrong = detail::check(instance, solution, 1);
-  if (!wrong.empty()) throw InvalidArgument(field + wrong.front().place, wrong.front().message);
+  if (!wrong.empty())
+    throw InvalidArgument(field + wrong.front().json_pointer, wrong.front().message);
   return *std::move(solution.plan);
 }
 
@@ -193,7 +195,7 @@ auto refusing_invalid_plans(Act&& act) {
     try {
       return act();
     } catch (const detail::InvalidPlan& error) {
-      throw InvalidArgument(error.violation().place, error.violation().message);
+      throw InvalidArgument(error.violation().json_pointer, error.violation().message);
     }
   });
 }

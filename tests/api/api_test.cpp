@@ -78,12 +78,20 @@ TEST(Api, SolvesAndChecks) {
   EXPECT_GE(solution.measures.at("wall_s"), 0);
 }
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+static_assert(std::same_as<Late, Delay>, "the old name");
+#pragma GCC diagnostic pop
+
 TEST(Api, TheCheckerFindsWhatIsWrong) {
   const Instance instance = small();
   Solution solution = solve(instance);
   Plan wrong = *solution.plan;
   wrong.agents[0].path[1].place = Cell{4, 2};
-  EXPECT_FALSE(check(instance, wrong).empty());
+  const std::vector<Violation> violations = check(instance, wrong);
+  ASSERT_FALSE(violations.empty());
+  EXPECT_THAT(violations[0].json_pointer, ::testing::StartsWith("/agents/0/"));
+  EXPECT_EQ(violations[0].place, violations[0].json_pointer) << "the old name";
   solution.lower_bound = solution.plan->cost + 1;
   EXPECT_FALSE(check(instance, solution).empty());
   wrong.agents[0].path[1].place = Cell{9, 9};

@@ -37,7 +37,7 @@ Solution solved(Session& session, Omega omega, Time commit = 0) {
 
 std::string wrong_with(const Instance& instance, const Solution& solution) {
   const auto wrong = check(instance, solution, 1);
-  return wrong.empty() ? "" : wrong.front().place + ": " + wrong.front().message;
+  return wrong.empty() ? "" : wrong.front().json_pointer + ": " + wrong.front().message;
 }
 
 std::string wrong_with(const Instance& instance, const Plan& plan) {

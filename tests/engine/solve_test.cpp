@@ -29,7 +29,7 @@ Solution solve_to(const Instance& instance, const char* omega, const Limits& lim
   Solution solution = solve(instance, options, limits);
   if (solution.plan) {
     const auto violations = check(instance, solution);
-    EXPECT_TRUE(violations.empty()) << violations[0].place << ": " << violations[0].message;
+    EXPECT_TRUE(violations.empty()) << violations[0].json_pointer << ": " << violations[0].message;
     EXPECT_LE(solution.lower_bound, solution.plan->cost);
   }
   return solution;

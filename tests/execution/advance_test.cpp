@@ -23,7 +23,7 @@ std::string wrong_with(const Instance& instance, const Plan& plan) {
   solution.plan = plan;
   solution.status = status_of(plan.cost, 0, solution.omega);
   const auto wrong = check(instance, solution, 1);
-  return wrong.empty() ? "" : wrong.front().place + ": " + wrong.front().message;
+  return wrong.empty() ? "" : wrong.front().json_pointer + ": " + wrong.front().message;
 }
 
 TEST(Advance, WhatIsVisitedIsGone) {

@@ -52,7 +52,7 @@ class Claims {
 
   void examine_plan() {
     for (const Violation& violation : check(instance_, solution_))
-      expect(false, "the plan is wrong: {}: {}", violation.place, violation.message);
+      expect(false, "the plan is wrong: {}: {}", violation.json_pointer, violation.message);
   }
 
   void examine_against(Cost optimum) {

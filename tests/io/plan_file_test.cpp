@@ -181,7 +181,7 @@ TEST_F(PlanFile, IsNotWrittenIfTheCheckerRefusesIt) {
     written(s);
     FAIL();
   } catch (const InvalidPlan& error) {
-    EXPECT_EQ(error.violation().place, "/agents/1/path/1");
+    EXPECT_EQ(error.violation().json_pointer, "/agents/1/path/1");
   }
   s = solution();
   s.lower_bound = 2;  // then it is not proven to be optimal

@@ -32,7 +32,7 @@ class PlanImport : public ::testing::Test {
   // The first thing that is wrong; empty: nothing.
   std::string mistake(const std::string& text) {
     const auto violations = check(mapf_, read(text).solution);
-    return violations.empty() ? "" : violations[0].place + ": " + violations[0].message;
+    return violations.empty() ? "" : violations[0].json_pointer + ": " + violations[0].message;
   }
   std::string refused(const std::string& text) {
     return refusal([&] { read(text); });

@@ -61,7 +61,7 @@ std::string verdict(const std::function<void(Solution&)>& change) {
   const auto violations = check(instance(), solution);
   std::string text;
   for (const Violation& violation : violations)
-    text += (text.empty() ? "" : "\n") + violation.place + ": " + violation.message;
+    text += (text.empty() ? "" : "\n") + violation.json_pointer + ": " + violation.message;
   return text;
 }
 
@@ -236,7 +236,7 @@ TEST(Check, LetsAnMgAgentEndOnlyOnItsLastTask) {
   solution.plan->agents[0].sequence = {0, 1};
   const auto violations = check(two_tasks, solution);
   ASSERT_EQ(violations.size(), 1U);
-  EXPECT_EQ(violations[0].place, "/agents/0/sequence/1");
+  EXPECT_EQ(violations[0].json_pointer, "/agents/0/sequence/1");
 }
 
 // Two agents on a 4 x 2 map without tasks; both paths begin and end where they should.
@@ -254,7 +254,7 @@ std::string collision(const Path& first, const Path& second) {
   solution.status = Status::kOptimal;
   const auto violations = check(two, solution);
   EXPECT_LE(violations.size(), 1U);
-  return violations.empty() ? "" : violations[0].place + ": " + violations[0].message;
+  return violations.empty() ? "" : violations[0].json_pointer + ": " + violations[0].message;
 }
 
 // 0 1 2 3

@@ -14,7 +14,7 @@ inline std::string first_violation(const Instance& instance, const Plan& plan) {
   claim.status = status_of(plan.cost, 0, claim.omega);
   claim.plan = plan;
   const auto violations = check(instance, claim, 1);
-  return violations.empty() ? "" : violations[0].place + ": " + violations[0].message;
+  return violations.empty() ? "" : violations[0].json_pointer + ": " + violations[0].message;
 }
 
 }  // namespace grove::detail::testing

@@ -50,7 +50,7 @@ void expect_valid(const Instance& instance, const std::optional<Plan>& plan) {
   solution.status = status_of(plan->cost, 0, solution.omega);
   solution.plan = plan;
   const auto violations = check(instance, solution);
-  EXPECT_TRUE(violations.empty()) << violations[0].place << ": " << violations[0].message;
+  EXPECT_TRUE(violations.empty()) << violations[0].json_pointer << ": " << violations[0].message;
 }
 
 // Runs to the end and returns the cost of the valid plan that there must be.

@@ -260,7 +260,8 @@ void ForeignRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
     if (!outcome.claimed_lower_bound) outcome.claimed_lower_bound = told.claimed_lower_bound;
     if (!told.solution.plan) return;
     const auto wrong = check(told_, told.solution, 1);
-    if (!wrong.empty()) throw InputError(file.string(), wrong.front().place, wrong.front().message);
+    if (!wrong.empty())
+      throw InputError(file.string(), wrong.front().json_pointer, wrong.front().message);
     outcome.cost = told.solution.plan->cost;
     outcome.status = to_string(Status::kFeasible);
     const bool same = solver_.adapter.input == SolverInput::kGrove;

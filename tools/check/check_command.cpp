@@ -58,8 +58,8 @@ void print_verdict(const ClaimedPlan& claimed) {
 
 void print_violations(const std::string& file, const std::vector<Violation>& violations) {
   for (const Violation& violation : violations)
-    say_on_stderr(
-        fmt::format("{}: {}: {}", one_line(file), violation.place, one_line(violation.message)));
+    say_on_stderr(fmt::format("{}: {}: {}", one_line(file), violation.json_pointer,
+                              one_line(violation.message)));
   if (violations.size() >= kMostViolations)
     say_on_stderr(fmt::format("{}: stopped after {} violations", one_line(file), kMostViolations));
 }

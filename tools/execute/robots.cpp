@@ -32,7 +32,7 @@ ClaimedPlan read_plan_to_drive(const std::string& file, const Instance& instance
   if (wrong.empty()) return claimed;
   const bool is_made_otherwise = claimed.solution.may_follow && !instance.may_follow();
   throw InputError(
-      file, wrong.front().place,
+      file, wrong.front().json_pointer,
       fmt::format("is not valid{}, so it cannot be driven: {}",
                   is_made_otherwise ? " with --no-following, and was made without it" : "",
                   wrong.front().message));

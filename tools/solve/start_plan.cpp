@@ -20,7 +20,7 @@ Plan read_valid_plan(const std::filesystem::path& path, const Instance& instance
   solution.lower_bound = 0;
   solution.status = status_of(solution.plan->cost, solution.lower_bound, solution.omega);
   if (const auto violations = check(instance, solution, 1); !violations.empty())
-    throw InputError(path.string(), violations[0].place,
+    throw InputError(path.string(), violations[0].json_pointer,
                      fmt::format("not a plan of this instance: {}", violations[0].message));
   return std::move(*solution.plan);
 }

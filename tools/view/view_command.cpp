@@ -161,7 +161,7 @@ void require_valid(const Instance& instance, const NamedPlan& plan, std::string_
   const Solution& solution = plan.claimed.solution;
   const auto wrong = check(instance, solution, 1);
   if (solution.plan && wrong.empty()) return;
-  throw InputError(plan.name, wrong.empty() ? "" : wrong.front().place,
+  throw InputError(plan.name, wrong.empty() ? "" : wrong.front().json_pointer,
                    fmt::format("{}; expected {}",
                                wrong.empty() ? "holds no plan" : wrong.front().message, expected));
 }
@@ -204,7 +204,7 @@ void note_what_is_wrong(const Instance& instance, const NamedPlan& plan,
   const auto wrong = check(instance, solution, 1);
   if (!wrong.empty())
     warnings.push_back(fmt::format("{} is not valid: {}: {}", one_line(plan.name),
-                                   wrong.front().place, one_line(wrong.front().message)));
+                                   wrong.front().json_pointer, one_line(wrong.front().message)));
 }
 
 void run(const ViewArguments& arguments, const PictureMaker& maker) {
