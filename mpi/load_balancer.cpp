@@ -88,11 +88,11 @@ std::optional<LoadBalancer::Transfer> LoadBalancer::next() {
     const int from = std::get<int>(*best);
     const message::Surplus& surplus = view(from).surplus[0];
     const bool helps = -minus_best == kInfiniteCost ||
-                       (-minus_best > surplus.bound && surplus.nodes >= tuning_.plenty_nodes);
+                       (-minus_best > surplus.bound && surplus.nodes >= tuning_.min_surplus_nodes);
     if (!helps) break;
     const std::int64_t nodes = busy ? surplus.nodes : all_of(surplus);
     if (nodes == 0) continue;
-    const Transfer gift{from, to, std::min(nodes, tuning_.gift_nodes), !busy};
+    const Transfer gift{from, to, std::min(nodes, tuning_.transfer_nodes), !busy};
     take(from, gift.nodes);
     awaiting_.insert(to);
     return gift;

@@ -56,7 +56,7 @@ Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& li
       ledger_(limits, nodes_.frontier),
       search_(options, limits, nodes_, ledger_, elsewhere_, unwatched_),
       knowledge_(transport.rank(), transport.ranks(),
-                 options.tuning.knowledge_rate * kBytesPerMegabyte) {
+                 options.tuning.bound_broadcast_rate * kBytesPerMegabyte) {
   if (transport.rank() == 0) search_.lagrangian().set_ranks(transport.ranks());
   if (transport.ranks() > 1) others_wait();
 }

@@ -105,7 +105,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
   const Limits::Clock::time_point begin = limits.now();
   RankProcess member(problem, options, limits, observer, transport);
   Searching searching(problem, options, limits, member.rank(), transport.rank());
-  const double patience = options.tuning.patience;
+  const double patience = options.tuning.unresponsive_timeout;
   ReceiveTimeout silence;
   bool said_farewell = false;
   double accounted = 0;

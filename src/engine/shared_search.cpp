@@ -34,7 +34,7 @@ SharedSearch::SharedSearch(const SolveOptions& options, const Limits& limits, Lo
     : omega_(options.omega),
       uses_estimates_(techniques_of(options).has(Technique::kEstimates)),
       cost_per_conflict_(options.tuning.cost_per_conflict),
-      large_gap_(options.tuning.far_plan),
+      large_gap_(options.tuning.large_gap),
       nodes_(nodes),
       pool_(nodes.pool),
       frontier_(nodes.frontier),

@@ -57,7 +57,7 @@ class SharedSearch {
   // True if more is proven outside the tree search than by its nodes.
   bool tree_bound_is_dominated() const { return frontier_.bound() < ledger_.lower_bound(); }
 
-  // True if the gap exceeds far_plan.
+  // True if the gap exceeds large_gap.
   bool gap_is_large() const;
 
   // Evicts nodes and cached results if memory is short.

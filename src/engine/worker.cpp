@@ -14,6 +14,8 @@
 namespace grove::detail {
 namespace {
 
+constexpr std::int64_t kRootWorkPerPair = 8;  // assumed work of the root per pair of agents
+
 constexpr double kGoldenRatio = 0.6180339887;  // its multiples spread evenly over [0, 1)
 
 // Name of the statistics counter for splits of this kind.
@@ -53,7 +55,7 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
           number == 0 && techniques_of(options).has(Technique::kJointSearch))) {
   // Expanding the root takes long if there are many pairs of agents.
   const std::int64_t agents = problem.instance.agent_count();
-  share_->add_tree_work(options.tuning.root_work_per_pair * agents * agents);
+  share_->add_tree_work(kRootWorkPerPair * agents * agents);
   if (number == 0 && techniques_of(options).has(Technique::kLagrangian))
     shared.lagrangian().open(problem.instance, stops, options.proof != nullptr);
 }

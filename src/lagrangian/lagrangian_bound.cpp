@@ -64,14 +64,14 @@ LagrangianBound::LagrangianBound(const Instance& instance, const AgentStopsCache
       rows_(instance.world(), instance.agent_count()),
       encounters_(instance.world()),
       pairs_(instance.world(), stops_,
-             {.set_nodes = static_cast<std::size_t>(tuning.path_set_nodes),
-              .compared_pairs = static_cast<std::size_t>(tuning.compared_pairs),
+             {.set_nodes = static_cast<std::size_t>(tuning.mdd_nodes),
+              .joint_mdd_nodes = static_cast<std::size_t>(tuning.joint_mdd_nodes),
               .bytes = std::size_t{256} << 20}),
       ascent_(tuning),
       paths_(static_cast<std::size_t>(instance.agent_count())),
       prices_(paths_.size()),
       labels_(paths_.size(), kFirstLabels),
-      next_list_(tuning.first_price_list),
+      next_list_(tuning.first_dual_solution_round),
       is_priced_(paths_.size()),
       known_(paths_.size()) {
   begin_pricing();
@@ -211,13 +211,13 @@ std::vector<LagrangianBound::Asked> LagrangianBound::dispatch_pricing() {
 
 // Balances the expected work between helpers and this process. It counts the work between two
 // rounds, which is done only here. No helper gets less work than a message is worth
-// (lagrangian_share_work).
+// (lagrangian_min_remote_work).
 std::vector<LagrangianBound::AgentRange> LagrangianBound::partition_agents() {
   const std::lock_guard lock(mutex_);
   std::vector<AgentRange> cuts;
   if (phase_ != Phase::kPricing) return cuts;
   const auto idle = std::ranges::count(helpers_, false, &Helper::owes);
-  const std::int64_t least = tuning_.lagrangian_share_work;
+  const std::int64_t least = tuning_.lagrangian_min_remote_work;
   const std::int64_t left = idle > 0 ? work_left() : 0;
   const std::int64_t shares = std::min<std::int64_t>(idle, left / least - 1);
   if (shares <= 0) return cuts;
@@ -310,13 +310,13 @@ void LagrangianBound::move_multipliers(Cost cutoff, Cost known) {
   const ScaledCost bound =
       std::accumulate(prices_.begin(), prices_.end(), ScaledCost{0}) - multipliers().sum();
   make_list(bound);
-  const double squares = rows_.turn(paths_, encounters_, tuning_.lagrangian_memory);
+  const double squares = rows_.turn(paths_, encounters_, tuning_.lagrangian_smoothing);
   const double most = static_cast<double>(cutoff) * Penalties::kUnit;
   if (squares > 0) rows_.go(ascent_.step(static_cast<double>(bound), most, squares));
   const std::lock_guard lock(mutex_);
   const double hoped = static_cast<double>(best_) + ascent_.way();
-  const bool is_futile =
-      rounds_ > tuning_.lagrangian_trial && hoped < static_cast<double>(known) * Penalties::kUnit;
+  const bool is_futile = rounds_ > tuning_.lagrangian_min_rounds &&
+                         hoped < static_cast<double>(known) * Penalties::kUnit;
   const bool is_over = squares <= 0 || ascent_.way() < kLeastWay || is_futile;
   phase_ = is_over ? Phase::kEnded : Phase::kPricing;
   begin_pricing();

@@ -15,13 +15,14 @@
 // for which these would pay. The cheapest path is found first and then replaced by the path of
 // least penalised cost.
 //
-// *Acceptance.* LNS soon ends in a local optimum. After neighborhoods_before_worse iterations per
+// *Acceptance.* LNS soon ends in a local optimum. After kRecordDeviationStart iterations per
 // agent without improvement, it also accepts plans that cost a little more than the best one so
-// far: worse_plans times (best cost - sum of individual costs), because escaping takes more where
-// congestion costs more. Until then no higher cost is accepted, because a plan that still improves
-// quickly would improve more slowly: random-32-32-20, 200 agents, ten seconds, 5,202 to 5,238
-// instead of 5,149. Nor is one accepted while the best cost exceeds the sum of individual costs by
-// more than worse_plans_loss times that sum: instances so dense improve for the whole run.
+// far: record_deviation times (best cost - sum of individual costs), because escaping takes more
+// where congestion costs more. Until then no higher cost is accepted, because a plan that still
+// improves quickly would improve more slowly: random-32-32-20, 200 agents, ten seconds, 5,202 to
+// 5,238 instead of 5,149. Nor is one accepted while the best cost exceeds the sum of individual
+// costs by more than record_deviation_max_loss times that sum: instances so dense improve for the
+// whole run.
 //
 // *Cutoff.* The cutoff of a call is the old cost (plus what acceptance allows), less the new paths
 // so far, less the individual costs of the agents still to be planned. Above it the iteration fails
@@ -49,6 +50,15 @@
 namespace grove::detail {
 namespace {
 
+constexpr double kRepairLabels = 2000;  // base of the label limit per repaired agent
+// Multiple of the mean number of labels of successful calls that is added.
+constexpr double kRepairLabelsFactor = 16;
+constexpr double kRepairDecay = 0.98;  // decay of the statistics of repair operators per iteration
+// One iteration in this number uses a random repair operator.
+constexpr int kRepairExplorationPeriod = 10;
+// Failed iterations per agent before worse plans are accepted.
+constexpr std::int64_t kRecordDeviationStart = 1;
+
 constexpr std::int64_t kMostFirstLabels = std::int64_t{1} << 40;
 
 }  // namespace
@@ -69,14 +79,14 @@ void LargeNeighborhoodSearch::step(const Limits& limits) {
   const Cost gain = std::max<Cost>(0, others + old_cost - paths_.cost());
   neighborhoods_.reward(gain);
   const std::int64_t work = router_.work() - work_before;
-  way.gain = tuning_.way_memory * way.gain + static_cast<double>(gain);
-  way.work = tuning_.way_memory * way.work + static_cast<double>(work);
+  way.gain = kRepairDecay * way.gain + static_cast<double>(gain);
+  way.work = kRepairDecay * way.work + static_cast<double>(work);
 }
 
 LargeNeighborhoodSearch::RepairOperator& LargeNeighborhoodSearch::choose_repair() {
   const std::span<RepairOperator> ways(
       repair_operators_.data(), repair_operators_.size() - (router_.prices() == nullptr ? 1 : 0));
-  if (random_.below(tuning_.neighborhoods_per_trial) == 0) return ways[random_.below(ways.size())];
+  if (random_.below(kRepairExplorationPeriod) == 0) return ways[random_.below(ways.size())];
   return *std::ranges::max_element(
       ways, {}, [](const RepairOperator& way) { return (way.gain + 1) / way.work; });
 }
@@ -87,10 +97,10 @@ Cost LargeNeighborhoodSearch::worse_allowed(Cost cost) {
     least_ = cost;
     in_vain_ = 0;
   }
-  if (++in_vain_ <= tuning_.neighborhoods_before_worse * std::ssize(paths_.paths())) return 0;
+  if (++in_vain_ <= kRecordDeviationStart * std::ssize(paths_.paths())) return 0;
   const auto loss = static_cast<double>(least_ - own_costs_);
-  if (loss > tuning_.worse_plans_loss * static_cast<double>(own_costs_)) return 0;
-  const double more = tuning_.worse_plans * loss;
+  if (loss > tuning_.record_deviation_max_loss * static_cast<double>(own_costs_)) return 0;
+  const double more = tuning_.record_deviation * loss;
   return std::max<Cost>(0, least_ + static_cast<Cost>(more + random_.unit()) - cost);
 }
 
@@ -111,8 +121,7 @@ bool LargeNeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, C
 
 bool LargeNeighborhoodSearch::find(AgentIndex agent, Cost cutoff, RepairOperator& way,
                                    const Limits& limits) {
-  const double of_others =
-      tuning_.replan_labels + tuning_.replan_labels_of_found * way.labels / way.found;
+  const double of_others = kRepairLabels + kRepairLabelsFactor * way.labels / way.found;
   const PathQuery query{
       .cutoff = static_cast<Time>(cutoff),
       .label_limit = way.found > 0 ? static_cast<std::int64_t>(of_others) : way.first_labels,
@@ -126,8 +135,8 @@ bool LargeNeighborhoodSearch::find(AgentIndex agent, Cost cutoff, RepairOperator
   }
   if (way.priced)
     router_.improve(agent, paths_.reservations(), static_cast<Time>(cutoff), limits, path_);
-  way.labels = tuning_.way_memory * way.labels + static_cast<double>(router_.expanded() - before);
-  way.found = tuning_.way_memory * way.found + 1;
+  way.labels = kRepairDecay * way.labels + static_cast<double>(router_.expanded() - before);
+  way.found = kRepairDecay * way.found + 1;
   return true;
 }
 

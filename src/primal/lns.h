@@ -45,7 +45,7 @@ class LargeNeighborhoodSearch {
 
  private:
   // A way to plan one agent: exactly, greedily, or at least penalised cost (only with a dual
-  // solution). The statistics are sums that decay by way_memory; choose_repair() selects by them.
+  // solution). The statistics are sums that decay; choose_repair() selects by them.
   struct RepairOperator {
     int inflation_percent;
     bool priced;

@@ -19,6 +19,16 @@
 namespace grove::detail {
 namespace {
 
+constexpr std::int64_t kMaxNeighborhood = 8;  // agents of a neighbourhood
+// Failures per agent after which the maximum size grows by itself.
+constexpr std::int64_t kGrowthFailures = 2;
+constexpr std::int64_t kMaxGrowth = 4;  // maximum factor of this growth
+constexpr double kDestroyDecay = 0.99;  // decay of the weights of destroy operators per iteration
+// Probability of an operator without gain, approximately.
+constexpr double kDestroyMinProbability = 0.02;
+constexpr int kAgentBasedTries = 8;  // tries to fill an agent-based neighbourhood
+constexpr Time kMapBasedWindow = 8;  // time steps before and after in a map-based neighbourhood
+
 // A path of the dual solution is tried with delays of 0 to kLate - 1 steps.
 constexpr Time kLate = 3;
 
@@ -27,9 +37,9 @@ constexpr Time kLate = 3;
 const std::vector<AgentIndex>& Neighborhoods::choose() {
   const int agents = problem_.instance.agent_count();
   chosen_.clear();
-  const std::int64_t spread = most_wanted() - tuning_.fewest_replanned;
+  const std::int64_t spread = most_wanted() - tuning_.min_neighborhood;
   wanted_ = std::min<std::int64_t>(
-      agents, tuning_.fewest_replanned + random_.below(std::max<std::int64_t>(spread, 0) + 1));
+      agents, tuning_.min_neighborhood + random_.below(std::max<std::int64_t>(spread, 0) + 1));
   kind_ = choose_kind();
   if (kind_ == kAgentBased) add_delayed();
   if (kind_ == kMapBased) add_around_spot();
@@ -39,21 +49,20 @@ const std::vector<AgentIndex>& Neighborhoods::choose() {
   return chosen_;
 }
 
-// Upper limit of the size. It grows after neighborhoods_in_vain failures per agent, because larger
+// Upper limit of the size. It grows after kGrowthFailures failures per agent, because larger
 // neighbourhoods may gain where small ones no longer do (variable neighbourhood search: Mladenovic
 // and Hansen 1997).
 std::int64_t Neighborhoods::most_wanted() const {
-  const std::int64_t times =
-      1 + in_vain_ / (tuning_.neighborhoods_in_vain * problem_.instance.agent_count());
-  return tuning_.most_replanned * std::min<std::int64_t>(times, tuning_.times_more_replanned);
+  const std::int64_t times = 1 + in_vain_ / (kGrowthFailures * problem_.instance.agent_count());
+  return kMaxNeighborhood * std::min<std::int64_t>(times, kMaxGrowth);
 }
 
 Neighborhoods::Kind Neighborhoods::choose_kind() {
   const int kinds = this->kinds();
   const double sum = std::accumulate(weights_.begin(), weights_.begin() + kinds, 0.0);
-  double at = random_.unit() * sum * (1 + kinds * tuning_.least_kind);
+  double at = random_.unit() * sum * (1 + kinds * kDestroyMinProbability);
   for (int kind = 0; kind < kinds; ++kind) {
-    at -= weights_[static_cast<std::size_t>(kind)] + sum * tuning_.least_kind;
+    at -= weights_[static_cast<std::size_t>(kind)] + sum * kDestroyMinProbability;
     if (at < 0) return static_cast<Kind>(kind);
   }
   return kRandom;
@@ -62,7 +71,7 @@ Neighborhoods::Kind Neighborhoods::choose_kind() {
 void Neighborhoods::reward(Cost gain) {
   in_vain_ = gain > 0 ? 0 : in_vain_ + 1;
   double& weight = weights_[kind_];
-  weight = tuning_.kind_memory * weight + (1 - tuning_.kind_memory) * static_cast<double>(gain);
+  weight = kDestroyDecay * weight + (1 - kDestroyDecay) * static_cast<double>(gain);
 }
 
 void Neighborhoods::add(AgentIndex agent) {
@@ -80,7 +89,7 @@ void Neighborhoods::add_delayed() {
   add(agent);
   add_those_in_the_way(agent, router_.individual_path(agent), 0);
   const Time delay = paths_.cost(agent) - router_.individual_cost(agent);
-  for (int tries = 0; tries < tuning_.delayed_starts && !full(); ++tries) {
+  for (int tries = 0; tries < kAgentBasedTries && !full(); ++tries) {
     const AgentIndex member = chosen_[random_.below(chosen_.size())];
     add_those_in_the_way(member, router_.individual_path(member), random_.below(delay + 1));
   }
@@ -115,7 +124,7 @@ void Neighborhoods::add_by_reduced_cost() {
   if (agent == ReservationTable::kNobody) return;
   add(agent);
   add_those_in_the_way(agent, wanted_path(agent), 0);
-  for (int tries = 0; tries < tuning_.delayed_starts && !full(); ++tries) {
+  for (int tries = 0; tries < kAgentBasedTries && !full(); ++tries) {
     const AgentIndex member = chosen_[random_.below(chosen_.size())];
     add_those_in_the_way(member, wanted_path(member), random_.below(kLate));
   }
@@ -174,7 +183,7 @@ void Neighborhoods::add_around_spot() {
 
 void Neighborhoods::add_visitors(Place place, Time time) {
   for (const ReservationTable::Stay& stay : paths_.reservations().stays(place))
-    if (stay.first <= time + tuning_.spot_steps && stay.last >= time - tuning_.spot_steps)
+    if (stay.first <= time + kMapBasedWindow && stay.last >= time - kMapBasedWindow)
       add(stay.agent);
 }
 

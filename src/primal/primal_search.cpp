@@ -4,13 +4,13 @@
 //
 // *Rounds.* LNS improves a plan quickly at first and then stalls in a local optimum. Other seeds
 // end in other optima. So a new round begins with prioritised planning when LNS has worked without
-// success for as long as the round took to reach its best plan, and for stall_neighborhoods
+// success for as long as the round took to reach its best plan, and for kStallNeighborhoods
 // iterations at least.
 //
 // *Definition.* W is the work of individual planning of all agents (meeting_work_).
 //
 // *First plan.* Prioritised planning has a head start: one attempt, of at most
-// planning_head_start*W. On instances that are not dense it ends within 1.5 W, with plans much
+// pp_head_start*W. On instances that are not dense it ends within 1.5 W, with plans much
 // cheaper than those of LaCAM (LaCAM: 1.1 to 3.5 times the sum of individual costs). After the head
 // start, prioritised planning and LaCAM share the work equally until one of them has a plan. A
 // low-level call of prioritised planning that takes long is postponed and repeated with twice the
@@ -31,12 +31,12 @@
 // finds cheaper plans. LNS follows, because it changes too few agents at a time to resolve a jam:
 // warehouse-10-20-10-2-1 with 900 agents improves from 206,729 to 115,468 in six seconds; LNS only
 // improved from 204,322 to 197,747 in four. Prioritised planning mostly fails there: once there is
-// a plan and prioritised planning has done long_planning*W, it gets 1/9 of the work
-// (others_to_planning).
+// a plan and prioritised planning has done pp_long_attempt*W, it gets 1/9 of the work
+// (kOtherWorkPerLatePlanningWork).
 //
 // *Tree search.* The tree search waits for that cheaper plan, but no longer than its root takes.
-// The root examines all pairs of agents, so its work is estimated as min(long_planning,
-// W/meeting_of_root_work)*W.
+// The root examines all pairs of agents, so its work is estimated as min(pp_long_attempt,
+// W/root_work_per_individual_planning)*W.
 //
 // *Agent order.* The first order is by individual cost, lowest first. An agent may not come to rest
 // where an agent planned earlier still passes, so low-cost agents planned late would wait for
@@ -44,7 +44,7 @@
 // 64x64 cells and den312d, 100 agents, 300 tasks: first plans cost 0.7 to 8 % more than the sum of
 // individual costs; in random order 8 to 14 %, highest cost first 12 to 18 %. Planning each agent
 // that must visit another agent's destination before that agent: 0.5 instead of 0.2 % (500 agents,
-// 3,000 tasks, warehouse). Later rounds sort by cost with noise (order_spread).
+// 3,000 tasks, warehouse). Later rounds sort by cost with noise (kOrderNoise).
 //
 // *Dual solutions* of the Lagrangian bound guide only LNS. A plan by prioritised planning with
 // penalties, or from the paths of the dual solution, is cheaper than one without (3,976 instead of
@@ -69,6 +69,19 @@
 
 namespace grove::detail {
 namespace {
+
+// LaCAM steps within which a first plan is expected.
+constexpr std::int64_t kLacamExpectedSteps = 4096;
+// Rounds of guided search without a better plan before LNS takes over.
+constexpr int kGuidedRoundsWithoutGain = 4;
+// Guided search runs while the plan costs this part more than the individual costs.
+constexpr double kMinLossForGuidance = 0.1;
+// Work of the other heuristics per work of a long prioritised planning.
+constexpr std::int64_t kOtherWorkPerLatePlanningWork = 8;
+constexpr std::int64_t kStallNeighborhoods = 200;  // failed neighbourhoods before a new round
+// The same per agent; the maximum of both counts.
+constexpr std::int64_t kStallNeighborhoodsPerAgent = 10;
+constexpr double kOrderNoise = 0.5;  // noise on the costs by which later rounds sort agents
 
 constexpr std::int64_t kEndless = std::numeric_limits<std::int64_t>::max();
 constexpr std::uint64_t kSeeds = std::uint64_t{1} << 32;
@@ -106,9 +119,9 @@ class PrimalSearch::Impl {
   }
   bool expects_plan() const {
     if (!may_configure_ || optimal()) return false;
-    if (best_ == kInfiniteCost) return joint_steps_ < tuning_.joint_steps_to_plan;
-    const std::int64_t meetings =
-        std::min(tuning_.long_planning, meeting_work_ / tuning_.meeting_of_root_work);
+    if (best_ == kInfiniteCost) return joint_steps_ < kLacamExpectedSteps;
+    const std::int64_t meetings = std::min(
+        tuning_.pp_long_attempt, meeting_work_ / tuning_.root_work_per_individual_planning);
     const bool plans = planning_now_ && first_round_;
     return (plans && planning_work_ < meetings * meeting_work_) ||
            (guided_ && guided_work_ < meetings * meeting_work_);
@@ -129,11 +142,11 @@ class PrimalSearch::Impl {
   }
 
  private:
-  // Is the best plan within priced_gap of `bound`? With a larger gap, a dual solution predicts
-  // poorly which places and times are congested.
+  // Is the best plan within lagrangian_lns_max_gap of `bound`? With a larger gap, a dual solution
+  // predicts poorly which places and times are congested.
   bool is_near(ScaledCost bound) const {
     return static_cast<double>(best_) * Penalties::kUnit <=
-           (1 + tuning_.priced_gap) * static_cast<double>(bound);
+           (1 + tuning_.lagrangian_lns_max_gap) * static_cast<double>(bound);
   }
   void keep_best();
   bool may_tell(const Limits& limits) const;
@@ -234,7 +247,7 @@ void PrimalSearch::Impl::keep_best() {
 // work. So when many agents improve by small steps, only some of the plans are returned.
 bool PrimalSearch::Impl::may_tell(const Limits& limits) const {
   return source_ != PlanSource::kLns || optimal() || limits.stop_requested() ||
-         work() - work_when_told_ >= tuning_.work_to_tell * best_;
+         work() - work_when_told_ >= tuning_.lns_report_work * best_;
 }
 
 void PrimalSearch::Impl::advance(const Limits& limits) {
@@ -269,7 +282,7 @@ void PrimalSearch::Impl::meet(const Limits& limits) {
 void PrimalSearch::Impl::begin_round(bool first) {
   std::vector<std::pair<double, AgentIndex>> keys;
   for (AgentIndex agent = 0; agent < agents_; ++agent) {
-    const double spread = first ? 0 : tuning_.order_spread * (random_.unit() - 0.5);
+    const double spread = first ? 0 : kOrderNoise * (random_.unit() - 0.5);
     keys.emplace_back((1 + spread) * router_.individual_cost(agent), agent);
   }
   std::ranges::sort(keys);
@@ -278,7 +291,7 @@ void PrimalSearch::Impl::begin_round(bool first) {
   planning_.begin(std::move(order));
   planning_now_ = true;
   first_round_ = first;
-  patience_ = tuning_.planning_head_start * meeting_work_;
+  patience_ = tuning_.pp_head_start * meeting_work_;
   planning_work_ = 0;
   other_work_ = 0;
   round_began_ = work();
@@ -288,9 +301,9 @@ bool PrimalSearch::Impl::planning_is_due() const {
   if (!planning_now_) return false;
   if (!is_raced()) return true;
   const bool ahead =
-      planning_.failures() == 0 && planning_work_ < tuning_.planning_head_start * meeting_work_;
-  const bool takes_long = improving_ && planning_work_ > tuning_.long_planning * meeting_work_;
-  return ahead || planning_work_ <= other_work_ / (takes_long ? tuning_.others_to_planning : 1);
+      planning_.failures() == 0 && planning_work_ < tuning_.pp_head_start * meeting_work_;
+  const bool takes_long = improving_ && planning_work_ > tuning_.pp_long_attempt * meeting_work_;
+  return ahead || planning_work_ <= other_work_ / (takes_long ? kOtherWorkPerLatePlanningWork : 1);
 }
 
 void PrimalSearch::Impl::plan(const Limits& limits) {
@@ -316,7 +329,7 @@ void PrimalSearch::Impl::configure(const Limits& limits) {
   using Outcome = LacamWithRestarts::Outcome;
   if (!configurations_)
     configurations_ = std::make_unique<LacamWithRestarts>(problem_, own_orders(), seed_,
-                                                          tuning_.first_joint_steps);
+                                                          tuning_.lacam_first_steps);
   const std::int64_t before = configurations_->steps();
   const Outcome outcome =
       configurations_->run(limits, std::max<std::int64_t>(1, tuning_.primal_step_work / agents_));
@@ -332,7 +345,7 @@ void PrimalSearch::Impl::configure(const Limits& limits) {
 }
 
 void PrimalSearch::Impl::begin_guiding(const Plan& plan) {
-  const double crowded = (1 + tuning_.guided_loss) * static_cast<double>(own_costs_);
+  const double crowded = (1 + kMinLossForGuidance) * static_cast<double>(own_costs_);
   if (!may_guide_ || !may_configure_ || static_cast<double>(plan.cost) < crowded) return;
   may_guide_ = false;
   guided_ = std::make_unique<TrafficGuidedLacam>(problem_, own_orders(),
@@ -357,7 +370,7 @@ void PrimalSearch::Impl::guide(const Limits& limits) {
     guided_->learn(plan);
   }
   // Where memory is short it is left to others.
-  if (outcome == Outcome::kStopped || rounds_in_vain_ >= tuning_.guided_rounds) guided_.reset();
+  if (outcome == Outcome::kStopped || rounds_in_vain_ >= kGuidedRoundsWithoutGain) guided_.reset();
 }
 
 // The sequences of the individual paths, with distinct last stops (separate_ends()).
@@ -387,8 +400,7 @@ void PrimalSearch::Impl::improve(const Limits& limits) {
 }
 
 bool PrimalSearch::Impl::stalled() const {
-  const std::int64_t least =
-      std::max(tuning_.stall_neighborhoods, tuning_.stall_neighborhoods_per_agent * agents_);
+  const std::int64_t least = std::max(kStallNeighborhoods, kStallNeighborhoodsPerAgent * agents_);
   return neighborhoods_.steps() - round_improved_step_ >= least &&
          work() - round_improved_ >= round_improved_ - round_began_;
 }

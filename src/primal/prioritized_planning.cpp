@@ -9,7 +9,7 @@
 // denser instances than random orders). Two agents that enclose each other would alternate for
 // ever, so after as many failures as there are agents the order is shuffled.
 //
-// *Partial re-planning.* If the current order took many labels (planning_labels_to_keep), a first
+// *Partial re-planning.* If the current order took many labels (pp_resume_labels), a first
 // failure of an agent does not restart it. Only the agents that block its individual path are
 // planned again, after it. If the agent fails again, planning restarts. The plans cost a little
 // more: on room-64-64-8, 100 agents, 300 tasks, scenarios 2, 3 and 5, 0.4 to 3 %, and they are
@@ -36,6 +36,10 @@
 namespace grove::detail {
 namespace {
 
+constexpr std::int64_t kPlanningLabels = 200'000;  // base of the label limit per call
+// Multiple of the maximum number of labels of successful calls that is added.
+constexpr std::int64_t kPlanningLabelsFactor = 8;
+
 constexpr int kGreedPercent = 30;
 
 }  // namespace
@@ -57,13 +61,13 @@ void PrioritizedPlanning::begin_again() {
 
 std::int64_t PrioritizedPlanning::label_limit() const {
   const std::int64_t draws = failures_ / static_cast<std::int64_t>(order_.size());
-  return (tuning_.planning_labels + tuning_.planning_labels_of_found * labels_of_found_)
+  return (kPlanningLabels + kPlanningLabelsFactor * labels_of_found_)
          << std::min<std::int64_t>(draws, 30);
 }
 
 std::int64_t PrioritizedPlanning::most_exact_labels() const {
-  return tuning_.planning_exact_labels + tuning_.planning_exact_labels_of_found * labels_of_exact_ /
-                                             std::max(found_exactly_, std::int64_t{1});
+  return tuning_.pp_exact_labels + tuning_.pp_exact_labels_factor * labels_of_exact_ /
+                                       std::max(found_exactly_, std::int64_t{1});
 }
 
 PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
@@ -95,7 +99,7 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
   }
   ++failures_;
   greedily_ = false;
-  if (labels_of_order_ < tuning_.planning_labels_to_keep || has_failed_[agent])
+  if (labels_of_order_ < tuning_.pp_resume_labels || has_failed_[agent])
     begin_with_next();
   else
     remove_blocking_agents(agent);

@@ -46,9 +46,9 @@ void Traffic::add(const Path& path, double weight) {
 void Traffic::set_prices() {
   for (Place place = 0; place < world_.place_count(); ++place)
     for (Move back = first_[place]; back < first_[place + 1]; ++back) {
-      const double dearness =
-          (tuning_.traffic_there * there_[place] + tuning_.traffic_against * moving_[back]) /
-          usual_;
+      const double dearness = (tuning_.vertex_congestion_weight * there_[place] +
+                               tuning_.contraflow_weight * moving_[back]) /
+                              usual_;
       price_back_[back] = static_cast<Time>(kStep * (1 + std::min(dearness, kMostDearness)));
     }
 }

@@ -19,8 +19,8 @@ namespace grove::detail {
 class Traffic {
  public:
   // `world` and `tuning` must outlive this. `usual`: the amount of traffic that raises the cost
-  // of a step by traffic_there (traffic on the place) or traffic_against (in the opposite
-  // direction) times its cost without traffic.
+  // of a step by vertex_congestion_weight (traffic on the place) or contraflow_weight (in the
+  // opposite direction) times its cost without traffic.
   Traffic(const World& world, double usual, const Tuning& tuning);
 
   // Multiplies all counts by `left`.

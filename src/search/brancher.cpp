@@ -36,6 +36,8 @@
 namespace grove::detail {
 namespace {
 
+constexpr int kMaxBypasses = 64;  // bypasses per call
+
 // Hash of the pair of agents (the finaliser of SplitMix64, Steele et al. 2014).
 std::uint64_t priority(const Conflict& conflict, std::uint64_t seed) {
   std::uint64_t x = seed * 0x9e3779b97f4a7c15 + (static_cast<std::uint64_t>(conflict.first) << 32) +
@@ -53,7 +55,7 @@ Brancher::Brancher(const Problem& problem, const SearchOptions& options, PathPla
       options_(options),
       planner_(planner),
       memory_(memory),
-      prices_(planner, memory, options.tuning.price_labels),
+      prices_(planner, memory, options.tuning.strong_branching_labels),
       others_(problem.instance.world()),
       shown_(problem.instance.agent_count()) {}
 
@@ -73,8 +75,7 @@ Brancher::Outcome Brancher::branch(NodeView& view, Cost cutoff,
     const Split& split = chosen.split;
     for (int i = 0; i < 2; ++i)
       if (!evaluate_branch(task, split[i], branches_[i])) return Outcome::kStopped;
-    if (round < options_.tuning.bypasses &&
-        (bypass(view, branches_[0]) || bypass(view, branches_[1])))
+    if (round < kMaxBypasses && (bypass(view, branches_[0]) || bypass(view, branches_[1])))
       continue;
     ++splits_made_[static_cast<std::size_t>(split[1].constraint.kind)];
     branching_ = chosen;

@@ -49,7 +49,7 @@ Expander::Expander(const Problem& problem, AgentStopsCache& stops, const SearchO
       techniques_(options.techniques),
       proof_(options.proof),
       planner_(problem, stops, std::move(planner), options.repeatable),
-      memory_(planner_, std::move(memory), options.tuning.path_set_nodes),
+      memory_(planner_, std::move(memory), options.tuning.mdd_nodes),
       view_(problem, options, memory_),
       brancher_(problem, options, planner_, memory_),
       dependencies_(problem, options, planner_, memory_),

@@ -30,6 +30,9 @@
 namespace grove::detail {
 namespace {
 
+// Nodes of one agent's graph; a larger graph is not built.
+constexpr std::size_t kMaxAgentGraphNodes = 32'000;
+
 constexpr std::int64_t kStatesAtOnce = 16;
 constexpr std::int64_t kTimedNodesPerWork = 2;  // see work.h
 constexpr std::size_t kMostBytes = std::size_t{1} << 28;
@@ -65,7 +68,7 @@ JointGroups::Outcome JointGroups::settle_up_to(Cost most, const NodeView& view,
     if (most_cost >= kNever || work() >= give_up_at_) return Outcome::kGivenUp;
     const auto made = planner_.timed_graph(
         agent, view.order(agent), view.constraints(agent), static_cast<Time>(most_cost),
-        static_cast<std::size_t>(tuning_.joint_group_nodes), limits, graphs[i]);
+        static_cast<std::size_t>(kMaxAgentGraphNodes), limits, graphs[i]);
     if (made == TimeExpandedGraphs::Outcome::kStopped) return Outcome::kStopped;
     if (made == TimeExpandedGraphs::Outcome::kTooLarge) return Outcome::kGivenUp;
   }

@@ -55,6 +55,12 @@
 #include <numeric>
 
 namespace grove::detail {
+namespace {
+
+constexpr std::ptrdiff_t kMaxGroupAgents = 6;     // agents of a group whose joint bound is computed
+constexpr std::int64_t kCoveringSteps = 100'000;  // group bounds examined per covering bound
+
+}  // namespace
 
 WdgHeuristic::WdgHeuristic(const Problem& problem, const SearchOptions& options,
                            PathPlanner& planner, WorkerCache& memory)
@@ -89,8 +95,7 @@ WdgHeuristic::Outcome WdgHeuristic::find_bound(const NodePtr& node, NodeView& vi
   if (dearest != statements.end() && dearest->excess > slack)
     statements = {*dearest};
   else
-    bound =
-        std::min(cutoff, node->cost() + covering_bound(statements, tuning_.covering_steps, limits));
+    bound = std::min(cutoff, node->cost() + covering_bound(statements, kCoveringSteps, limits));
   if (proof_ != nullptr && bound > node->bound()) log_bound(view, statements, bound);
   return Outcome::kDone;
 }
@@ -168,8 +173,8 @@ std::optional<Dependence> WdgHeuristic::compare(NodeView& view, AgentIndex a, Ag
   const Mdd* of_b = optimal_paths(view, b, limits);
   if (!of_a || !of_b) return std::nullopt;
   if (of_a->empty() || of_b->empty()) return Dependence::kUnknown;
-  const Dependence dependence =
-      pair_dependency_.find(*of_a, *of_b, static_cast<std::size_t>(tuning_.compared_pairs), limits);
+  const Dependence dependence = pair_dependency_.find(
+      *of_a, *of_b, static_cast<std::size_t>(tuning_.joint_mdd_nodes), limits);
   if (limits.stop_requested()) return std::nullopt;
   return dependence;
 }
@@ -183,7 +188,7 @@ const Mdd* WdgHeuristic::optimal_paths(NodeView& view, AgentIndex agent, const L
 // Bounds the excess of every group that conflicts although no pair of it must cost more.
 WdgHeuristic::Outcome WdgHeuristic::solve_groups(NodeView& view, Cost slack, const Limits& limits) {
   for (const auto& group : groups_in_conflict(view)) {
-    if (group.size() < 3 || std::ssize(group) > tuning_.group_agents) continue;
+    if (group.size() < 3 || std::ssize(group) > kMaxGroupAgents) continue;
     const auto situations = key(group);
     Known known = memory_.of_group(situations);
     if (known.exact || known.expansions > 0) continue;

@@ -131,12 +131,12 @@ TEST(Multicore, SoIsOneWithPricesForPlans) {
   for (const Instance& instance : some) {
     SolveOptions options = plain(1);
     options.deterministic = true;
-    options.tuning.lagrangian_agents = 1;
-    options.tuning.lagrangian_begins_work = 0;
+    options.tuning.lagrangian_min_agents = 1;
+    options.tuning.lagrangian_start_work = 0;
     options.tuning.lagrangian_step_work = 20;
-    options.tuning.first_price_list = 1;
-    options.tuning.priced_gap = 10;
-    options.tuning.most_primal_at_first = 1;
+    options.tuning.first_dual_solution_round = 1;
+    options.tuning.lagrangian_lns_max_gap = 10;
+    options.tuning.primal_max_share_initial = 1;
     using Counts = std::pair<std::int64_t, std::int64_t>;
     const auto counts = [&](int threads, Techniques techniques) {
       options.threads = threads;

@@ -106,7 +106,7 @@ TEST(PrimalScheduler, WhileMoreIsProvenBesideTheTreeItHasAsMuchAtLeast) {
   Setting s(testing::instance_of({"......"}, {{{0, 0}, Position{5, 0}}, {{5, 0}, Position{0, 0}}}));
   for (int i = 0; i < 10'000 && s.primal.counts().attempts <= 4; ++i) s.primal.step(s.limits);
   Tuning tuning;
-  tuning.primal_in_doubt = 0.125;
+  tuning.primal_share_after_failures = 0.125;
   PrimalScheduler share(2, tuning);
   share.add_tree_work(kLong);
   share.add_primal_work(s.primal, 8 * kLong);

@@ -134,18 +134,18 @@ Tuning random_tuning(Random& random) {
   Tuning tuning;
   // Else tiny instances are solved before the joint search is due.
   if (random.percent(20)) {
-    tuning.joint_begins_work = 0;
+    tuning.joint_start_work = 0;
     tuning.joint_step_work = random.pick<std::int64_t>({1, 20, 4000});
   }
   // Nor would it be tried with so few agents.
   if (random.percent(30)) {
-    tuning.lagrangian_agents = 1;
-    tuning.lagrangian_begins_work = 0;
-    tuning.most_lagrangian = random.pick<double>({0.5, 4, 100});
+    tuning.lagrangian_min_agents = 1;
+    tuning.lagrangian_start_work = 0;
+    tuning.lagrangian_max_share = random.pick<double>({0.5, 4, 100});
     tuning.lagrangian_step_work = random.pick<std::int64_t>({1, 100, 4000});
     tuning.lagrangian_level = random.pick<double>({0.03, 0.3});
-    tuning.first_price_list = random.between(1, 3);
-    tuning.priced_gap = random.pick<double>({0.1, 10});
+    tuning.first_dual_solution_round = random.between(1, 3);
+    tuning.lagrangian_lns_max_gap = random.pick<double>({0.1, 10});
   }
   if (random.below(4) > 0) return tuning;
   const auto all = tunables();

@@ -93,8 +93,8 @@ void choose_techniques(Part part, SolveOptions& options, Random& random) {
     case Part::kPairs:
       options.techniques = of_pairs(random);
       tuning.pair_expansions = random.pick<std::int64_t>({1, 2, 16});
-      tuning.compared_pairs = random.pick<std::int64_t>({1, 50'000, 50'000});
-      tuning.path_set_nodes = random.pick<std::int64_t>({10, 20'000, 20'000});
+      tuning.joint_mdd_nodes = random.pick<std::int64_t>({1, 50'000, 50'000});
+      tuning.mdd_nodes = random.pick<std::int64_t>({10, 20'000, 20'000});
       return;
     case Part::kGroups:
       options.techniques =
@@ -103,15 +103,15 @@ void choose_techniques(Part part, SolveOptions& options, Random& random) {
       return;
     case Part::kJoint:
       options.techniques = {Technique::kJointSearch};
-      tuning.joint_begins_work = 0;
+      tuning.joint_start_work = 0;
       tuning.joint_step_work = kToTheEnd;
-      tuning.most_joint = kAtOnce;
+      tuning.joint_max_share = kAtOnce;
       return;
     case Part::kPrices:
       options.techniques = {Technique::kLagrangian};
-      tuning.lagrangian_agents = 1;
-      tuning.lagrangian_begins_work = 0;
-      tuning.most_lagrangian = kAtOnce;
+      tuning.lagrangian_min_agents = 1;
+      tuning.lagrangian_start_work = 0;
+      tuning.lagrangian_max_share = kAtOnce;
       tuning.lagrangian_level = 0.3;
       return;
     case Part::kSequences:

@@ -171,9 +171,9 @@ class Trial {
     options.techniques =
         Techniques::defaults().without(Technique::kPrimal).without(Technique::kJointSearch);
     if (seed % 2 != 0) return;
-    options.tuning.lagrangian_agents = 1;
-    options.tuning.lagrangian_begins_work = 0;
-    options.tuning.most_lagrangian = 100;
+    options.tuning.lagrangian_min_agents = 1;
+    options.tuning.lagrangian_start_work = 0;
+    options.tuning.lagrangian_max_share = 100;
   }
 
   void write(const Instance& instance) const {

@@ -52,7 +52,7 @@ TEST(FinishTimeConflicts, AgreeWithAllPairsOfPaths) {
     const auto b = AgentGraph::make(known.instance, 1);
     if (!a || !b || a->count() == 0 || b->count() == 0) continue;
     FinishTimeConflicts pairs(known.instance.world(), known.stops,
-                              {.set_nodes = 1 << 20, .compared_pairs = 1 << 20, .bytes = 1 << 28});
+                              {.set_nodes = 1 << 20, .joint_mdd_nodes = 1 << 20, .bytes = 1 << 28});
     const Time least_a = a->to_go(AgentGraph::start());
     const Time least_b = b->to_go(AgentGraph::start());
     for (Time by_a = least_a; by_a < least_a + 4; ++by_a)
@@ -90,9 +90,9 @@ TEST(FinishTimeConflicts, SayNothingWithoutEffort) {
                                   b->to_go(AgentGraph::start())};
     if (!says(kEnough, pair)) continue;
     ++excluded;
-    EXPECT_FALSE(says({0, kEnough.compared_pairs, kEnough.bytes}, pair));
+    EXPECT_FALSE(says({0, kEnough.joint_mdd_nodes, kEnough.bytes}, pair));
     EXPECT_FALSE(says({kEnough.set_nodes, 0, kEnough.bytes}, pair));
-    EXPECT_FALSE(says({kEnough.set_nodes, kEnough.compared_pairs, 0}, pair));
+    EXPECT_FALSE(says({kEnough.set_nodes, kEnough.joint_mdd_nodes, 0}, pair));
   }
   EXPECT_GT(excluded, 10) << "nothing to be silent about";
 }

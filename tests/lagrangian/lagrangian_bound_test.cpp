@@ -20,7 +20,7 @@ Tuning wild_tuning(fuzz::Random& random) {
   tuning.lagrangian_level = random.pick<double>({0.01, 0.1, 1});
   tuning.lagrangian_patience = random.between(1, 10);
   tuning.lagrangian_shrink = random.pick<double>({0.5, 0.9, 0.99});
-  tuning.lagrangian_memory = random.pick<double>({0, 0.5, 0.95});
+  tuning.lagrangian_smoothing = random.pick<double>({0, 0.5, 0.95});
   tuning.lagrangian_step_work = random.pick<std::int64_t>({1, 50, 4000});
   return tuning;
 }
@@ -84,7 +84,7 @@ TEST_F(LagrangianBoundTest, SeesWhoCannotBothBeFirst) {
 TEST_F(LagrangianBoundTest, TellsThePricesOfItsBestRounds) {
   Known known(corridor());
   Tuning tuning;
-  tuning.first_price_list = 3;
+  tuning.first_dual_solution_round = 3;
   const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
   Pricer pricer(bound->multipliers(), known.stops);
   std::shared_ptr<const DualSolution> last;

@@ -24,8 +24,8 @@ Tuning restless(fuzz::Random& random) {
   tuning.lagrangian_level = random.pick<double>({0.02, 0.3, 1});
   tuning.lagrangian_shrink = random.pick<double>({0.8, 0.99});
   tuning.lagrangian_step_work = 1;
-  tuning.lagrangian_share_work = 1;
-  tuning.lagrangian_trial = 1000;
+  tuning.lagrangian_min_remote_work = 1;
+  tuning.lagrangian_min_rounds = 1000;
   return tuning;
 }
 
@@ -149,7 +149,7 @@ class OneHelper : public ::testing::Test {
   Known known{corridor()};
   Tuning tuning = [] {
     Tuning t;
-    t.lagrangian_step_work = t.lagrangian_share_work = 1;
+    t.lagrangian_step_work = t.lagrangian_min_remote_work = 1;
     return t;
   }();
   std::unique_ptr<LagrangianBound> bound =

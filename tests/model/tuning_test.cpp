@@ -32,8 +32,8 @@ TEST(Tuning, SetsTheNumberOfThatNameAndNoOther) {
     EXPECT_TRUE(names.insert(t.name()).second);
     Tuning tuning;
     const std::string before = t.value(tuning);
-    const std::string other = before == fmt::format("{}", t.least) ? fmt::format("{}", t.least + 1)
-                                                                   : fmt::format("{}", t.least);
+    const std::string other = before == fmt::format("{}", t.min) ? fmt::format("{}", t.min + 1)
+                                                                 : fmt::format("{}", t.min);
     set(tuning, t.name() + "=" + other);
     for (const Tunable& u : tunables())
       EXPECT_EQ(u.value(tuning), &u == &t ? other : u.value({})) << u.name();
@@ -46,25 +46,47 @@ TEST(Tuning, SetsTheNumberOfThatNameAndNoOther) {
 
 TEST(Tuning, DefaultsAreWithinTheirRanges) {
   for (const Tunable& t : tunables()) {
-    EXPECT_LT(t.least, t.most) << t.name();
+    EXPECT_LT(t.min, t.max) << t.name();
     EXPECT_EQ(complaint(t.name() + "=" + t.value({})), "none");
   }
 }
 
 TEST(Tuning, TakesBothEndsOfARangeAndNothingBeyond) {
-  for (const char* good : {"group-agents=2", "group-agents=64", "way-memory=0", "way-memory=1.0",
-                           "order-spread=5e-1", "bound-work=1000000000000000"})
+  for (const char* good : {"joint-group-agents=2", "joint-group-agents=16", "record-deviation=0",
+                           "record-deviation=1.0", "large-gap=5e-1", "bound-work=1000000000000000"})
     EXPECT_EQ(complaint(good), "none");
-  EXPECT_EQ(complaint("group-agents=1"),
-            "group-agents: found '1'; expected an integer from 2 to 64");
-  EXPECT_EQ(complaint("way-memory=1.01"),
-            "way-memory: found '1.01'; expected a number from 0 to 1");
-  for (const char* bad : {"group-agents=65", "group-agents=3.5", "group-agents=", "group-agents= 3",
-                          "group-agents=3x", "way-memory=-0.1", "way-memory=nan", "bound-work=1e3",
+  EXPECT_EQ(complaint("joint-group-agents=1"),
+            "joint-group-agents: found '1'; expected an integer from 2 to 16");
+  EXPECT_EQ(complaint("record-deviation=1.01"),
+            "record-deviation: found '1.01'; expected a number from 0 to 1");
+  for (const char* bad : {"joint-group-agents=17", "joint-group-agents=3.5",
+                          "joint-group-agents=", "joint-group-agents= 3", "joint-group-agents=3x",
+                          "record-deviation=-0.1", "record-deviation=nan", "bound-work=1e3",
                           "bound-work=99999999999999999999"})
     EXPECT_THAT(complaint(bad), HasSubstr("expected a")) << bad;
-  for (const char* bad : {"", "=", "group-agents", "group_agents=3", "agents=3"})
+  for (const char* bad : {"", "=", "joint-group-agents", "joint_group_agents=3", "agents=3"})
     EXPECT_THAT(complaint(bad), HasSubstr("expected NAME=VALUE")) << bad;
+}
+
+TEST(Tuning, AcceptsTheOldNamesOfParameters) {
+  Tuning tuning;
+  set(tuning, "far-plan=0.5");
+  EXPECT_EQ(tuning.large_gap, 0.5);
+  EXPECT_EQ(complaint("far-plan=-1"), "far-plan: found '-1'; expected a number from 0 to 1000000");
+  std::set<std::string> names;
+  for (const std::string& name : accepted_tunable_names()) {
+    EXPECT_TRUE(names.insert(name).second) << name << " twice";
+    EXPECT_THAT(complaint(name + "=x"), HasSubstr(name + ": found 'x'; expected "));
+  }
+}
+
+TEST(Tuning, RefusesToChangeFormerParameters) {
+  Tuning tuning;
+  set(tuning, "spot-steps=8");
+  EXPECT_EQ(tuning, Tuning());
+  EXPECT_EQ(complaint("spot-steps=9"),
+            "spot-steps: found '9'; expected 8, because it is a constant");
+  EXPECT_EQ(complaint("spot-steps"), "spot-steps: found ''; expected 8, because it is a constant");
 }
 
 }  // namespace tuning_test

@@ -345,7 +345,7 @@ class Faults(Program):
         limit = 2
         while True:
             running = start(mpirun(3, "solve", instance, "--omega", 0, "--threads", 1, "--time-limit", limit,
-                                   "--tune=patience=2", "--output", "plan.json"), self.folder)
+                                   "--tune=unresponsive-timeout=2", "--output", "plan.json"), self.folder)
             try:
                 self.stop(self.searching_ranks(running)[0])
                 break

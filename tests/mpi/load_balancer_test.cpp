@@ -45,7 +45,7 @@ TEST(LoadBalancer, NobodyIsGivenMoreBeforeTheLastHasArrived) {
 }
 
 TEST(LoadBalancer, TheSecondBestBoundWillDo) {
-  LoadBalancer broker(alone(3), {.gift_nodes = 1});
+  LoadBalancer broker(alone(3), {.transfer_nodes = 1});
   message::Status status = with(0, 10, 1);
   status.surplus.push_back({11, 1});
   broker.heard(0, status);
@@ -54,7 +54,7 @@ TEST(LoadBalancer, TheSecondBestBoundWillDo) {
 }
 
 TEST(LoadBalancer, OneGiverServesSeveralWhileItHasSome) {
-  LoadBalancer broker(alone(4), {.gift_nodes = 2});
+  LoadBalancer broker(alone(4), {.transfer_nodes = 2});
   broker.heard(0, with(0, 10, 5));
   std::vector<int> given;
   std::int64_t nodes = 0;
@@ -78,7 +78,7 @@ TEST(LoadBalancer, WorkFarAboveTheBoundIsReplacedWhereThereIsPlentyOfBetter) {
 }
 
 TEST(LoadBalancer, NextNodesAreForIdleRanksOnly) {
-  LoadBalancer broker(alone(3), {.plenty_nodes = 1});
+  LoadBalancer broker(alone(3), {.min_surplus_nodes = 1});
   broker.heard(1, with(1, 15, 0));
   broker.heard(2, with(2, kInfiniteCost, 0));
   message::Status status = with(0, 10, 0);

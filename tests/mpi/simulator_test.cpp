@@ -124,9 +124,9 @@ TEST(Simulator, RanksFindPricesForRankZero) {
     for (const int ranks : {1, 3, 16}) {
       SolveOptions options = with_start(c);
       options.techniques = options.techniques.with(Technique::kLagrangian);
-      options.tuning.lagrangian_agents = 1;
-      options.tuning.lagrangian_begins_work = 0;
-      options.tuning.lagrangian_share_work = options.tuning.lagrangian_step_work = 1;
+      options.tuning.lagrangian_min_agents = 1;
+      options.tuning.lagrangian_start_work = 0;
+      options.tuning.lagrangian_min_remote_work = options.tuning.lagrangian_step_work = 1;
       const SimulatedRun run = run_of(c, options, ranks, quick);
       ASSERT_TRUE(run.ended);
       EXPECT_EQ(run.solution.status, Status::kOptimal);

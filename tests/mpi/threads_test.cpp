@@ -183,8 +183,8 @@ TEST(Threads, FindPricesForEachOther) {
   std::int64_t prices = 0;
   for (const int threads : {1, 2}) {
     SolveOptions options = poor(threads, Policy::kFree, Techniques::defaults());
-    options.tuning.lagrangian_begins_work = 0;
-    options.tuning.lagrangian_share_work = 1000;
+    options.tuning.lagrangian_start_work = 0;
+    options.tuning.lagrangian_min_remote_work = 1000;
     ThreadNetwork network(3, 5, 1);
     Interrupter interrupter(network);
     LimitOfHangs limits;

@@ -158,20 +158,20 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
   if (dice.percent(60)) options.omega = Omega();
   if (dice.percent(40)) {
     options.techniques = options.techniques.with(Technique::kJointSearch);
-    options.tuning.joint_begins_work = 0;
+    options.tuning.joint_start_work = 0;
     options.tuning.joint_step_work = 1;
   }
   if (dice.percent(70)) {
     options.techniques = options.techniques.with(Technique::kLagrangian);
-    options.tuning.lagrangian_agents = 1;
-    options.tuning.lagrangian_begins_work = 0;
+    options.tuning.lagrangian_min_agents = 1;
+    options.tuning.lagrangian_start_work = 0;
     options.tuning.lagrangian_step_work = 1;
-    options.tuning.lagrangian_share_work = 1;
-    options.tuning.most_lagrangian = dice.pick<double>({2, 50});
+    options.tuning.lagrangian_min_remote_work = 1;
+    options.tuning.lagrangian_max_share = dice.pick<double>({2, 50});
     options.tuning.lagrangian_level = dice.pick<double>({0.02, 0.2});
   }
   options.tuning.coordinator_children = std::array{2, 3, 2, 64}[seed % 4];
-  options.tuning.knowledge_rate = std::array{8.0, 0.01, 0.0}[seed % 3];
+  options.tuning.bound_broadcast_rate = std::array{8.0, 0.01, 0.0}[seed % 3];
   if (dice.percent(20)) options.policy = Policy::kFixed;
   if (dice.percent(30)) options.node_memory = dice.pick<std::size_t>({500, 2000, 5000});
   const bool is_tiny = dice.percent(50);

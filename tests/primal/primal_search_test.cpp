@@ -124,7 +124,7 @@ TEST(PrimalSearch, WhoFailsIsPlannedBeforeThoseInItsWay) {
                                         {{{2, 0}, Position{3, 1}}, {{3, 2}, Position{0, 0}}});
   for (const bool keeps : {false, true}) {
     Tuning tuning;
-    if (keeps) tuning.planning_labels_to_keep = 0;
+    if (keeps) tuning.pp_resume_labels = 0;
     Search search(instance, 0, Techniques::defaults().without(Technique::kConfigurations), tuning);
     const std::vector<Plan> plans = search.plans(1);
     ASSERT_FALSE(plans.empty());
@@ -136,9 +136,9 @@ TEST(PrimalSearch, WhoFailsIsPlannedBeforeThoseInItsWay) {
 // However orders go on and paths are found.
 TEST(PrimalSearch, EveryPlanIsValidInAHurry) {
   Tuning tuning;
-  tuning.planning_labels_to_keep = 0;
-  tuning.planning_exact_labels = 1;
-  tuning.planning_exact_labels_of_found = 0;
+  tuning.pp_resume_labels = 0;
+  tuning.pp_exact_labels = 1;
+  tuning.pp_exact_labels_factor = 0;
   int solved = 0;
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -191,7 +191,7 @@ TEST(PrimalSearch, ImprovesItsFirstPlan) {
 TEST(PrimalSearch, PricesHelpAndAreHeededAlikeTwice) {
   const Instance instance = doors();
   Tuning tuning;
-  tuning.priced_gap = 1;
+  tuning.lagrangian_lns_max_gap = 1;
   std::vector<std::int64_t> work[2];
   for (auto& counts : work) {
     Search search(instance, 1, Techniques::defaults(), tuning);
@@ -208,7 +208,7 @@ TEST(PrimalSearch, PricesHelpAndAreHeededAlikeTwice) {
   without.plans(300);
   EXPECT_NE(without.primal.work(), work[0].back());
 
-  tuning.priced_gap = 0;  // no plan is so near
+  tuning.lagrangian_lns_max_gap = 0;  // no plan is so near
   Search too_far(instance, 1, Techniques::defaults(), tuning);
   too_far.primal.use(testing::prices_of(instance, too_far.stops, 60));
   too_far.plans(300);
@@ -218,7 +218,7 @@ TEST(PrimalSearch, PricesHelpAndAreHeededAlikeTwice) {
 TEST(PrimalSearch, EveryPlanByPricesIsValid) {
   int priced = 0;
   Tuning tuning;
-  tuning.priced_gap = 1e6;
+  tuning.lagrangian_lns_max_gap = 1e6;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Instance instance = fuzz::random_instance(seed).build();
@@ -240,9 +240,9 @@ TEST(PrimalSearch, GoesOnFromPlansThatAreLittleWorse) {
   int better = 0, worse = 0;
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     Tuning walk;
-    walk.worse_plans_loss = 10;
+    walk.record_deviation_max_loss = 10;
     Tuning descent;
-    descent.worse_plans = 0;
+    descent.record_deviation = 0;
     const Cost by_descent =
         Search(instance, seed, Techniques::defaults(), descent).plans(250).back().cost;
     const Cost by_walk =
@@ -365,7 +365,7 @@ TEST(PrimalSearch, APlanOfAnotherSearchDoesNotEndPrioritisedPlanning) {
     const Instance instance = testing::random_crowd({.size = 16, .agents = 50}, seed);
     const Plan dear = [&] {
       Tuning tuning;
-      tuning.planning_head_start = 1;
+      tuning.pp_head_start = 1;
       Search donor(instance, seed, Techniques::defaults(), tuning);
       std::vector<Plan> plans;
       while (plans.empty()) plans = donor.plans(1);

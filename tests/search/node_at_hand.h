@@ -28,7 +28,7 @@ struct NodeAtHand {
         forest(problem, stops, pool, limits),
         root(forest.next_root()),
         planner(problem, stops),
-        memory(planner, std::make_shared<SharedCache>(), options.tuning.path_set_nodes),
+        memory(planner, std::make_shared<SharedCache>(), options.tuning.mdd_nodes),
         view(problem, options, memory),
         all(static_cast<std::size_t>(instance.agent_count())) {
     std::iota(all.begin(), all.end(), 0);

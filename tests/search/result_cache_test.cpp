@@ -176,7 +176,7 @@ TEST_F(Groups, AreTheSameWhateverTheOrderInWhichTheyWereNumbered) {
 struct TwoWorkers : testing::NodeAtHand {
   TwoWorkers()
       : NodeAtHand({"..."}, {{{0, 0}, Position{2, 0}}}),
-        other(planner, memory.common(), options.tuning.path_set_nodes) {}
+        other(planner, memory.common(), options.tuning.mdd_nodes) {}
 
   WorkerCache other;
 };

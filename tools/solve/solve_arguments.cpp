@@ -82,23 +82,24 @@ Techniques techniques_of(const SolveArguments& arguments) {
 
 std::string help_on_tuning() {
   std::string text =
-      "--tune NAME=VALUE: numbers of the search, for experiments. They change how "
-      "fast it is, never what it proves.\n";
+      "--tune NAME=VALUE sets a parameter of the search, for experiments. No parameter changes "
+      "what "
+      "is proven.\n";
   for (const Tunable& t : tunables())
-    text +=
-        fmt::format("\n{}={}  (from {} to {})\n  {}\n{}", t.name(), t.value({}), t.least, t.most,
-                    t.what, t.measured.empty() ? "" : fmt::format("  [{}]\n", t.measured));
+    text += fmt::format("\n{}={}  (from {} to {})\n  {}\n{}", t.name(), t.value({}), t.min, t.max,
+                        t.meaning, t.evidence.empty() ? "" : fmt::format("  [{}]\n", t.evidence));
   return text;
 }
 
 std::string check_tuning(const std::string& text) {
   if (text == "help") throw CLI::CallForVersion(help_on_tuning(), 0);
-  std::vector<std::string> names;
-  for (const Tunable& t : tunables()) names.push_back(t.name());
   const std::string name = text.substr(0, text.find('='));
-  if (std::ranges::find(names, name) == names.end())
+  if (const auto known = accepted_tunable_names(); std::ranges::find(known, name) == known.end()) {
+    std::vector<std::string> names;
+    for (const Tunable& t : tunables()) names.push_back(t.name());
     return fmt::format("found '{}'; expected one of those that '--tune help' lists{}", name,
                        suggestion(name, names));
+  }
   try {
     Tuning scratch;
     set(scratch, text);

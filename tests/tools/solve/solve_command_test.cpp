@@ -132,16 +132,17 @@ TEST_F(SolveCommand, TunesNumbersOfTheSearch) {
   };
   const int defaults = nodes({});
   EXPECT_EQ(nodes({"--tune", "pair-expansions=16"}), defaults);
-  EXPECT_LT(nodes({"--tune", "pair-expansions=1,order-spread=0", "--tune", "bypasses=3"}),
+  EXPECT_LT(nodes({"--tune", "pair-expansions=1,large-gap=0", "--tune", "bound-work=3000"}),
             defaults);
   EXPECT_THAT(plan("p.json")["stats"]["options"].get<std::string>(),
-              HasSubstr("--tune pair-expansions=1,order-spread=0,bypasses=3"));
-  EXPECT_EQ(complaint(solve({data("first.cts.json"), "--tune", "bypass=3"})),
-            "--tune: found 'bypass'; expected one of those that '--tune help' lists; did you mean "
-            "'bypasses'? (see 'grove solve --help')");
-  EXPECT_THAT(complaint(solve({data("first.cts.json"), "--tune", "bypasses=-1"})),
-              HasSubstr("--tune: bypasses: found '-1'; expected an integer from 0 to 1000000"));
-  EXPECT_THAT(complaint(solve({data("first.cts.json"), "--tune", "bypasses"})),
+              HasSubstr("--tune pair-expansions=1,large-gap=0,bound-work=3000"));
+  EXPECT_EQ(
+      complaint(solve({data("first.cts.json"), "--tune", "mdd-node=3"})),
+      "--tune: found 'mdd-node'; expected one of those that '--tune help' lists; did you mean "
+      "'mdd-nodes'? (see 'grove solve --help')");
+  EXPECT_THAT(complaint(solve({data("first.cts.json"), "--tune", "mdd-nodes=0"})),
+              HasSubstr("--tune: mdd-nodes: found '0'; expected an integer from 1 to 1000000000"));
+  EXPECT_THAT(complaint(solve({data("first.cts.json"), "--tune", "mdd-nodes"})),
               HasSubstr("expected NAME=VALUE"));
   const ProcessResult help = solve({"--tune", "help"});
   EXPECT_EQ(help.exit_code, 0);
