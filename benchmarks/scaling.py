@@ -56,7 +56,7 @@ COST_PER_WORK = 1.3e-7  # seconds; see results/scaling/README.md
 NO_LIMIT = ["--time-limit", 40000]
 FREE_MESSAGES = ["--latency", 0, "--message-cost", 0, "--bandwidth", 1e15, "--poll", 0]
 OPTIMAL = ["--omega", 0]
-TREE_ONLY = ["--threads", 1, "--without", "primal,configurations"]
+TREE_ONLY = ["--threads", 1, "--without", "primal,lacam"]
 
 
 def until_bound_of(plan):

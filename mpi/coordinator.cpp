@@ -227,7 +227,7 @@ std::int64_t Coordinator::check_unresponsive_ranks() {
   if (!stopped_at_) stopped_at_ = now;
   if (now - std::max(heard_at_, *stopped_at_) < kLongSilence) return 0;
   if (gathering_) {
-    run_.announcements().checkpoint({.failure = "a rank says nothing any more"});
+    run_.announcements().checkpoint({.failure = "a rank is unresponsive"});
     gathering_.reset();
     gathered_at_end_ = true;
     return 0;

@@ -44,7 +44,7 @@ void serialize(Archive& archive, ProcessStatistics& account) {
 
 template <class Archive>
 void serialize(Archive& archive, RankStatistics& rank) {
-  archive(rank.expanded, rank.open, rank.bound, rank.low_level_calls, rank.prices_asked);
+  archive(rank.expanded, rank.open, rank.bound, rank.low_level_calls, rank.branching_cost_queries);
   at_full_width(archive, rank.memory);
 }
 

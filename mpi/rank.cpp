@@ -314,8 +314,8 @@ RunStatistics Rank::survey(Stats counts) const {
   counts.counts["messages"] += transport_.messages();
   counts.counts["message_bytes"] += transport_.bytes();
   counts.counts["nodes_sent"] += nodes_sent_;
-  counts.counts["facts_sent"] += facts_sent_;
-  std::int64_t& batches = counts.counts["batches"];
+  counts.counts["learned_bounds_sent"] += facts_sent_;
+  std::int64_t& batches = counts.counts["node_batches"];
   for (const auto& [rank, peer] : peers_) batches += peer.sent;
   RunStatistics survey{{std::move(counts.counts), search_.memory_use()}, {}};
   RankStatistics& mine = survey.ranks[transport_.rank()];
@@ -324,7 +324,7 @@ RunStatistics Rank::survey(Stats counts) const {
   if (nodes_.any()) mine.bound = nodes_.bound();
   mine.memory = survey.whole.memory.process;
   mine.low_level_calls = survey.whole.counts["low_level_calls"];
-  mine.prices_asked = survey.whole.counts["prices_asked"];
+  mine.branching_cost_queries = survey.whole.counts["branching_cost_queries"];
   return survey;
 }
 

@@ -131,10 +131,9 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
     if (heard) heard_at = now;
     silence.go_on(now, heard);
     if (!member.coordinator() && std::min(silence.seconds(), -limits.seconds_left()) > patience)
-      throw std::runtime_error(
-          fmt::format("rank 0 has said nothing for {} s after the limit: it stands still, and "
-                      "the job ends without an answer",
-                      patience));
+      throw std::runtime_error(fmt::format(
+          "rank 0 has not responded for {} s after the limit; the job ends without an answer",
+          patience));
     const double rested = seconds();
     const double poll_interval = max_poll_interval(member.rank().ended());
     if (!heard) sleep(next_poll(heard_at, rested + kLeastNap_s, poll_interval) - rested);

@@ -48,7 +48,7 @@ void CentralTrees::add_counts(Stats& stats) const {
   stats.counts["restarts"] += restarts_;
   stats.counts["roots_generated"] += count_;
   stats.counts["trees_prepared"] += prepared_count_;
-  stats.counts["trees_prepared_in_vain"] += prepared_ ? 1 : 0;
+  stats.counts["trees_prepared_unused"] += prepared_ ? 1 : 0;
   stats.counts["rtsp_calls"] += forest_.rtsp_calls();
 }
 

@@ -60,7 +60,7 @@ class LagrangianScheduler {
   // Takes the reply of `rank`. Returns the proven lower bound: no plan costs less. Throws
   // std::invalid_argument if `rank` cannot have a request.
   Cost accept(int rank, PricingReply answer);
-  std::int64_t prices_of_ranks() const { return prices_of_ranks_; }
+  std::int64_t remote_pricings() const { return prices_of_ranks_; }
 
   // Call on a rank other than 0: takes a pricing request, which precedes all other work. Throws as
   // RemotePricing::accept().

@@ -34,7 +34,7 @@ struct RankStatistics {
   std::optional<Cost> bound;  // nullopt: the rank holds no node
   std::int64_t memory = 0;    // bytes, of the process
   std::int64_t low_level_calls = 0;
-  std::int64_t prices_asked = 0;
+  std::int64_t branching_cost_queries = 0;
 };
 
 struct RunStatistics {

@@ -150,8 +150,8 @@ void SharedSearch::add_counts(Stats& stats) const {
   stats.counts["nodes_generated"] += nodes_generated_;
   stats.counts["nodes_evicted"] += nodes_evicted_;
   if (lagrangian_.rounds() > 0) stats.counts["lagrangian_rounds"] += lagrangian_.rounds();
-  if (lagrangian_.prices_of_ranks() > 0)
-    stats.counts["prices_of_ranks"] += lagrangian_.prices_of_ranks();
+  if (lagrangian_.remote_pricings() > 0)
+    stats.counts["remote_pricings"] += lagrangian_.remote_pricings();
 }
 
 MemoryUse SharedSearch::memory_use() const {

@@ -20,7 +20,7 @@ constexpr double kGoldenRatio = 0.6180339887;  // its multiples spread evenly ov
 
 // Name of the statistics counter for splits of this kind.
 std::string count_of_splits(ConstraintKind kind) {
-  std::string name = "splits_" + std::string(name_of(kind));
+  std::string name = "splits_" + std::string(split_name(kind));
   std::ranges::replace(name, '-', '_');
   return name;
 }
@@ -104,7 +104,7 @@ PrimalSearch& Worker::primal() {
                                              options_.techniques, options_.tuning);
   if (const auto plan = shared_.ledger().plan_below(primal_->best_cost().value_or(kInfiniteCost)))
     primal_->adopt(*plan);
-  if (techniques_of(options_).has(Technique::kPricedPlans))
+  if (techniques_of(options_).has(Technique::kLagrangianLns))
     primal_->use(shared_.lagrangian().price_list());
   return *primal_;
 }
@@ -216,21 +216,21 @@ void Worker::add_counts(Stats& stats) const {
   counts["low_level_calls"] += tree.low_level_calls;
   counts["low_level_expanded"] += tree.low_level_expanded;
   counts["pair_expansions"] += tree.pair_expansions;
-  counts["joint_pairs"] += tree.joint_pairs;
+  counts["joint_mdd_nodes"] += tree.joint_mdd_nodes;
   if (tree.group_states > 0) counts["group_states"] += tree.group_states;
   for (std::uint8_t kind = 0; kind < kConstraintKinds; ++kind)
     if (tree.splits[kind] > 0) counts[count_of_splits(*constraint_kind(kind))] += tree.splits[kind];
   counts["bypasses"] += tree.bypasses;
-  counts["prices_asked"] += tree.prices_asked;
-  counts["prices_known"] += tree.prices_known;
-  counts["path_sets_asked"] += tree.sets_asked;
-  counts["path_sets_known"] += tree.sets_known;
-  counts["helps"] += helps_;
+  counts["branching_cost_queries"] += tree.branching_cost_queries;
+  counts["branching_cost_hits"] += tree.branching_cost_hits;
+  counts["mdd_queries"] += tree.sets_asked;
+  counts["mdd_hits"] += tree.sets_known;
+  counts["assists"] += helps_;
   if (joint_states_ > 0) counts["joint_states"] += joint_states_;
   counts["primal_steps"] += primal.steps;
   counts["primal_attempts"] += primal.attempts;
-  counts["primal_joint_steps"] += primal.joint_steps;
-  counts["primal_neighborhoods"] += primal.neighborhoods;
+  counts["primal_lacam_steps"] += primal.joint_steps;
+  counts["primal_lns_iterations"] += primal.neighborhoods;
   counts["primal_low_level_calls"] += primal.low_level_calls;
   counts["primal_low_level_expanded"] += primal.low_level_expanded;
 }

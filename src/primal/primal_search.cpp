@@ -96,7 +96,7 @@ class PrimalSearch::Impl {
         tuning_(tuning),
         seed_(seed),
         // LaCAM lets an agent enter a place in the step in which another agent leaves it.
-        may_configure_(techniques.has(Technique::kConfigurations) && problem.instance.may_follow()),
+        may_configure_(techniques.has(Technique::kLacam) && problem.instance.may_follow()),
         may_guide_(may_configure_),
         agents_(problem.instance.agent_count()),
         random_(seed),
@@ -335,7 +335,7 @@ void PrimalSearch::Impl::configure(const Limits& limits) {
       configurations_->run(limits, std::max<std::int64_t>(1, tuning_.primal_step_work / agents_));
   joint_steps_ += configurations_->steps() - before;
   if (outcome == Outcome::kFound) {
-    put_all(*configurations_->plan(), PlanSource::kConfigurations);
+    put_all(*configurations_->plan(), PlanSource::kLacam);
   }
   // Where memory is short it is left to others.
   const bool lost =
@@ -364,7 +364,7 @@ void PrimalSearch::Impl::guide(const Limits& limits) {
   if (outcome == Outcome::kFound) {
     const Plan& plan = guided_->plan();
     if (plan.cost < paths_.cost()) {
-      put_all(plan, PlanSource::kConfigurations);
+      put_all(plan, PlanSource::kLacam);
       rounds_in_vain_ = 0;
     }
     guided_->learn(plan);

@@ -18,7 +18,7 @@
 namespace grove::detail {
 
 // Finds a first plan by prioritised planning, interleaved with LaCAM where that takes long (only
-// with Technique::kConfigurations). Then it improves the plan by large neighbourhood search, and
+// with Technique::kLacam). Then it improves the plan by large neighbourhood search, and
 // restarts with another agent order when that stalls. The schedule is at the head of
 // primal_search.cpp. Works in small steps, so that one thread can do other work in between.
 // Deterministic: the same seed, steps, adopted plans and dual solutions make the same plans, limits

@@ -150,7 +150,7 @@ WdgHeuristic::Outcome WdgHeuristic::solve_conflicting(NodeView& view, Cost slack
     Known known = this->known(a, b);
     if (known.exact || known.excess > slack || known.expansions > 0) continue;
     if (work() >= give_up_at_) return Outcome::kUnfinished;
-    if (techniques_.has(Technique::kJointPaths) && known.excess == 0) {
+    if (techniques_.has(Technique::kJointMdd) && known.excess == 0) {
       const auto dependence = compare(view, a, b, limits);
       if (!dependence) return Outcome::kStopped;
       // (The comparison ignores following conflicts.)

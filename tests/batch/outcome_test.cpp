@@ -18,7 +18,7 @@ class Outcomes : public ::testing::Test {
     solution_.lower_bound = 3;
     solution_.plan = Plan{3, {AgentPlan{3, {0}, path({0, 1, 2, 3})}}};
     solution_.stats.counts = {{"roots_generated", 1}, {"rtsp_calls", 2}, {"nodes_expanded", 3},
-                              {"low_level_calls", 4}, {"bypasses", 6},   {"splits_bar", 7},
+                              {"low_level_calls", 4}, {"bypasses", 6},   {"splits_vertex_edge", 7},
                               {"restarts", 0},        {"threads", 2}};
     solution_.stats.measures = {{"peak_memory_mb", 5.5}};
     solution_.stats.texts = {{"version", "grove 9"}};
@@ -45,7 +45,7 @@ TEST_F(Outcomes, SayWhatWasChecked) {
                                 .nodes = 3,
                                 .low_level_calls = 4,
                                 .peak_memory_mb = 5.5,
-                                .counts = "bypasses=6 splits_bar=7",
+                                .counts = "bypasses=6 splits_vertex_edge=7",
                                 .version = "grove 9"}));
 }
 

@@ -87,7 +87,7 @@ TEST(Rows, AreCsvWithTheSameColumns) {
             "set/a_s3_n2_m4_mg,auto,'--omega 0.01,\"a, \"\"b\"\"\",3,2,4,mg,0.01,7,60.0,true,"
             "bounded,200,160,0.25,150,0.75,1.25,1.25,0.25,3,4,5,6,7.25,grove 0.1.0 (git 0123),\"a "
             "processor, 2 cores\",2026-11-30T23:59:59Z,,4,2,1.5,,0123456789abcdef,bypasses=8 "
-            "splits_bar=9,,,,,false,,,,\n");
+            "splits_vertex_edge=9,,,,,false,,,,\n");
   EXPECT_EQ(
       csv_line(failed_row()),
       "i,auto,'--omega 0.01,\"a, \"\"b\"\"\",,2,4,mg,0.01,7,60.0,false,error,,,,150,,60.0,1.25,"
@@ -126,7 +126,7 @@ TEST(Rows, TellClaims) {
   EXPECT_EQ(row.runtime_s(), row.wall_s);
   row.wall_s = 61;
   EXPECT_EQ(row.runtime_s(), 60);
-  for (const char* status : {kWrongPlan, kClaimed, kUnsuitable}) {
+  for (const char* status : {kInvalidPlan, kClaimed, kUnsupported}) {
     Row none = failed_row();
     none.outcome.status = status;
     EXPECT_EQ(parse_json_line(json_line(none)), none);
@@ -145,6 +145,15 @@ TEST(Rows, NeedNoLaterColumns) {
   Row expected = solved_row();
   expected.outcome.counts = "";
   EXPECT_EQ(parse_json_line(line.dump()), expected);
+}
+
+TEST(Rows, AcceptOldStatuses) {
+  Row row = failed_row();
+  for (const auto& [old, now] : {std::pair{"wrong", kInvalidPlan}, {"unsuitable", kUnsupported}}) {
+    json line = json::parse(json_line(row));
+    line["status"] = old;
+    EXPECT_EQ(parse_json_line(line.dump()).outcome.status, now);
+  }
 }
 
 TEST(Rows, HaveSecondsThatPeopleCanRead) {

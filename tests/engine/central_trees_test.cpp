@@ -145,13 +145,13 @@ TEST_F(CentralTreesTest, APreparedTreeIsNotInstantiatedAndBoundsThoseToCome) {
   EXPECT_EQ(trees_->count(), 1);
   EXPECT_EQ(ledger_->trees_from(), 10);
   EXPECT_EQ(nodes_.frontier.open(), 1u);
-  EXPECT_EQ(count("trees_prepared_in_vain"), 1);
+  EXPECT_EQ(count("trees_prepared_unused"), 1);
   settle_best();
   trees_->refill_nodes();
   EXPECT_EQ(nodes_.bound(), 10);
   EXPECT_EQ(ledger_->trees_from(), 12);
   EXPECT_EQ(count("trees_prepared"), 1);
-  EXPECT_EQ(count("trees_prepared_in_vain"), 0);
+  EXPECT_EQ(count("trees_prepared_unused"), 0);
   EXPECT_TRUE(trees_->claim_preparation());
 }
 

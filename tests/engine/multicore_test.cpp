@@ -147,7 +147,7 @@ TEST(Multicore, SoIsOneWithPricesForPlans) {
       return Counts{all["lagrangian_rounds"], all["primal_low_level_expanded"]};
     };
     const Techniques without = options.techniques.with(Technique::kLagrangian);
-    const Techniques with = without.with(Technique::kPricedPlans);
+    const Techniques with = without.with(Technique::kLagrangianLns);
     const auto one = counts(1, with);
     EXPECT_EQ(counts(3, with), one);
     prices_matter += counts(1, without) != one;

@@ -240,7 +240,7 @@ TEST(Solve, ThePrimalSearchFindsAndImprovesPlans) {
   EXPECT_EQ(watcher.sources.front(), PlanSource::kPrioritizedPlanning);
   EXPECT_EQ(watcher.sources.back(), PlanSource::kLns);
   EXPECT_GT(solution.stats.counts.at("primal_low_level_calls"), 0);
-  EXPECT_GT(solution.stats.counts.at("primal_neighborhoods"), 0);
+  EXPECT_GT(solution.stats.counts.at("primal_lns_iterations"), 0);
 }
 
 TEST(Solve, BetterPlansAreCountedByWhereTheyCameFrom) {
@@ -290,11 +290,11 @@ TEST(Solve, ConfigurationsCanBeSwitchedOffAlone) {
   const Instance instance = testing::random_crowd({.agents = 50, .tasks = 50}, 1);
   for (const bool with : {true, false}) {
     SolveOptions options;
-    if (!with) options.techniques = options.techniques.without(Technique::kConfigurations);
+    if (!with) options.techniques = options.techniques.without(Technique::kLacam);
     const testing::LimitOfLooks limits(20'000);
     const Solution solution = solve(instance, options, limits);
     EXPECT_GT(solution.stats.counts.at("primal_attempts"), 1);
-    EXPECT_EQ(solution.stats.counts.at("primal_joint_steps") > 0, with);
+    EXPECT_EQ(solution.stats.counts.at("primal_lacam_steps") > 0, with);
     EXPECT_TRUE(!with || solution.plan);
     if (solution.plan) {
       EXPECT_TRUE(check(instance, solution).empty());

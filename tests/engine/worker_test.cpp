@@ -68,7 +68,7 @@ TEST(Worker, OthersSeeATurnWhenItIsCommitted) {
 // Labels, 16 for each call of the low level, and a quarter of the steps of the node's paths; and
 // what else takes time.
 TEST(Worker, CountsTheWorkOfATurn) {
-  Search s({Technique::kStrongBranching, Technique::kDependencies, Technique::kJointPaths});
+  Search s({Technique::kStrongBranching, Technique::kWdg, Technique::kJointMdd});
   Worker worker = s.worker();
   for (int i = 0; i < 3; ++i) {
     auto turn = worker.choose();
@@ -83,12 +83,12 @@ TEST(Worker, CountsTheWorkOfATurn) {
   }
   const ExpansionCounts c = worker.expander().counts();
   EXPECT_GT(c.low_level_calls, 0);
-  EXPECT_GT(c.joint_pairs, 0);
+  EXPECT_GT(c.joint_mdd_nodes, 0);
   EXPECT_EQ(count(worker, "low_level_calls"), c.low_level_calls);
   const std::int64_t work = c.low_level_expanded + 16 * c.low_level_calls;
   const auto times = [](double rate, std::int64_t of) { return rate * static_cast<double>(of); };
   EXPECT_DOUBLE_EQ(worker.expander().whole_work(),
-                   times(1, work) + times(0.55, c.optimal_nodes) + times(0.85, c.joint_pairs) +
+                   times(1, work) + times(0.55, c.optimal_nodes) + times(0.85, c.joint_mdd_nodes) +
                        times(2, c.situations) + times(1.7, c.groups) + times(0.15, c.path_steps));
 }
 
@@ -149,7 +149,7 @@ TEST(Worker, LooksForPlansCheaperThanTheIncumbent) {
 }
 
 TEST(Worker, HelpsWithANodeThatAnotherHasInHandUntilNothingIsLeft) {
-  Search s({Technique::kDependencies, Technique::kStrongBranching});
+  Search s({Technique::kWdg, Technique::kStrongBranching});
   Expansion unfinished;
   unfinished.unfinished = true;
   s.shared.finish(s.shared.take(), std::move(unfinished), 0);
@@ -166,7 +166,7 @@ TEST(Worker, HelpsWithANodeThatAnotherHasInHandUntilNothingIsLeft) {
   }
   EXPECT_GT(helps, 1) << "something was found out first";
   EXPECT_FALSE(turn) << "nothing else is to be done";
-  EXPECT_EQ(count(worker, "helps"), helps);
+  EXPECT_EQ(count(worker, "assists"), helps);
   EXPECT_GT(count(worker, "pair_expansions"), 0);
   EXPECT_EQ(s.observer.expansions, 0) << "the node is the other's";
   EXPECT_EQ(s.nodes.frontier.live(), 1u);

@@ -72,13 +72,13 @@ Techniques some_of(Techniques techniques, Techniques wanted, Random& random) {
 Techniques of_tree(Random& random) {
   return some_of({},
                  {Technique::kStrongBranching, Technique::kBypass, Technique::kFewestConflicts,
-                  Technique::kTarget, Technique::kTraversal, Technique::kSequenceSplits},
+                  Technique::kTarget, Technique::kCorridor, Technique::kSequenceSplits},
                  random);
 }
 
 Techniques of_pairs(Random& random) {
-  const Techniques always = of_tree(random).with(Technique::kDependencies);
-  return some_of(always, {Technique::kJointPaths, Technique::kCostSplits, Technique::kClusters},
+  const Techniques always = of_tree(random).with(Technique::kWdg);
+  return some_of(always, {Technique::kJointMdd, Technique::kCostSplits, Technique::kClusters},
                  random);
 }
 

@@ -42,7 +42,7 @@ TEST(Messages, ArriveAsTheyWereSent) {
 
 TEST(Messages, TellWhatARankHasDone) {
   message::ProcessStatistics sent;
-  sent.survey.whole = {{{"prices_asked", 5}}, {.process = 9, .nodes = 1, .groups = 3}};
+  sent.survey.whole = {{{"branching_cost_queries", 5}}, {.process = 9, .nodes = 1, .groups = 3}};
   sent.survey.ranks[7] = {.expanded = 11, .open = 2, .bound = 40, .memory = 9};
   const RunStatistics told = returned(sent).survey;
   EXPECT_EQ(told.whole.counts, sent.survey.whole.counts);
@@ -50,10 +50,10 @@ TEST(Messages, TellWhatARankHasDone) {
   EXPECT_EQ(told.ranks.at(7).expanded, 11);
   EXPECT_EQ(told.ranks.at(7).bound, 40);
   RunStatistics sum;
-  sum.whole.counts["prices_asked"] = 1;
+  sum.whole.counts["branching_cost_queries"] = 1;
   sum.ranks[6] = {};
   add(told, sum);
-  EXPECT_EQ(sum.whole.counts.at("prices_asked"), 6);
+  EXPECT_EQ(sum.whole.counts.at("branching_cost_queries"), 6);
   EXPECT_EQ(sum.whole.memory.nodes, 1);
   EXPECT_EQ(sum.ranks.size(), 2);
   EXPECT_EQ(sum.ranks.at(7).open, 2);

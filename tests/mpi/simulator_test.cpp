@@ -133,8 +133,8 @@ TEST(Simulator, RanksFindPricesForRankZero) {
       EXPECT_EQ(run.solution.lower_bound, c.truth.lower_bound);
       const auto& counts = run.solution.stats.counts;
       EXPECT_GT(counts.at("lagrangian_rounds"), 0);
-      EXPECT_TRUE(ranks > 1 || !counts.contains("prices_of_ranks"));
-      if (ranks > 1) prices += counts.at("prices_of_ranks");
+      EXPECT_TRUE(ranks > 1 || !counts.contains("remote_pricings"));
+      if (ranks > 1) prices += counts.at("remote_pricings");
     }
   EXPECT_GT(prices, 10);
 }

@@ -142,7 +142,7 @@ void expect_optima(Policy policy, Techniques techniques) {
         RunObserver silent;
         const Solution solution = solve_by_ranks(instance, poor(threads, policy, techniques), ranks,
                                                  network, LimitOfHangs(), silent);
-        batches += solution.stats.counts.at("batches");
+        batches += solution.stats.counts.at("node_batches");
         EXPECT_EQ(solution.status, Status::kOptimal)
             << "seed " << seed << ", " << ranks << " ranks, " << threads << " threads";
         EXPECT_EQ(solution.lower_bound, alone.lower_bound) << "seed " << seed;
@@ -193,7 +193,7 @@ TEST(Threads, FindPricesForEachOther) {
     ASSERT_TRUE(solution.plan);
     EXPECT_TRUE(check(instance, solution).empty());
     EXPECT_LE(solution.lower_bound, solution.plan->cost);
-    const auto found = solution.stats.counts.find("prices_of_ranks");
+    const auto found = solution.stats.counts.find("remote_pricings");
     if (found != solution.stats.counts.end()) prices += found->second;
     EXPECT_TRUE(network.empty());
   }

@@ -45,8 +45,7 @@ Answer truth_by_one_thread(const Instance& instance) {
 void make_search_poor(Techniques& techniques, fuzz::Random& dice) {
   if (dice.percent(20)) techniques = {};
   if (dice.percent(70)) techniques = {Technique::kTarget, Technique::kStrongBranching};
-  if (dice.percent(25))
-    techniques = {Technique::kDependencies, Technique::kJointPaths, Technique::kClusters};
+  if (dice.percent(25)) techniques = {Technique::kWdg, Technique::kJointMdd, Technique::kClusters};
   if (dice.percent(95)) techniques = techniques.without(Technique::kPrimal);
 }
 
@@ -219,10 +218,10 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
   const auto& stats = solution.stats.counts;
   if (counts.ended) {
     tally.nodes += stats.at("nodes_expanded");
-    tally.batches += stats.at("batches");
+    tally.batches += stats.at("node_batches");
     tally.restarts += stats.at("restarts");
-    tally.facts += stats.at("facts_sent");
-    if (stats.contains("prices_of_ranks")) tally.prices += stats.at("prices_of_ranks");
+    tally.facts += stats.at("learned_bounds_sent");
+    if (stats.contains("remote_pricings")) tally.prices += stats.at("remote_pricings");
   }
   return wrong;
 }

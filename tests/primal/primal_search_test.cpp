@@ -125,7 +125,7 @@ TEST(PrimalSearch, WhoFailsIsPlannedBeforeThoseInItsWay) {
   for (const bool keeps : {false, true}) {
     Tuning tuning;
     if (keeps) tuning.pp_resume_labels = 0;
-    Search search(instance, 0, Techniques::defaults().without(Technique::kConfigurations), tuning);
+    Search search(instance, 0, Techniques::defaults().without(Technique::kLacam), tuning);
     const std::vector<Plan> plans = search.plans(1);
     ASSERT_FALSE(plans.empty());
     EXPECT_EQ(search.primal.source(), PlanSource::kPrioritizedPlanning);
@@ -144,8 +144,7 @@ TEST(PrimalSearch, EveryPlanIsValidInAHurry) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Instance instance = fuzz::random_instance(seed).build();
     if (!searchable(instance)) continue;
-    Search search(instance, seed, Techniques::defaults().without(Technique::kConfigurations),
-                  tuning);
+    Search search(instance, seed, Techniques::defaults().without(Technique::kLacam), tuning);
     if (!search.plans(6).empty()) ++solved;
     if (HasFailure()) return;
   }
@@ -273,7 +272,7 @@ TEST(PrimalSearch, ACrowdGetsItsFirstPlanFromConfigurations) {
     Search search(instance, seed);
     std::vector<Plan> first;
     for (int step = 0; step < 500 && first.empty(); ++step) first = search.plans(1);
-    if (first.empty() || search.primal.source() != PlanSource::kConfigurations) continue;
+    if (first.empty() || search.primal.source() != PlanSource::kLacam) continue;
     ++by_configurations;
     EXPECT_GT(search.primal.counts().joint_steps, 0);
     const std::vector<Plan> later = search.plans(60);
@@ -285,7 +284,7 @@ TEST(PrimalSearch, ACrowdGetsItsFirstPlanFromConfigurations) {
 
 TEST(PrimalSearch, WithoutConfigurationsThereAreNoJointSteps) {
   const Instance instance = crowd(1);
-  Search search(instance, 1, Techniques::all().without(Technique::kConfigurations));
+  Search search(instance, 1, Techniques::all().without(Technique::kLacam));
   search.plans(100);
   EXPECT_EQ(search.primal.counts().joint_steps, 0);
   EXPECT_GT(search.primal.counts().attempts, 1);

@@ -120,7 +120,7 @@ TEST(WdgHeuristic, KnowThatAGroupCostsMoreThoughNoPairDoes) {
 
 // Where a search by splits ends after its first node, joint search goes on.
 TEST(WdgHeuristic, AreSettledByJointSearchWhereSplitsDoNotEnd) {
-  SearchOptions options{Techniques::defaults().without({Technique::kTraversal, Technique::kTarget}),
+  SearchOptions options{Techniques::defaults().without({Technique::kCorridor, Technique::kTarget}),
                         0, true};
   options.tuning.pair_expansions = 1;
   Bounded with(kDoor, kHeadOn, options);

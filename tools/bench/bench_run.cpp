@@ -202,7 +202,7 @@ class Bench {
     if (end.kind == ChildEnd::Kind::kCancelled) return false;
     const LoadedInstance loaded = load(instances_[index].entry);
     row.outcome = is_refusal(end)
-                      ? batch::Outcome{.status = batch::kUnsuitable,
+                      ? batch::Outcome{.status = batch::kUnsupported,
                                        .error = refusal(files.said, instances_[index].entry.path)}
                       : judged(end, limit, loaded.instance, files.plan, files.said);
     if (!row.outcome.failed()) row.outcome.trace = trace_of_log(files.log);
@@ -249,7 +249,7 @@ class Bench {
       row.outcome = foreign.judged(end, files.said);
       if (options_.keep_plans) keep(foreign, loaded.instance, files, row);
     } catch (const NotRepresentable& error) {
-      row.outcome = {.status = batch::kUnsuitable,
+      row.outcome = {.status = batch::kUnsupported,
                      .error = fmt::format("{}: {}", error.field(), error.what())};
     }
     row.root_cost = root_costs_.of(index, loaded.instance);
@@ -276,7 +276,7 @@ class Bench {
     if (foreign.shown()) {
       write_solution(files.plan, instance, *foreign.shown());
       keep(files.plan, plan_name(row), row);
-    } else if (row.outcome.status == batch::kWrongPlan) {
+    } else if (row.outcome.status == batch::kInvalidPlan) {
       keep(foreign.plan(), plan_name(row) + ".wrong", row);
     }
   }

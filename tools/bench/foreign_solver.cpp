@@ -268,7 +268,7 @@ void ForeignRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
     shown_ = same ? told.solution : in_terms_of(loaded_.instance, told.solution);
   } catch (const InputError& broken) {
     if (end.kind != ChildEnd::Kind::kExited || end.code != 0) return;  // while it wrote, perhaps
-    outcome.status = batch::kWrongPlan;
+    outcome.status = batch::kInvalidPlan;
     std::string text = broken.what();
     if (text.starts_with(folder_.string())) text.erase(0, folder_.string().size() + 1);
     outcome.error = fmt::format("the plan is wrong: {}", text);
@@ -324,7 +324,7 @@ batch::Outcome ForeignRun::judged(const ChildEnd& end, const fs::path& said) {
   read_claims(outcome, said);
   read_trace(outcome, said);
   read_plan(outcome, end);
-  if (outcome.status == batch::kWrongPlan) {
+  if (outcome.status == batch::kInvalidPlan) {
     outcome.trace.clear();
     outcome.first_plan_s.reset();
   } else if (outcome.cost) {

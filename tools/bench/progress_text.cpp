@@ -45,13 +45,13 @@ std::string refuted_text(const std::vector<batch::FalseClaim>& claims) {
 }  // namespace
 
 void MethodCount::count(const batch::Row& row) {
-  if (row.outcome.status == batch::kUnsuitable) {
+  if (row.outcome.status == batch::kUnsupported) {
     ++unsuitable;
     return;
   }
   ++runs;
   errors += row.outcome.failed() ? 1 : 0;
-  wrong += row.outcome.status == batch::kWrongPlan ? 1 : 0;
+  wrong += row.outcome.status == batch::kInvalidPlan ? 1 : 0;
   claimed += row.outcome.status == batch::kClaimed ? 1 : 0;
   solved += row.outcome.solved ? 1 : 0;
   runtimes_s.push_back(row.runtime_s());
@@ -100,7 +100,7 @@ std::string summary_table(const BenchState& state) {
       lines[name].push_back(std::to_string(value(name)));
     legend += fmt::format("{}: {}\n", title, meaning);
   };
-  add("wrong", "a plan that is none; the table tells why, in its column error",
+  add("invalid", "the plan is invalid; see the column error of the table",
       [&](const std::string& name) { return state.counts.at(name).wrong; });
   add("claimed", "the solver says that it has a plan, and shows none",
       [&](const std::string& name) { return state.counts.at(name).claimed; });
@@ -108,7 +108,7 @@ std::string summary_table(const BenchState& state) {
       [&](const std::string& name) {
         return std::ranges::count(state.false_claims, name, &batch::FalseClaim::method);
       });
-  add("unsuitable", "instances that the method is not for, left out",
+  add("unsupported", "instances that the method does not support, excluded",
       [&](const std::string& name) { return state.counts.at(name).unsuitable; });
   std::vector<std::vector<std::string>> rows{header};
   for (const std::string& name : state.methods) rows.push_back(lines[name]);

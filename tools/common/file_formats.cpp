@@ -84,7 +84,7 @@ InstanceFormat instance_format(const std::string& option, const std::string& nam
   if (std::ranges::count(kPlanNames, name, &Entry<PlanFormat>::name) > 0 &&
       std::ranges::count(kInstanceNames, name, &Entry<InstanceFormat>::name) == 0)
     throw CLI::ValidationError(
-        option, fmt::format("{} is a format of plans; expected --plan PLAN to go with it", name));
+        option, fmt::format("{} is a format of plans; requires --plan PLAN", name));
   return find_format<InstanceFormat>(option, name, file, kInstanceNames, kInstanceSuffixes);
 }
 

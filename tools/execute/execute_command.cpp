@@ -145,7 +145,7 @@ class Execution {
     solution.lower_bound = 0;
     solution.may_follow = claimed_.solution.may_follow;  // who waits for others still does not
     solution.status = status_of(solution.plan->cost, 0, solution.omega);
-    solution.stats.texts["driven"] = a_.plan;
+    solution.stats.texts["executed"] = a_.plan;
     solution.stats.texts["options"] = options_;
     return solution;
   }

@@ -220,7 +220,7 @@ class BatchRun {
     const LoadedInstance loaded = load(entry, poll);
     row.facts = facts_of(entry, loaded);
     if (const std::string why = misfit(loaded.instance); !why.empty()) {
-      row.outcome = {.status = batch::kUnsuitable, .error = why};
+      row.outcome = {.status = batch::kUnsupported, .error = why};
       return;
     }
     Limits limits;

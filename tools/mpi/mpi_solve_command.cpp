@@ -115,7 +115,7 @@ class Run {
     add_run_facts(solution, app_, a_, start_);
     solution.stats.counts["ranks"] = session_.ranks();
     if (missing_ > 0) {
-      solution.stats.counts["silent_ranks"] = missing_;
+      solution.stats.counts["unresponsive_ranks"] = missing_;
       log_->warning(without_text());
     }
     const std::string failure = finish_run(a_, loaded_->instance, solution, *log_);
@@ -130,9 +130,9 @@ class Run {
   }
 
   std::string without_text() {
-    return fmt::format(
-        "{} of {} ranks said nothing when all was to end: the job ends without them{}", missing_,
-        session_.ranks(), proof_->log() == nullptr ? "" : ", and without a certificate");
+    return fmt::format("{} of {} ranks did not respond at shutdown; the job ends without them{}",
+                       missing_, session_.ranks(),
+                       proof_->log() == nullptr ? "" : ", and without a certificate");
   }
 
   // All search or none does: rank 0 then says what there is to say.

@@ -111,7 +111,7 @@ void RunLog::on_root(const NodePtr& root) {
 // A bound that rises now does so for this expansion: the last node of the old bound is gone.
 void RunLog::on_expanded(const NodePtr& node, const Expansion& expansion, int worker) {
   hears_expansions_ = true;
-  last_work_ = expansion.branching ? "splits" : expansion.plan ? last_work_ : "groups";
+  last_work_ = expansion.branching ? "branching" : expansion.plan ? last_work_ : "wdg";
   if (const auto row = tree_.expanded(*node, expansion, worker)) format_.node(*row, seconds());
 }
 

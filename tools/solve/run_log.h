@@ -57,7 +57,7 @@ class RunLog : public RunObserver {
   std::optional<BoundSource> raises_;     // the bound, if it rises now: who, if beside the tree
   RunEvent event_ = RunEvent::kProgress;  // the most telling one since the last row
   PlanSource source_ = PlanSource::kTree;
-  std::string_view last_work_ = "sequences";    // what a bound that rises now rises by
+  std::string_view last_work_ = "individual";   // what a bound that rises now rises by
   std::map<std::string_view, Cost> raised_by_;  // what it rose by since the last row, and how far
   Cost bound_ = 0;
   double last_row_s_ = 0;

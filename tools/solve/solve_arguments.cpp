@@ -272,7 +272,7 @@ Omega omega_of(const SolveArguments& a) {
 
 SolveOptions solve_options(const SolveArguments& a) {
   if (a.anytime && method_of(a) != Method::kCtsCbsC)
-    throw CLI::ValidationError("--anytime", "expected --method cts-cbs-c to go with it");
+    throw CLI::ValidationError("--anytime", "requires --method cts-cbs-c");
   SolveOptions options;
   if (method_of(a) == Method::kSCbs && !a.omega.empty() && !omega_of(a).is_infinite())
     throw CLI::ValidationError("--method s-cbs",

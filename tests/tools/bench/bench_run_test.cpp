@@ -234,7 +234,7 @@ TEST_F(Benches, ARefusedInstanceIsUnsuitable) {
   EXPECT_EQ(state.counts.at("m0").unsuitable, 1);
   EXPECT_EQ(state.counts.at("m0").errors, 0);
   ASSERT_EQ(rows().size(), 2U);
-  EXPECT_EQ(rows()[1].outcome.status, batch::kUnsuitable);
+  EXPECT_EQ(rows()[1].outcome.status, batch::kUnsupported);
   EXPECT_EQ(rows()[1].outcome.error, "not for me");
 }
 

@@ -90,12 +90,12 @@ class Solvers(Foreign):
 
     def test_one_whose_paths_collide(self):
         row = self.row_of("collides", "--keep-plans")
-        self.assertEqual((row["status"], row["solved"], row["cost"], row["trace"]), ("wrong", False, None, None))
+        self.assertEqual((row["status"], row["solved"], row["cost"], row["trace"]), ("invalid", False, None, None))
         self.assertRegex(row["error"], r"\Athe plan is wrong: output: .*both on")
         self.assertEqual(row["claimed_cost"], 14)
-        self.assertEqual(self.summary()["collides"]["wrong"], "1")
-        self.assertEqual(self.summary()["grove"]["wrong"], "0")
-        self.assertIn("wrong: a plan that is none", self.said)
+        self.assertEqual(self.summary()["collides"]["invalid"], "1")
+        self.assertEqual(self.summary()["grove"]["invalid"], "0")
+        self.assertIn("invalid: the plan is invalid", self.said)
         self.assertIn("Agent 0:", (self.folder / "out" / row["plan_file"]).read_text())
 
     def test_one_that_claims_without_a_plan(self):
@@ -127,7 +127,7 @@ class Solvers(Foreign):
 
     def test_one_that_writes_something_else(self):
         row = self.row_of("garbage")
-        self.assertEqual(row["status"], "wrong")
+        self.assertEqual(row["status"], "invalid")
         self.assertIn("expected a plan file", row["error"])
 
     def test_one_that_is_killed_as_it_writes(self):
@@ -230,7 +230,7 @@ class Commands(Foreign):
                       "--keep-plans")
         for (instance, method), row in self.rows().items():
             fits = method == "grove" or (method == "mgcbs") == instance.endswith("mg")
-            self.assertEqual(row["status"] == "unsuitable", not fits, row)
+            self.assertEqual(row["status"] == "unsupported", not fits, row)
             if fits:
                 self.assertEqual(row["cost"], self.rows()[instance, "grove"]["cost"], row["error"])
                 self.run_well("check", self.folder / f"instances/{instance}.cts.json",
@@ -270,9 +270,9 @@ class Commands(Foreign):
         self.said = self.run_well("bench", "instances", "--run", "grove:", "--solver", self.solver("honest"),
                                   "--output-dir", "out", "--quiet")
         row = self.rows()["easy_s1_n3_m4", "honest"]
-        self.assertEqual(row["status"], "unsuitable")
+        self.assertEqual(row["status"], "unsupported")
         self.assertIn("task 't0' cannot be said in a .scen file", row["error"])
-        self.assertEqual(self.summary()["honest"]["unsuitable"], "1")
+        self.assertEqual(self.summary()["honest"]["unsupported"], "1")
         self.assertEqual(self.summary()["honest"]["solved/run"], "0/0")
 
     def test_refusals(self):

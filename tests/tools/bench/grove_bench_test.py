@@ -250,7 +250,7 @@ class Refusals(Program):
         said = self.run_well(*self.bench(runs=["x: --method hcbs"]))
         self.assertRegex(said, r"(?m)^method .* errors +unsuitable$")
         self.assertRegex(said, r"(?m)^x +1/1 .* 0 +2$")
-        self.assertEqual([self.rows()[name, "x"]["status"] for name in ("a_turns", "c_turns")], ["unsuitable"] * 2)
+        self.assertEqual([self.rows()[name, "x"]["status"] for name in ("a_turns", "c_turns")], ["unsupported"] * 2)
 
     def test_another_bench_in_the_same_folder(self):
         self.hard(2)

@@ -51,7 +51,7 @@ TEST(BenchSummary, CountsWhatIsNotSolvedAsTheLimit) {
 TEST(BenchSummary, TellsWhatElseThereIs) {
   BenchState state = counted();
   for (const char* status :
-       {batch::kWrongPlan, batch::kClaimed, batch::kClaimed, batch::kUnsuitable}) {
+       {batch::kInvalidPlan, batch::kClaimed, batch::kClaimed, batch::kUnsupported}) {
     Row row = failed_row("i", "paper");
     row.outcome.status = status;
     state.count(row);

@@ -478,7 +478,7 @@ TEST_F(SolveCommand, LogsForPrograms) {
   ASSERT_EQ(counts["event"], "counts");
   for (const auto& [name, count] : counts["counts"].items())
     EXPECT_TRUE(name == "nodes_generated" || count == log.back()["stats"][name]) << name;
-  EXPECT_TRUE(counts["counts"].contains("prices_asked"));
+  EXPECT_TRUE(counts["counts"].contains("branching_cost_queries"));
   EXPECT_GT(counts["memory_mb"]["process"], 0);
   EXPECT_FALSE(counts.contains("ranks"));
 }
@@ -502,8 +502,8 @@ struct LoggedTree {
     if (event.contains("split")) ++splits["splits_" + std::string(event["split"])];
     for (const json& child : event["children"]) {
       EXPECT_TRUE(open.emplace(child["node"], child).second) << event;
-      EXPECT_EQ(event["outcome"] == "split", child.contains("demand"));
-      EXPECT_GE(child["bound"], bound + (event["outcome"] == "raise" ? 1 : 0));
+      EXPECT_EQ(event["outcome"] == "split", child.contains("constraint"));
+      EXPECT_GE(child["bound"], bound + (event["outcome"] == "bound_raised" ? 1 : 0));
     }
   }
 };
@@ -670,7 +670,7 @@ TEST_F(Incumbents, AreMarkedInTheLogByWhereTheyCameFrom) {
   options_.signal = 0;
   EXPECT_THAT(solved.out, HasSubstr("\nH  "));
   EXPECT_THAT(solved.out, HasSubstr("\nL  "));
-  EXPECT_GT(plan("p.json")["stats"]["primal_neighborhoods"], 0);
+  EXPECT_GT(plan("p.json")["stats"]["primal_lns_iterations"], 0);
   EXPECT_THAT(solve({data("first.cts.json"), "--threads", "1"}).out, HasSubstr("\n*  "));
   EXPECT_THAT(solve({"doors.json", "--omega", "inf", "--start", "p.json"}).out, HasSubstr("\nS  "));
 }
