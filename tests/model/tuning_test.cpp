@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// That each number is used somewhere: tests/structure. That none makes a wrong answer: tests/fuzz.
+// Parsing of tunables. tests/structure checks that each one is used, and tests/fuzz that no value
+// leads to a wrong answer.
 #include "model/tuning.h"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ namespace tuning_test {
 
 using ::testing::HasSubstr;
 
-std::string complaint(const std::string& text) {
+std::string error_of(const std::string& text) {
   try {
     Tuning tuning;
     set(tuning, text);
@@ -25,7 +26,7 @@ std::string complaint(const std::string& text) {
   return "none";
 }
 
-TEST(Tuning, SetsTheNumberOfThatNameAndNoOther) {
+TEST(Tuning, SetsOnlyTheTunableOfThatName) {
   std::set<std::string> names;
   for (const Tunable& t : tunables()) {
     SCOPED_TRACE(t.name());
@@ -47,24 +48,23 @@ TEST(Tuning, SetsTheNumberOfThatNameAndNoOther) {
 TEST(Tuning, DefaultsAreWithinTheirRanges) {
   for (const Tunable& t : tunables()) {
     EXPECT_LT(t.least, t.most) << t.name();
-    EXPECT_EQ(complaint(t.name() + "=" + t.value({})), "none");
+    EXPECT_EQ(error_of(t.name() + "=" + t.value({})), "none");
   }
 }
 
-TEST(Tuning, TakesBothEndsOfARangeAndNothingBeyond) {
+TEST(Tuning, AcceptsOnlyNumbersWithinTheRange) {
   for (const char* good : {"group-agents=2", "group-agents=64", "way-memory=0", "way-memory=1.0",
                            "order-spread=5e-1", "bound-work=1000000000000000"})
-    EXPECT_EQ(complaint(good), "none");
-  EXPECT_EQ(complaint("group-agents=1"),
+    EXPECT_EQ(error_of(good), "none");
+  EXPECT_EQ(error_of("group-agents=1"),
             "group-agents: found '1'; expected an integer from 2 to 64");
-  EXPECT_EQ(complaint("way-memory=1.01"),
-            "way-memory: found '1.01'; expected a number from 0 to 1");
+  EXPECT_EQ(error_of("way-memory=1.01"), "way-memory: found '1.01'; expected a number from 0 to 1");
   for (const char* bad : {"group-agents=65", "group-agents=3.5", "group-agents=", "group-agents= 3",
                           "group-agents=3x", "way-memory=-0.1", "way-memory=nan", "bound-work=1e3",
                           "bound-work=99999999999999999999"})
-    EXPECT_THAT(complaint(bad), HasSubstr("expected a")) << bad;
+    EXPECT_THAT(error_of(bad), HasSubstr("expected a")) << bad;
   for (const char* bad : {"", "=", "group-agents", "group_agents=3", "agents=3"})
-    EXPECT_THAT(complaint(bad), HasSubstr("expected NAME=VALUE")) << bad;
+    EXPECT_THAT(error_of(bad), HasSubstr("expected NAME=VALUE")) << bad;
 }
 
 }  // namespace tuning_test
