@@ -11,13 +11,13 @@
 namespace grove::detail::testing {
 
 // One random schedule: some actions take longer, some robots are slower, there are long stops, and
-// with `may_die` some robots fail. It depends only on the seed, not on when actions begin.
+// with `may_fail` some robots fail. It depends only on the seed, not on when actions begin.
 class Delays {
  public:
-  Delays(const ActionDependencyGraph& order, std::uint64_t seed, bool may_die = false);
+  Delays(const ActionDependencyGraph& order, std::uint64_t seed, bool may_fail = false);
 
   Time operator()(ActionIndex action, Time begin);
-  bool anybody_dies() const { return dies_; }
+  bool any_robot_fails() const { return fails_; }
 
  private:
   const ActionDependencyGraph& order_;
@@ -27,7 +27,7 @@ class Delays {
   double stops_ = 0;               // probability that it takes much longer
   std::vector<double> slowness_;   // by agent
   std::vector<ActionIndex> last_;  // by agent: action in which it fails; kNoAction: none
-  bool dies_ = false;
+  bool fails_ = false;
 };
 
 }  // namespace grove::detail::testing

@@ -91,9 +91,9 @@ TEST(Multipliers, DigestDiffersForOtherMultipliers) {
 
 TEST(Multipliers, RefusesInvalidUpdates) {
   const Instance instance = tiny_instance(2);
-  const auto refuses = [&](MultiplierUpdate news) {
+  const auto refuses = [&](MultiplierUpdate update) {
     Multipliers multipliers(instance.world(), instance.agent_count());
-    EXPECT_THROW(multipliers.learn(news), std::invalid_argument);
+    EXPECT_THROW(multipliers.learn(update), std::invalid_argument);
   };
   refuses({{{.kind = Kind::kPlace, .a = -1}}, ""});
   refuses({{{.kind = Kind::kPlace, .a = instance.world().place_count()}}, ""});

@@ -16,8 +16,7 @@ namespace {
 
 using Amount = Penalties::Amount;
 constexpr Time kPenalized = 14;  // steps
-constexpr Time kHorizon = 200;   // later than any useful finish of a tiny agent, even if it waits
-                                 // until no penalties remain
+constexpr Time kHorizon = 200;   // after any useful finish of a tiny agent, waits included
 
 // Adds random penalties to arcs of this world, at random times before kPenalized.
 void penalize(Penalties& penalties, fuzz::Random& random) {

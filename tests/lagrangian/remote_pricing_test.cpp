@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A Lagrangian bound with remote pricing: replies may come late, in any order, or not at all.
+// A Lagrangian bound with remote pricing, where replies may be late, invalid or missing.
 #include "lagrangian/remote_pricing.h"
 
 #include <gtest/gtest.h>

@@ -144,7 +144,7 @@ TEST(SharedArrays, FailedArrayIsNullptrForAllMembers) {
     EXPECT_EQ(other.array(ArrayKind::kDistances, number)
                   .get(limits,
                        [](std::byte*) {
-                         ADD_FAILURE() << "it is tried once";
+                         ADD_FAILURE() << "a failed array is made only once";
                          return true;
                        }),
               nullptr);
@@ -169,7 +169,7 @@ TEST(SharedArrays, AwaitEndsWhenTheMakerIsUnresponsive) {
     const LimitOfLooks limits(20'000);
     EXPECT_EQ(array.await(limits), nullptr);
     EXPECT_FALSE(limits.stop_requested());
-    EXPECT_GT(limits.looks(), 100) << "it has some patience";
+    EXPECT_GT(limits.looks(), 100) << "waits for some time";
     const LimitOfLooks stopped(testing::kNoEnd);
     stopped.stop(StopReason::kInterrupt);
     EXPECT_EQ(array.await(stopped), nullptr);

@@ -15,11 +15,11 @@ constexpr std::size_t kExaminedPerWay = 40;
 
 class Lister {
  public:
-  Lister(const Instance& instance, AgentIndex agent, std::span<const Constraint> demands, Time most,
-         std::size_t cap)
+  Lister(const Instance& instance, AgentIndex agent, std::span<const Constraint> constraints,
+         Time most, std::size_t cap)
       : world_(instance.world()),
         states_(instance, agent),
-        demands_(demands),
+        constraints_(constraints),
         most_(most),
         cap_(cap) {}
 
@@ -48,8 +48,8 @@ class Lister {
   bool satisfies() const {
     Path path;
     for (const Place place : way_) path.push_back(some_state_on(place));
-    return std::ranges::all_of(demands_, [&](const Constraint& demand) {
-      return testing::satisfies(world_, path, demand);
+    return std::ranges::all_of(constraints_, [&](const Constraint& constraint) {
+      return testing::satisfies(world_, path, constraint);
     });
   }
   State some_state_on(Place place) const {
@@ -60,7 +60,7 @@ class Lister {
 
   const World& world_;
   const AgentStates states_;
-  const std::span<const Constraint> demands_;
+  const std::span<const Constraint> constraints_;
   const Time most_;
   const std::size_t cap_;
   std::size_t examined_ = 0;
@@ -125,9 +125,9 @@ class CheapestCombination {
 }  // namespace
 
 std::optional<std::vector<Way>> ways_within(const Instance& instance, AgentIndex agent,
-                                            std::span<const Constraint> demands, Time most,
+                                            std::span<const Constraint> constraints, Time most,
                                             std::size_t cap) try {
-  return Lister(instance, agent, demands, most, cap).list();
+  return Lister(instance, agent, constraints, most, cap).list();
 } catch (const AgentStates::TooMany&) {
   return std::nullopt;
 }

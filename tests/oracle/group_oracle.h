@@ -16,10 +16,11 @@ namespace grove::detail::oracle {
 // less 1.
 using Way = std::vector<Place>;
 
-// The paths of an agent that satisfy `demands` and cost `most` or less, in ascending order of cost.
-// Returns nullopt if there are more than `cap` paths, or more than 40 * `cap` states to examine.
+// The paths of an agent that satisfy `constraints` and cost `most` or less, in ascending order of
+// cost. Returns nullopt if there are more than `cap` paths, or more than 40 * `cap` states to
+// examine.
 std::optional<std::vector<Way>> ways_within(const Instance& instance, AgentIndex agent,
-                                            std::span<const Constraint> demands, Time most,
+                                            std::span<const Constraint> constraints, Time most,
                                             std::size_t cap);
 
 // The least total cost of one path per agent without collisions. `ways`: the paths of each agent.

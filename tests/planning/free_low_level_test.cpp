@@ -272,7 +272,7 @@ class ManyStops {
   FreeProblem problem_;
 };
 
-TEST(FreeOrderSipp, IsExactBeyondTheBoundOfTheSequenceGraph) {
+TEST(FreeOrderSipp, IsExactWithABoundedSequenceGraph) {
   for (int seed = 0; seed < testing::fuzz_rounds(6); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     ManyStops(static_cast<unsigned>(seed), seed % 2 == 0).check();

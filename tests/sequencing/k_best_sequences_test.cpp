@@ -22,7 +22,7 @@ std::vector<Time> first_costs(const CostMatrix& matrix, RtspBackend backend, std
   const Limits limits;
   KBestSequences list = list_of(matrix, backend, limits);
   std::vector<Time> costs;
-  std::set<std::vector<int>> seen;  // of int: GCC 12 sees overlong comparisons of bytes
+  std::set<std::vector<int>> seen;  // as int: GCC 12 warns of overlong comparisons of bytes
   for (std::size_t rank = 0; rank < count; ++rank) {
     const Time bound = list.cost_bound(rank);
     const Time cost = list.resolve(rank, kNever);

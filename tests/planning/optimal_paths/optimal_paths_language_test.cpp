@@ -460,7 +460,7 @@ std::vector<std::vector<Cell>> cells_of(const Mdd& graph) {
 
 // Builds an MDD of a cost just outside the bound of the sequence graph, and compares it with an MDD
 // from a sequence graph that was widened beyond that cost.
-TEST(MddLanguage, IsCompleteBeyondTheBoundOfTheSequenceGraph) {
+TEST(MddLanguage, IsCompleteAtTheBoundOfTheSequenceGraph) {
   int at_the_bound = 0;
   for (unsigned seed = 0; seed < 12; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
