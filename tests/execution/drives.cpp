@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// grove-drives: random plans, random troubles; nobody collides and nobody waits for ever. Beside it
-// the same troubles with robots that keep to the clock.
+// grove-drives: executes random plans with random disturbances. No robots may collide and no robot
+// may wait for ever. For comparison, the same disturbances with robots that follow the times of the
+// plan.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -32,13 +33,13 @@ struct Counts {
   std::int64_t deadlocks = 0;
   std::int64_t collisions_by_clock = 0;
   std::int64_t switches = 0;
-  // Over those of plans, summed.
+  // Sums of ratios to the value of the plan.
   double undisturbed = 0;
   double makespans = 0;
   double makespans_switching = 0;
   double costs = 0;
   double costs_switching = 0;
-  int worse = 0;  // by switching, in sum of costs
+  int worse = 0;  // drives whose sum of costs is higher with switching
 };
 
 std::optional<Plan> solved(const Instance& instance) {
@@ -49,7 +50,8 @@ std::optional<Plan> solved(const Instance& instance) {
   return solve(instance, options, limits).plan;
 }
 
-// Four robots each on squares of four cells that go round, and one or two others.
+// Up to two groups of four robots, each of which rotates on a square of four cells, and up to two
+// other robots.
 Instance roundabouts(std::uint64_t seed) {
   Random random(seed);
   const int width = 5 + random.below(3);
@@ -80,7 +82,8 @@ Instance roundabouts(std::uint64_t seed) {
   return std::move(builder).build();
 }
 
-// As if there were nobody else, but never before the time of the plan.
+// Execution in which each robot ignores the others, but begins no action before its time in the
+// plan.
 ExecutionTrace by_clock(const ActionDependencyGraph& order, Delays delays) {
   ExecutionTrace drive{std::vector<Time>(order.actions().size()),
                        std::vector<Time>(order.actions().size())};
@@ -94,7 +97,8 @@ ExecutionTrace by_clock(const ActionDependencyGraph& order, Delays delays) {
 }
 
 // Makespan and sum of costs.
-std::pair<double, double> took(const ActionDependencyGraph& order, const ExecutionTrace& drive) {
+std::pair<double, double> makespan_and_cost(const ActionDependencyGraph& order,
+                                            const ExecutionTrace& drive) {
   Time makespan = 0;
   Cost cost = 0;
   for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
@@ -114,22 +118,22 @@ void drive_all(const Instance& instance, const Plan& plan, std::int64_t drives, 
   const double cost = std::max<double>(1, static_cast<double>(plan.cost));
   ++counts.plans;
   counts.rings += static_cast<int>(order.rings());
-  counts.undisturbed += took(order, simulate_nominal(order)).first / planned;
-  const auto look_at = [&](const ExecutionTrace& driven) {
+  counts.undisturbed += makespan_and_cost(order, simulate_nominal(order)).first / planned;
+  const auto count_failures = [&](const ExecutionTrace& driven) {
     counts.collisions += collision(world, order, driven, starts).empty() ? 0 : 1;
     counts.deadlocks += stuck(order, driven).empty() ? 0 : 1;
   };
   for (std::int64_t i = 0; i < drives; ++i, ++counts.drives) {
     const Delays delays(order, seed + static_cast<std::uint64_t>(i));
     const ExecutionTrace driven = drive(order, delays);
-    look_at(driven);
+    count_failures(driven);
     const SwitchableTrace switched = simulate_switchable(world, plan, order, delays);
-    look_at(switched.drive);
+    count_failures(switched.drive);
     counts.switches += switched.switches;
     counts.collisions_by_clock +=
         collision(world, order, by_clock(order, delays), starts).empty() ? 0 : 1;
-    const auto [makespan, sum] = took(order, driven);
-    const auto [makespan_switching, sum_switching] = took(order, switched.drive);
+    const auto [makespan, sum] = makespan_and_cost(order, driven);
+    const auto [makespan_switching, sum_switching] = makespan_and_cost(order, switched.drive);
     counts.makespans += makespan / planned;
     counts.makespans_switching += makespan_switching / planned;
     counts.costs += sum / cost;

@@ -12,10 +12,10 @@
 namespace grove::detail {
 namespace memory_granted_test {
 
-// Files as the kernel shows them, in a folder that stands for the root.
+// Files as the kernel shows them, in a directory that replaces the root.
 class MemoryGranted : public ::testing::Test {
  protected:
-  void own_groups(const std::string& lines) { write("proc/self/cgroup", lines); }
+  void own_cgroups(const std::string& lines) { write("proc/self/cgroup", lines); }
   void limit(const std::string& file, const std::string& value) {
     write("sys/fs/cgroup/" + file, value + "\n");
   }
@@ -37,21 +37,21 @@ class MemoryGranted : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(MemoryGranted, IsNoneWithoutGroups) {
+TEST_F(MemoryGranted, ReturnsNulloptWithoutCgroups) {
   EXPECT_EQ(granted(), std::nullopt);
-  own_groups("0::/\n");
+  own_cgroups("0::/\n");
   EXPECT_EQ(granted(), std::nullopt);
 }
 
-// A container sees its own group as the root.
-TEST_F(MemoryGranted, IsThatOfAContainer) {
-  own_groups("0::/\n");
+// In a container its own cgroup is the root.
+TEST_F(MemoryGranted, ReturnsTheLimitOfTheContainer) {
+  own_cgroups("0::/\n");
   limit("memory.max", "512000000");
   EXPECT_EQ(granted(), 512000000u);
 }
 
-TEST_F(MemoryGranted, IsTheLeastOfAllGroupsAround) {
-  own_groups("0::/slice/job/step\n");
+TEST_F(MemoryGranted, ReturnsTheLeastLimitOfAllEnclosingCgroups) {
+  own_cgroups("0::/slice/job/step\n");
   limit("slice/memory.max", "max");
   limit("slice/job/memory.max", "3000");
   limit("slice/job/step/memory.max", "4000");
@@ -62,8 +62,8 @@ TEST_F(MemoryGranted, IsTheLeastOfAllGroupsAround) {
   EXPECT_EQ(granted(), 2000u);
 }
 
-TEST_F(MemoryGranted, KnowsVersionOne) {
-  own_groups("5:cpu,cpuacct:/job\n4:memory:/slurm/job\n1:name=systemd:/x\n0::/\n");
+TEST_F(MemoryGranted, ReadsCgroupsOfVersionOne) {
+  own_cgroups("5:cpu,cpuacct:/job\n4:memory:/slurm/job\n1:name=systemd:/x\n0::/\n");
   limit("memory/memory.limit_in_bytes", "9223372036854771712");
   limit("cpu,cpuacct/job/memory.limit_in_bytes", "1");
   EXPECT_EQ(granted(), std::nullopt);
@@ -71,12 +71,12 @@ TEST_F(MemoryGranted, KnowsVersionOne) {
   EXPECT_EQ(granted(), 7000u);
 }
 
-// Without a name space of its own a container sees the host's path, which is not there.
-TEST_F(MemoryGranted, IsFoundUnderAPathOfTheHost) {
-  own_groups("4:memory:/docker/0123\n");
+// A container without its own cgroup namespace reads the host's path, which does not exist inside.
+TEST_F(MemoryGranted, FallsBackToTheRootForAPathOfTheHost) {
+  own_cgroups("4:memory:/docker/0123\n");
   limit("memory/memory.limit_in_bytes", "8000");
   EXPECT_EQ(granted(), 8000u);
-  own_groups("0::/../outside\n");
+  own_cgroups("0::/../outside\n");
   limit("memory.max", "6000");
   limit("outside/memory.max", "1");
   EXPECT_EQ(granted(), 6000u);
@@ -84,10 +84,10 @@ TEST_F(MemoryGranted, IsFoundUnderAPathOfTheHost) {
 
 constexpr std::uint64_t kMegabyte = 1 << 20;
 
-TEST_F(MemoryGranted, IsThatOfASlurmJob) {
+TEST_F(MemoryGranted, ReturnsTheMemoryOfTheSlurmJob) {
   environment_["SLURM_MEM_PER_NODE"] = "16384";
   EXPECT_EQ(granted(), 16384 * kMegabyte);
-  environment_["SLURM_MEM_PER_NODE"] = "0";  // all of it
+  environment_["SLURM_MEM_PER_NODE"] = "0";  // all memory of the node
   EXPECT_EQ(granted(), std::nullopt);
   environment_.clear();
   environment_["SLURM_MEM_PER_CPU"] = "500";
@@ -98,17 +98,17 @@ TEST_F(MemoryGranted, IsThatOfASlurmJob) {
   EXPECT_EQ(granted(), std::nullopt);
 }
 
-TEST_F(MemoryGranted, IsTheLeastOfSlurmAndGroups) {
+TEST_F(MemoryGranted, ReturnsTheLeastOfSlurmAndCgroups) {
   environment_["SLURM_MEM_PER_NODE"] = "1000";
-  own_groups("0::/job\n");
+  own_cgroups("0::/job\n");
   limit("job/memory.max", "512000000");
   EXPECT_EQ(granted(), 512000000u);
   limit("job/memory.max", "2000000000");
   EXPECT_EQ(granted(), 1000 * kMegabyte);
 }
 
-TEST_F(MemoryGranted, IgnoresWhatItDoesNotUnderstand) {
-  own_groups("\n:\n::\nmemory\n0::/\n");
+TEST_F(MemoryGranted, IgnoresInvalidFiles) {
+  own_cgroups("\n:\n::\nmemory\n0::/\n");
   limit("memory.max", "much");
   EXPECT_EQ(granted(), std::nullopt);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The free low level against its definition, and against the fixed one over all orders.
-// GROVE_FUZZ_FACTOR multiplies the number of cases.
+// Single-agent search that chooses the order of the stops, compared with a search by definition and
+// with FixedOrderSipp over all orders. GROVE_FUZZ_FACTOR multiplies the number of cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ using testing::path_error;
 using testing::Problem;
 using testing::SingleAgent;
 
-// One agent, its class and both searches.
+// One agent, its sequence class and both searches.
 struct Agent : FreeAgent {
   explicit Agent(const FreeProblem& given)
       : FreeAgent(given),
@@ -49,7 +49,7 @@ struct Agent : FreeAgent {
         matrix, [&agent, matrix] { return direct_legs(agent.instance, 0, matrix); });
     return graph.of_class(agent.problem.work).value_or(graph);
   }
-  // The same by a graph of what paths can do.
+  // Like cost(), with cost-to-go from a graph of sequences that paths can realize by direct legs.
   std::optional<Time> direct_cost(const ConflictAvoidanceTable* others) {
     Path found;
     const Outcome outcome =
@@ -63,7 +63,7 @@ struct Agent : FreeAgent {
   Outcome find(Time cutoff, Path& found, const ConflictAvoidanceTable* others = nullptr) {
     return free.find(goals, {problem.constraints, others, cutoff}, Limits(), found);
   }
-  // Of least cost, none if there is none. Checks the path.
+  // The least cost of a path; checks the path. Returns nullopt if there is no path.
   std::optional<Time> cost(const ConflictAvoidanceTable* others = nullptr) {
     const Outcome outcome = find(kNever, path, others);
     if (outcome == Outcome::kInfeasible) return std::nullopt;
@@ -105,7 +105,7 @@ struct Agent : FreeAgent {
 // Random problems on tiny maps, each made harder one constraint at a time.
 class Fuzzer {
  public:
-  // `conditional`: constraints of all kinds, not bars alone.
+  // `conditional`: constraints of all kinds, not only vertex and edge constraints.
   Fuzzer(unsigned seed, bool conditional) : problems_(seed, conditional) {}
 
   void run() {
@@ -148,9 +148,9 @@ class Fuzzer {
   testing::FreeProblems problems_;
 };
 
-class FreeLowLevelFuzz : public ::testing::TestWithParam<bool> {};
+class FreeOrderSippFuzz : public ::testing::TestWithParam<bool> {};
 
-TEST_P(FreeLowLevelFuzz, AgreesWithItsDefinition) {
+TEST_P(FreeOrderSippFuzz, AgreesWithSearchByDefinition) {
   int checked = 0;
   int infeasible = 0;
   const int seeds = testing::fuzz_rounds(1200);
@@ -166,8 +166,8 @@ TEST_P(FreeLowLevelFuzz, AgreesWithItsDefinition) {
   EXPECT_GT(infeasible, seeds / 4);
 }
 
-// 2^n sequences cost the same, and of what agents do that visit what they pass few do.
-TEST(FreeLowLevel, RowOfTasksTakesFewLabels) {
+// 2^n sequences have the same cost, but few of them visit each stop when the agent first passes it.
+TEST(FreeOrderSipp, RowOfTasksNeedsFewLabels) {
   for (const int n : {24, 64}) {
     const Grid grid = grid_of({std::string(static_cast<std::size_t>(n) + 4, '.'),
                                std::string(static_cast<std::size_t>(n) + 4, '.')});
@@ -186,8 +186,8 @@ TEST(FreeLowLevel, RowOfTasksTakesFewLabels) {
   }
 }
 
-// Counts of labels are those of the call, whatever was asked before.
-TEST(FreeLowLevel, StopsAtTheGivenNumberOfLabels) {
+// The limit counts the labels of the call, whatever the calls before it expanded.
+TEST(FreeOrderSipp, StopsAtTheGivenNumberOfLabels) {
   const Grid grid = grid_of(std::vector<std::string>(12, "............"));
   FreeProblem problem{&grid, 0, {17, 30, 44, 50, 71, 90, 100, 119, 130, 141}, 143, {}, {}};
   problem.constraints = {{17, kNoPlace, 0, 70}, {130, kNoPlace, 0, 70}};
@@ -201,10 +201,10 @@ TEST(FreeLowLevel, StopsAtTheGivenNumberOfLabels) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, FreeLowLevelFuzz, ::testing::Bool(),
+INSTANTIATE_TEST_SUITE_P(, FreeOrderSippFuzz, ::testing::Bool(),
                          [](const auto& all) { return all.param ? "AllKinds" : "Bars"; });
 
-// Many stops, so that the completions are a graph that holds the good sequences alone.
+// So many stops that the cost-to-go is a graph that holds only the sequences of low cost.
 class ManyStops {
  public:
   ManyStops(unsigned seed, bool with_destination) : random_(seed) {
@@ -221,8 +221,8 @@ class ManyStops {
     if (with_destination) problem_.destination = cells[1];
   }
 
-  // After each constraint more: no sequence cheaper than the answer has a cheaper path, and one
-  // that is not dearer has a path as cheap.
+  // Adds constraints one by one. After each, the sequence that the answer realizes must have a path
+  // of the answer's cost, and no sequence of lower cost may have a cheaper path.
   void check() {
     Agent agent(problem_);
     for (int n = 0; n < 8; ++n) {
@@ -238,7 +238,7 @@ class ManyStops {
   static constexpr int kSide = 9;
   static constexpr std::size_t kMostSequences = 100;
 
-  // A cell of its path; sometimes for ever if it need not be visited.
+  // A vertex constraint on a cell of its path; sometimes for ever if the agent need not visit it.
   Constraint bar(const Agent& agent) {
     const int t = 1 + static_cast<int>(random_() % (agent.path.size() - 1));
     const Cell cell = agent.path[t];
@@ -248,7 +248,7 @@ class ManyStops {
     return {cell, kNoCell, t, random_() % 4 == 0 ? t + 12 : t};
   }
 
-  // A cell of the largest connected part.
+  // A cell of the largest connected component.
   Cell some_passable() {
     Cell best = 0;
     for (Cell c = 0; c < grid_->cell_count(); ++c)
@@ -272,7 +272,7 @@ class ManyStops {
   FreeProblem problem_;
 };
 
-TEST(FreeLowLevel, IsExactWhereTheSequenceGraphIsBounded) {
+TEST(FreeOrderSipp, IsExactWithABoundedSequenceGraph) {
   for (int seed = 0; seed < testing::fuzz_rounds(6); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     ManyStops(static_cast<unsigned>(seed), seed % 2 == 0).check();
@@ -284,15 +284,16 @@ FreeProblem corridor(const Grid& grid, std::vector<Cell> stops, std::optional<Ce
   return {&grid, 0, std::move(stops), destination, {}, {}};
 }
 
-TEST(FreeLowLevel, ChoosesTheOrder) {
+TEST(FreeOrderSipp, ChoosesTheCheapestOrder) {
   const Grid grid = grid_of({"......"});
   Agent agent(corridor(grid, {5, 1, 3}, 2));
   EXPECT_EQ(agent.cost(), 8);
   EXPECT_EQ(realized_sequence(agent.goals, agent.path), (Sequence{1, 2, 0}));
 }
 
-// What comes after the prefix is not counted before it, nor what may not come next.
-TEST(FreeLowLevel, KeepsToItsClass) {
+// A stop after the prefix is not counted before the prefix is complete, and a forbidden stop does
+// not come next.
+TEST(FreeOrderSipp, StaysWithinItsSequenceClass) {
   const Grid grid = grid_of({"......"});
   FreeProblem problem = corridor(grid, {1, 3, 5}, 0);
   problem.work = {{1}, 0b100};  // 3 first, then not 5
@@ -301,14 +302,14 @@ TEST(FreeLowLevel, KeepsToItsClass) {
   EXPECT_EQ(realized_sequence(agent.goals, agent.path), (Sequence{1, 0, 2}));
 }
 
-TEST(FreeLowLevel, AnEmptyClassHasNoPath) {
+TEST(FreeOrderSipp, EmptyClassHasNoPath) {
   const Grid grid = grid_of({"......"});
   FreeProblem problem = corridor(grid, {1, 3}, 0);
   problem.work.forbidden_next = 0b11;
   EXPECT_EQ(Agent(problem).cost(), std::nullopt);
 }
 
-TEST(FreeLowLevel, RejectsAPrefixThatIsNone) {
+TEST(FreeOrderSipp, RejectsInvalidPrefix) {
   const Grid grid = grid_of({"......"});
   for (const Sequence& prefix : {Sequence{1, 1}, Sequence{2}, Sequence{200}}) {
     FreeProblem problem = corridor(grid, {1, 3}, 0);
@@ -317,8 +318,8 @@ TEST(FreeLowLevel, RejectsAPrefixThatIsNone) {
   }
 }
 
-// Without a destination: waits near the stop that may be rested on, not on the one barred for ever.
-TEST(FreeLowLevel, ACellBarredForEverIsNoPlaceToRest) {
+// Without a destination the agent rests on the stop that is not barred for ever.
+TEST(FreeOrderSipp, CellBarredForeverCannotBeTheRest) {
   const Grid grid = grid_of({"......"});
   FreeProblem problem = corridor(grid, {1, 3}, std::nullopt);
   problem.constraints = {{3, kNoCell, 10, kNever}};
@@ -327,8 +328,8 @@ TEST(FreeLowLevel, ACellBarredForEverIsNoPlaceToRest) {
   EXPECT_EQ(realized_sequence(agent.goals, agent.path), (Sequence{1, 0}));
 }
 
-// Who comes to 3 early may not rest there and cannot get out again in time.
-TEST(FreeLowLevel, AGateSparesThoseWhoComeLateEnoughToRest) {
+// An agent that comes to 3 early may not rest there and cannot leave again in time.
+TEST(FreeOrderSipp, GateKeepsLabelsThatArriveLateEnoughToRest) {
   const Grid grid = grid_of({"...."});
   FreeProblem problem = corridor(grid, {3}, std::nullopt);
   problem.constraints = {
@@ -336,7 +337,7 @@ TEST(FreeLowLevel, AGateSparesThoseWhoComeLateEnoughToRest) {
   EXPECT_EQ(Agent(problem).cost(), 8);
 }
 
-TEST(FreeLowLevel, TellsNoRestInTimeFromNoneBelowTheCutoff) {
+TEST(FreeOrderSipp, DistinguishesInfeasibleRestFromAboveCutoff) {
   const Grid grid = grid_of({"......"});
   FreeProblem problem = corridor(grid, {1, 3}, std::nullopt);
   problem.constraints = {{1, kNoCell, 0, 4, ConstraintKind::kRestBy}};
@@ -351,16 +352,17 @@ TEST(FreeLowLevel, TellsNoRestInTimeFromNoneBelowTheCutoff) {
   EXPECT_EQ(path.back(), 1);
 }
 
-// Without a destination the stop it rests on is the last one: it cannot be the first one too.
-TEST(FreeLowLevel, DoesNotRestOnTheStopThatMustBeFirst) {
+// Without a destination the agent rests on its last stop, which cannot be its first stop, too.
+TEST(FreeOrderSipp, DoesNotRestOnStopThatMustBeFirst) {
   const Grid grid = grid_of({"......"});
   FreeProblem problem = corridor(grid, {1, 3, 5}, std::nullopt);
   problem.work.forbidden_next = 0b010;  // 1 or 5 first
   problem.constraints = {{3, kNoCell, 20, kNever}, {5, kNoCell, 20, kNever}};
-  EXPECT_EQ(Agent(problem).cost(), 5 + 4);  // 5 first, back to 1; by 1 first it would end in 20
+  // 5 first, then back to 1. With 1 first it would rest on 3 or 5, which are barred from 20 on.
+  EXPECT_EQ(Agent(problem).cost(), 5 + 4);
 }
 
-TEST(FreeLowLevel, AStopThatIsBarredTooSoonIsProvenAtOnce) {
+TEST(FreeOrderSipp, StopBarredTooSoonIsInfeasibleWithoutSearch) {
   const Grid grid = grid_of({"......"});
   FreeProblem problem = corridor(grid, {1, 2, 3, 5}, 0);
   problem.constraints = {{5, kNoCell, 5, kNever}};
@@ -369,8 +371,9 @@ TEST(FreeLowLevel, AStopThatIsBarredTooSoonIsProvenAtOnce) {
   EXPECT_EQ(agent.free.expanded(), 0);
 }
 
-// The door shuts behind whoever visits the last stop in time; many orders, all hopeless.
-TEST(FreeLowLevel, ADoorThatShutsIsProvenWithoutTryingAllOrders) {
+// The door closes before an agent that has visited the stop behind it can return; all of the many
+// orders are infeasible.
+TEST(FreeOrderSipp, ClosingDoorIsInfeasibleWithoutEnumeratingOrders) {
   const Grid grid = grid_of({"........@.", "..........", "........@.", "........@."});
   for (const int n : {12, 20}) {
     FreeProblem problem = corridor(grid, {39}, 20);
@@ -383,8 +386,8 @@ TEST(FreeLowLevel, ADoorThatShutsIsProvenWithoutTryingAllOrders) {
   }
 }
 
-// The same door, shut for long: far too dear for the cutoff.
-TEST(FreeLowLevel, ADoorThatShutsForLongIsProvenAboveWithoutTryingAllOrders) {
+// The same door, closed for long: every path costs far more than the cutoff.
+TEST(FreeOrderSipp, LongClosedDoorIsAboveCutoffWithoutEnumeratingOrders) {
   const Grid grid = grid_of({"........@.", "..........", "........@.", "........@."});
   FreeProblem problem = corridor(grid, {39}, 20);
   for (Cell cell = 1; problem.stops.size() < 20; ++cell)
@@ -400,9 +403,9 @@ TEST(FreeLowLevel, ADoorThatShutsForLongIsProvenAboveWithoutTryingAllOrders) {
   EXPECT_LT(in_time.free.expanded(), 20'000);
 }
 
-// The short way to the destination is shut before all stops can have been visited: what is known of
-// the way around must keep the search from trying all orders.
-TEST(FreeLowLevel, ADoorThatShutsMakesTheLastLegDearer) {
+// The short route to the destination is closed before the agent can have visited all stops. The
+// lower bound for the detour must keep the search from trying all orders.
+TEST(FreeOrderSipp, ClosingDoorRaisesTheCostOfTheLastLeg) {
   const Grid grid = grid_of({"...........@.", ".@.@.@.@.@.@.", "...........@.", "@@@@@@@@@@.@.",
                              "...........@.", ".@@@@@@@@@@@.", "............."});
   for (const std::optional<Cell> destination : {std::optional<Cell>(52), std::optional<Cell>()})
@@ -420,8 +423,8 @@ TEST(FreeLowLevel, ADoorThatShutsMakesTheLastLegDearer) {
     }
 }
 
-// The destination is free late: any sequence will do.
-TEST(FreeLowLevel, ALateRestIsFoundWithoutTryingAllOrders) {
+// The agent can rest on its destination only late, so any sequence is optimal.
+TEST(FreeOrderSipp, LateRestIsFoundWithoutEnumeratingOrders) {
   const Grid grid = grid_of({"..........", "..........", "..........", ".........."});
   for (const int n : {12, 24}) {
     FreeProblem problem = corridor(grid, {}, 39);
@@ -434,7 +437,7 @@ TEST(FreeLowLevel, ALateRestIsFoundWithoutTryingAllOrders) {
   }
 }
 
-TEST(FreeLowLevel, SaysAboveOnlyForTheCutoff) {
+TEST(FreeOrderSipp, ReturnsAboveCutoffOnlyBelowTheOptimum) {
   const Grid grid = grid_of({"......"});
   Agent agent(corridor(grid, {5, 1}, 0));
   Path path{7};
@@ -446,7 +449,7 @@ TEST(FreeLowLevel, SaysAboveOnlyForTheCutoff) {
   EXPECT_EQ(agent.find(61, path), Outcome::kFound);
 }
 
-TEST(FreeLowLevel, StopsWithoutAnAnswerWhenALimitStrikes) {
+TEST(FreeOrderSipp, StopsWithoutAnswerWhenALimitIsReached) {
   const Grid grid = grid_of({"......"});
   Agent agent(corridor(grid, {5, 1}, 0));
   Limits limits;
@@ -458,16 +461,16 @@ TEST(FreeLowLevel, StopsWithoutAnAnswerWhenALimitStrikes) {
   EXPECT_EQ(agent.free.find(agent.goals, {}, memory, path), Outcome::kStopped);
 }
 
-// There is memory for the labels of one order, and the agent may not rest where that ends. The path
-// back from there is no answer: the other order is cheaper.
-TEST(FreeLowLevel, APathFoundWithoutAllLabelsIsNoAnswer) {
+// Memory suffices for the labels of one order only, and the agent may not rest where that order
+// ends. The path back from there is no valid answer, because the other order is cheaper.
+TEST(FreeOrderSipp, PathFoundWithoutAllLabelsIsNotReturned) {
   constexpr int kSide = 700;
   std::vector<bool> passable(kSide * kSide);
   std::fill_n(passable.begin(), 6, true);
   const Grid grid(kSide, kSide, passable);
   FreeProblem problem{&grid, 2, {1, 4}, {}, {{0, 1}, 0}, {{4, kNoCell, 30, 30}}};
   Agent agent(problem);
-  EXPECT_EQ(agent.cost(), 31);  // its three states have labels from now on
+  EXPECT_EQ(agent.cost(), 31);  // its three states have labels after this call
   SequenceStages both(agent.stops, {});
   const PathQuery query{problem.constraints};
   Limits limits;
@@ -479,7 +482,7 @@ TEST(FreeLowLevel, APathFoundWithoutAllLabelsIsNoAnswer) {
   EXPECT_EQ(path.size(), 6u);
 }
 
-TEST(FreeLowLevel, APathOutsideTheClassRealizesNothing) {
+TEST(FreeOrderSipp, PathOutsideTheClassRealizesNoSequence) {
   const Grid grid = grid_of({"......"});
   const Agent agent(corridor(grid, {5, 1}, 0));
   EXPECT_THROW(realized_sequence(agent.goals, {0, 1, 0}), std::invalid_argument);

@@ -7,7 +7,7 @@
 namespace grove::detail::testing {
 namespace obeys_test {
 
-TEST(Obeys, CountsTheRestForEver) {
+TEST(Satisfies, CountsRestForever) {
   const Grid grid = grid_of({"..."});
   const Path path{0, 1, 2};
   EXPECT_TRUE(satisfies(grid, path, {1, kNoCell, 2, kNever}));
@@ -19,7 +19,7 @@ TEST(Obeys, CountsTheRestForEver) {
   EXPECT_TRUE(satisfies(grid, path, {1, 2, 0, kNever}));
 }
 
-TEST(Obeys, GoesByTheLastArrival) {
+TEST(Satisfies, UsesTimeOfLastArrival) {
   const Grid grid = grid_of({"..."});
   const auto no_rest = [](Cell cell, Time by) {
     return Constraint{cell, kNoCell, 0, by, ConstraintKind::kNoRestBy};
@@ -39,8 +39,8 @@ TEST(Obeys, GoesByTheLastArrival) {
   EXPECT_TRUE(satisfies(grid, {1}, rest(1, 0)));
 }
 
-// 0 - 1 - 2 - 3, 1 and 2 inside.
-TEST(Obeys, KnowsATraversalFromATurn) {
+// A corridor 0 - 1 - 2 - 3 with inner cells 1 and 2.
+TEST(Satisfies, DistinguishesTraversalFromTurningBack) {
   const Grid grid = grid_of({"...."});
   const auto leaves = [](Cell end, Cell inner, Time begin, Time until) {
     return Constraint{end, inner, begin, until, ConstraintKind::kNoTraversal};
@@ -55,8 +55,8 @@ TEST(Obeys, KnowsATraversalFromATurn) {
   EXPECT_FALSE(satisfies(grid, {1, 0, 1, 2, 3}, leaves(3, 2, 0, kNever)));
 }
 
-// Round a loop: it comes out at the cell where it went in.
-TEST(Obeys, KnowsATraversalOfALoop) {
+// Around a loop: the agent leaves at the cell where it entered.
+TEST(Satisfies, RecognizesTraversalOfLoop) {
   const Grid grid = grid_of({"..@", "...", "@.@"});
   const Constraint left{4, 3, 0, kNever, ConstraintKind::kNoTraversal};
   EXPECT_FALSE(satisfies(grid, {7, 4, 1, 0, 3, 4}, left));

@@ -27,7 +27,7 @@ std::vector<Mouth> mouths_of(const Grid& grid) {
   return mouths;
 }
 
-// Around the times at which `path` leaves a chain, if it does.
+// A corridor constraint around the times at which `path` leaves a corridor, if it does.
 Constraint random_traversal(const Path& path, const std::vector<Mouth>& mouths,
                             std::mt19937& random) {
   const auto steps = static_cast<int>(path.size());
@@ -49,12 +49,12 @@ Constraint random_traversal(const Path& path, const std::vector<Mouth>& mouths,
 Grid random_corridor_map(std::mt19937& random) {
   static const std::vector<std::vector<std::string>> maps = {
       {"..@..", ".....", "..@.."},           // a door
-      {"..@@..", "......", "..@@.."},        // a longer one
+      {"..@@..", "......", "..@@.."},        // a longer door
       {"..@..", ".....", "..@..", "....."},  // two doors
       {"@.@@", "....", "@.@.", "@..."},      // a loop at a crossing
       {"......", "@.@@.@", "@....@"},        // a loop and a tail
       {".@.", "...", ".@."},                 // dead ends
-      {".......", ".@@.@@.", "......."},     // three ways
+      {".......", ".@@.@@.", "......."},     // three routes
       {"....", "@@@.", "...."},              // a snake
   };
   return grid_of(any_of(maps, random));

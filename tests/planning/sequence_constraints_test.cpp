@@ -31,28 +31,28 @@ class SequenceConstraints : public ::testing::Test {
   AgentStops stops_{agent_.instance, agent_.distances, 0};
 };
 
-TEST_F(SequenceConstraints, MakeAClassInWhateverOrderTheyCome) {
+TEST_F(SequenceConstraints, NarrowTheClassInAnyOrder) {
   EXPECT_EQ(narrowed({}), SequenceClass());
   EXPECT_EQ(narrowed({is_not(0, 1), is_not(0, 3)}), SequenceClass({}, 0b1010));
   EXPECT_EQ(narrowed({is_not(1, 0), is(0, 2), is_not(0, 1)}), SequenceClass({2}, 0b0001));
   EXPECT_EQ(narrowed({is(2, 3), is(1, 0), is(0, 2)}), SequenceClass({2, 0, 3, 1}, 0));
 }
 
-TEST_F(SequenceConstraints, GoOnWhereTheClassOfTheTreeEnds) {
+TEST_F(SequenceConstraints, ExtendTheClassOfTheTree) {
   EXPECT_EQ(narrowed({is_not(0, 0)}, {{}, 0b0010}), SequenceClass({}, 0b0011));
   EXPECT_EQ(narrowed({is(1, 3)}, {{2}, 0b0010}), SequenceClass({2, 3}, 0));
 }
 
-TEST_F(SequenceConstraints, SettleAStopWhenAllOthersAreRuledOut) {
+TEST_F(SequenceConstraints, FixStopWhenAllOthersAreRuledOut) {
   EXPECT_EQ(narrowed({is_not(0, 0), is_not(0, 1), is_not(0, 2), is_not(1, 0)}),
             SequenceClass({3}, 0b0001));
 }
 
-TEST_F(SequenceConstraints, LeaveThoseOnThePathAlone) {
+TEST_F(SequenceConstraints, IgnorePathConstraints) {
   EXPECT_EQ(narrowed({{3, kNoCell, 0, 0}, {3, 4, 1, 1}}), SequenceClass());
 }
 
-TEST_F(SequenceConstraints, ThatMakeNoClassAreRefused) {
+TEST_F(SequenceConstraints, ThrowWhenTheyFormNoClass) {
   const Constraint nowhere{2, 0, 0, 0, ConstraintKind::kStopIs};
   EXPECT_THROW(narrowed({nowhere}), std::invalid_argument);
   const Constraint none{1, 4, 0, 0, ConstraintKind::kStopIs};

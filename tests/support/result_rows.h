@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of results, as good as any.
+// Example rows of a results table.
 #pragma once
 
 #include <string>

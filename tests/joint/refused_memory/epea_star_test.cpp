@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Joint search when memory runs out anywhere: it gives up, and its bound holds.
+// Joint search with an allocation failure at any point: the search ends and its bound is valid.
 #include "joint/epea_star.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include "tests/support/failing_new.h"
 
 namespace grove::detail {
-namespace joint_memory_test {
+namespace epea_star_memory_test {
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 28;
 
@@ -29,7 +29,7 @@ End run_to_the_end(const Instance& instance) {
   return end;
 }
 
-TEST(JointSearchWithoutMemory, GivesUpAndKeepsItsBound) {
+TEST(EpeaStarWithoutMemory, EndsAndKeepsItsBound) {
   const Instance instance = fuzz::random_puzzle(3).build();
   const Cost optimum = run_to_the_end(instance).lower_bound;
   int failures = 0;
@@ -43,5 +43,5 @@ TEST(JointSearchWithoutMemory, GivesUpAndKeepsItsBound) {
   EXPECT_GT(failures, 20);
 }
 
-}  // namespace joint_memory_test
+}  // namespace epea_star_memory_test
 }  // namespace grove::detail

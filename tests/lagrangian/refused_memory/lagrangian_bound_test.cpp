@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The Lagrangian bound when memory runs out anywhere in a round: it ends, and what it has holds.
+// The Lagrangian bound with an allocation failure anywhere in a round: it ends, and its bound is
+// valid.
 #include "lagrangian/lagrangian_bound.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ struct End {
   bool failed = false;
 };
 
-// `refuse_at`: the allocation within the jobs that is refused; less than 0: none.
+// `refuse_at`: number of the allocation within the jobs that fails, from 0; negative: none.
 End run(Known& known, int refuse_at) {
   const Tuning tuning;
   const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);

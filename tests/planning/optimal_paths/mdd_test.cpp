@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All paths of one cost, and whether two agents get along on theirs, against trying all.
-// GROVE_FUZZ_ FACTOR multiplies the number of cases.
+// MDDs, and whether the MDDs of two agents have collision-free paths, compared with enumeration of
+// all paths. GROVE_FUZZ_FACTOR multiplies the number of cases.
 #include "planning/mdd.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@
 #include "tests/support/fuzz_factor.h"
 
 namespace grove::detail {
-namespace optimal_paths_test {
+namespace mdd_test {
 
 using Outcome = MddBuilder::Outcome;
 using Paths = std::set<Path>;
@@ -32,7 +32,7 @@ using testing::StepRules;
 
 constexpr std::size_t kPlenty = 1'000'000;
 
-// Every walk of so many steps, the last one a move, that is a path of the problem.
+// All paths of the problem that have `cost` steps, the last of which is a move.
 class Walks {
  public:
   Walks(const FreeProblem& problem, Time cost)
@@ -88,20 +88,20 @@ class Walks {
   Paths found_;
 };
 
-// All ways through the graph.
-void add_ways(const Mdd& graph, Mdd::NodeId node, Path& way, Paths& all) {
-  way.push_back(graph.state(node));
-  if (static_cast<Time>(way.size()) > graph.cost()) all.insert(way);
-  for (const auto next : graph.successors(node)) add_ways(graph, next, way, all);
-  way.pop_back();
+// Adds all paths of the MDD that begin with `path` and continue with `node`.
+void add_paths(const Mdd& graph, Mdd::NodeId node, Path& path, Paths& all) {
+  path.push_back(graph.state(node));
+  if (static_cast<Time>(path.size()) > graph.cost()) all.insert(path);
+  for (const auto next : graph.successors(node)) add_paths(graph, next, path, all);
+  path.pop_back();
 }
 
-Paths ways_of(const Mdd& graph) {
+Paths paths_of(const Mdd& graph) {
   Paths all;
   if (graph.empty()) return all;
-  Path way;
+  Path path;
   const auto first = graph.layer(0);
-  for (auto node = first.first; node < first.end; ++node) add_ways(graph, node, way, all);
+  for (auto node = first.first; node < first.end; ++node) add_paths(graph, node, path, all);
   return all;
 }
 
@@ -183,7 +183,7 @@ class Fuzzer {
     return std::make_unique<Agent>(problem);
   }
 
-  // All paths of the agent's least cost, or of one or two more.
+  // Compares and returns all paths of the agent's least cost, or of that cost plus one or two.
   Paths check(Agent& agent) {
     const std::optional<Time> least = free_reference_cost(agent.problem);
     if (!least) {
@@ -194,7 +194,7 @@ class Fuzzer {
     if (cost > kLongest) return {};
     const Paths all = Walks(agent.problem, cost).found();
     EXPECT_EQ(agent.build(cost), all.empty() ? Outcome::kNone : Outcome::kBuilt);
-    EXPECT_TRUE(ways_of(agent.graph) == all);
+    EXPECT_TRUE(paths_of(agent.graph) == all);
     return all;
   }
 
@@ -216,7 +216,7 @@ class Fuzzer {
   std::mt19937 random_;
 };
 
-TEST(OptimalPathsFuzz, AgreeWithTryingAll) {
+TEST(MddFuzz, AgreesWithEnumeration) {
   const int seeds = testing::fuzz_rounds(700);
   int fits = 0;
   int collides = 0;
@@ -232,20 +232,20 @@ TEST(OptimalPathsFuzz, AgreeWithTryingAll) {
   EXPECT_GT(collides, seeds / 4);
 }
 
-// Two ways round a block: the orders differ, the cells in between do not.
-TEST(Mdd, ForgetsWhatNoLongerMatters) {
+// Paths of least cost on an open 3 x 3 grid: 6 paths, but only one node for each cell.
+TEST(Mdd, MergesNodesThatDifferOnlyInThePast) {
   const Grid grid = grid_of({"...", "...", "..."});
   FreeProblem problem{&grid, 0, {}, 8, {}, {}};
   Agent agent(problem);
   ASSERT_EQ(agent.build(4), Outcome::kBuilt);
   EXPECT_EQ(agent.graph.node_count(), 9);
   EXPECT_EQ(agent.graph.cost(), 4);
-  EXPECT_EQ(ways_of(agent.graph).size(), 6u);
+  EXPECT_EQ(paths_of(agent.graph).size(), 6u);
   problem.constraints = {{4, 1, 0, kNever, ConstraintKind::kNoRestBy}};
   ASSERT_EQ(Agent(problem).build(4), Outcome::kBuilt);
 }
 
-TEST(Mdd, SaysWhichLimitStruck) {
+TEST(Mdd, ReportsWhichLimitWasReached) {
   const Grid grid = grid_of({"...", "...", "..."});
   Agent agent(FreeProblem{&grid, 0, {}, 8, {}, {}});
   EXPECT_EQ(agent.build(4, 5), Outcome::kTooLarge);
@@ -257,8 +257,8 @@ TEST(Mdd, SaysWhichLimitStruck) {
             Outcome::kStopped);
 }
 
-// One rests in the way of the other, who is longer on its way.
-TEST(JointMddSearch, CountsTheRestOfTheShorterOne) {
+// An agent rests on the path of another agent that arrives there later.
+TEST(JointMddSearch, CountsTheRestOfTheAgentThatFinishesFirst) {
   const Grid grid = grid_of({"....."});
   Agent rests(FreeProblem{&grid, 3, {}, 2, {}, {}});
   Agent passes(FreeProblem{&grid, 0, {}, 4, {}, {}});
@@ -268,5 +268,5 @@ TEST(JointMddSearch, CountsTheRestOfTheShorterOne) {
   EXPECT_EQ(pair.find(rests.graph, passes.graph, kPlenty, Limits()), Dependence::kDependent);
 }
 
-}  // namespace optimal_paths_test
+}  // namespace mdd_test
 }  // namespace grove::detail

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// All paths of one cost against a time-expanded graph that is written from the definitions of the
-// constraints alone. Two layered graphs have the same ways if, read side by side, no way of one
-// ends early in the other: so paths need not be listed, and maps, costs and windows may be larger
-// than in mdd_test.cpp. The low level must find the least such cost.
+// MDDs compared with a time-expanded graph that is written only from the definitions of the
+// constraints. Two layered graphs have the same paths if no path of one ends early in the other
+// when both are read in parallel (as automata). So the test does not list paths, and maps, costs
+// and time windows may be larger than in mdd_test.cpp. FreeOrderSipp must find the least such cost.
 // GROVE_FUZZ_FACTOR multiplies the number of cases.
 #include <gtest/gtest.h>
 
@@ -35,41 +35,41 @@ constexpr std::size_t kPlenty = 1'000'000;
 constexpr std::size_t kMostReadings = 20'000;  // of one pair of graphs
 constexpr Time kLongest = 60;
 
-// What an agent must remember besides the time.
-struct Memory {
+// State of an agent in the time-expanded graph, besides the time.
+struct AgentState {
   Cell cell;
   std::uint32_t counted;  // stops
-  int last;               // the one counted last
-  Cell entered_from;      // inside a row of cells with two neighbors: from where, and whereto
+  int last;               // the stop counted last
+  Cell entered_from;      // inside a corridor: end and first inner cell of its entry
   Cell entered_at;
-  friend auto operator<=>(const Memory&, const Memory&) = default;
+  friend auto operator<=>(const AgentState&, const AgentState&) = default;
 };
 
 class TimeExpanded {
  public:
   explicit TimeExpanded(const FreeProblem& problem) : problem_(problem) {
-    std::set<Memory> first;
+    std::set<AgentState> first;
     if (!barred(problem.start, 0)) arrive({problem.start, 0, -1, kNoCell, kNoCell}, first);
     layers_.push_back(std::move(first));
   }
 
-  // The least cost of a path, if at most `most`.
+  // The least cost of a path. Returns nullopt if it is more than `most`.
   std::optional<Time> least_cost(Time most) {
     for (Time cost = 0; cost <= most; ++cost)
       if (ends_at(cost)) return cost;
     return std::nullopt;
   }
 
-  // The nodes from which a path of this cost goes on, by time.
-  std::vector<std::set<Memory>> nodes_of(Time cost) {
-    std::vector<std::set<Memory>> useful(static_cast<std::size_t>(cost) + 1);
+  // The nodes on paths of this cost, by time.
+  std::vector<std::set<AgentState>> nodes_of(Time cost) {
+    std::vector<std::set<AgentState>> useful(static_cast<std::size_t>(cost) + 1);
     grow(cost);
-    for (const Memory& m : layers_[cost])
+    for (const AgentState& m : layers_[cost])
       if (cost == 0 && may_end(m, cost)) useful[cost].insert(m);
     if (cost == 0) return useful;
     for (Time time = cost - 1; time >= 0; --time)
-      for (const Memory& m : layers_[time])
-        for (const Memory& next : steps(m, time + 1)) {
+      for (const AgentState& m : layers_[time])
+        for (const AgentState& next : steps(m, time + 1)) {
           const bool ends = time + 1 == cost && next.cell != m.cell && may_end(next, cost);
           if (ends) useful[cost].insert(next);
           if (ends || (time + 1 < cost && useful[time + 1].contains(next))) useful[time].insert(m);
@@ -77,13 +77,13 @@ class TimeExpanded {
     return useful;
   }
 
-  // Where it can be after a step that arrives at `time`.
-  std::vector<Memory> steps(const Memory& from, Time time) const {
-    std::set<Memory> there;
+  // The states after a step from `from` that arrives at `time`.
+  std::vector<AgentState> steps(const AgentState& from, Time time) const {
+    std::set<AgentState> there;
     if (!barred(from.cell, time)) arrive(from, there);
     for (const Cell to : problem_.grid->neighbors(from.cell)) {
       if (barred(to, time) || move_barred(from, to, time)) continue;
-      Memory m = from;
+      AgentState m = from;
       m.cell = to;
       if (!inner(to))
         m.entered_from = m.entered_at = kNoCell;
@@ -99,9 +99,10 @@ class TimeExpanded {
 
   void grow(Time time) {
     while (static_cast<Time>(layers_.size()) <= time) {
-      std::set<Memory> next;
-      for (const Memory& m : layers_.back())
-        for (const Memory& there : steps(m, static_cast<Time>(layers_.size()))) next.insert(there);
+      std::set<AgentState> next;
+      for (const AgentState& m : layers_.back())
+        for (const AgentState& there : steps(m, static_cast<Time>(layers_.size())))
+          next.insert(there);
       layers_.push_back(std::move(next));
     }
   }
@@ -110,7 +111,7 @@ class TimeExpanded {
     return !useful.front().empty();
   }
 
-  void arrive(const Memory& m, std::set<Memory>& there) const {
+  void arrive(const AgentState& m, std::set<AgentState>& there) const {
     there.insert(m);
     const auto& prefix = problem_.work.prefix;
     const auto many = static_cast<std::size_t>(std::popcount(m.counted));
@@ -129,7 +130,7 @@ class TimeExpanded {
              c.begin <= time && time <= c.end;
     });
   }
-  bool move_barred(const Memory& from, Cell to, Time time) const {
+  bool move_barred(const AgentState& from, Cell to, Time time) const {
     return std::ranges::any_of(problem_.constraints, [&](const Constraint& c) {
       if (c.from != from.cell || c.cell != to || time < c.begin || c.end < time) return false;
       if (c.kind == ConstraintKind::kVertexOrEdge) return true;
@@ -137,8 +138,8 @@ class TimeExpanded {
              !(from.entered_from == to && from.entered_at == from.cell);
     });
   }
-  // For ever, having just come.
-  bool may_end(const Memory& m, Time time) const {
+  // May the agent rest here for ever, having arrived at `time`?
+  bool may_end(const AgentState& m, Time time) const {
     if (std::popcount(m.counted) != static_cast<int>(problem_.stops.size())) return false;
     const Cell rest = problem_.destination ? *problem_.destination : problem_.stops[m.last];
     if (m.cell != rest) return false;
@@ -152,21 +153,22 @@ class TimeExpanded {
   }
 
   const FreeProblem& problem_;
-  std::vector<std::set<Memory>> layers_;
+  std::vector<std::set<AgentState>> layers_;
 };
 
-// Reads both graphs side by side, by sets of nodes that one way leads to.
+// Reads both graphs in parallel: a reading is the pair of node sets that one path leads to.
 class SideBySide {
  public:
-  SideBySide(const TimeExpanded& reference, const std::vector<std::set<Memory>>& useful,
+  SideBySide(const TimeExpanded& reference, const std::vector<std::set<AgentState>>& useful,
              const Mdd& graph)
       : reference_(reference), useful_(useful), graph_(graph) {}
 
-  // Empty: the same; else what differs. Reads no more than kMostReadings.
+  // Describes the first difference; empty if the graphs have the same paths. Reads at most
+  // kMostReadings pairs.
   std::string difference() {
     const auto first = graph_.layer(0);
     std::map<Cell, Reading> begin;
-    for (const Memory& m : useful_[0]) begin[m.cell].first.insert(m);
+    for (const AgentState& m : useful_[0]) begin[m.cell].first.insert(m);
     for (auto node = first.first; node < first.end; ++node)
       begin[graph_.state(node)].second.insert(node);
     std::set<Reading> now;
@@ -176,8 +178,8 @@ class SideBySide {
       for (const Reading& reading : now) {
         if (++readings_ > kMostReadings) return {};
         std::map<Cell, Reading> there;
-        for (const Memory& m : reading.first)
-          for (const Memory& step : reference_.steps(m, time))
+        for (const AgentState& m : reading.first)
+          for (const AgentState& step : reference_.steps(m, time))
             if (useful_[time].contains(step) && (time < graph_.cost() || step.cell != m.cell))
               there[step.cell].first.insert(step);
         for (const auto node : reading.second)
@@ -195,7 +197,7 @@ class SideBySide {
   bool complete() const { return readings_ <= kMostReadings; }
 
  private:
-  using Reading = std::pair<std::set<Memory>, std::set<Mdd::NodeId>>;
+  using Reading = std::pair<std::set<AgentState>, std::set<Mdd::NodeId>>;
 
   static bool put(const std::map<Cell, Reading>& by_cell, std::set<Reading>& readings) {
     for (const auto& [cell, reading] : by_cell) {
@@ -206,12 +208,12 @@ class SideBySide {
   }
 
   const TimeExpanded& reference_;
-  const std::vector<std::set<Memory>>& useful_;
+  const std::vector<std::set<AgentState>>& useful_;
   const Mdd& graph_;
   std::size_t readings_ = 0;
 };
 
-// Each node is on a way, and no step is written twice.
+// Is each node on a path, and each successor listed once?
 bool is_tidy(const Mdd& graph) {
   std::vector<bool> entered(static_cast<std::size_t>(graph.node_count()), false);
   for (auto node = graph.layer(0).first; node < graph.layer(0).end; ++node) entered[node] = true;
@@ -272,7 +274,7 @@ class Fuzzer {
 
   void check(TimeExpanded& reference, MddBuilder& builder, SequenceStages& goals, Time cost) {
     using Outcome = MddBuilder::Outcome;
-    const auto useful = cost < 0 ? std::vector<std::set<Memory>>(1) : reference.nodes_of(cost);
+    const auto useful = cost < 0 ? std::vector<std::set<AgentState>>(1) : reference.nodes_of(cost);
     Mdd graph;
     const Outcome outcome =
         builder.build(goals, problem_.constraints, cost, kPlenty, Limits(), graph);
@@ -322,7 +324,8 @@ class Fuzzer {
     for (std::size_t i = 0; i < cells.size(); ++i)
       for (const Cell next : grid.neighbors(cells[i]))
         if (std::ranges::count(cells, next) == 0) cells.push_back(next);
-    // So many that a graph of sequences takes the place of a table; few of them free.
+    // With 15 or more stops the cost-to-go is a graph of sequences instead of a table. Few of them
+    // are outside the prefix.
     const bool many = below(8) == 0 && cells.size() > 18;
     for (int n = many ? 15 + below(3) : below(6); n > 0; --n)
       if (const Cell cell = any_of(cells); std::ranges::count(problem_.stops, cell) == 0)
@@ -342,7 +345,7 @@ class Fuzzer {
         if (below(3) == 0) problem_.work.forbidden_next |= StopSet{1} << order[i];
   }
 
-  // Lest it cost too much.
+  // Sorts by depth-first order, so that paths of this order do not cost too much.
   void order_nearest_first(Sequence& order) const {
     std::map<Cell, int> found{{problem_.start, 0}};
     std::vector<Cell> stack{problem_.start};
@@ -371,19 +374,19 @@ class Fuzzer {
       case 1:
         all.push_back({cell, kNoCell, t - below(5), end});
         break;
-      case 2:  // shut until late, but for a moment
+      case 2:  // barred until late, except for one time step
         all.push_back({cell, kNoCell, 1 + below(3), end});
         all.push_back({cell, kNoCell, end + 1 + below(3), end + below(9)});
         break;
       case 3:
       case 4:
-      case 5: {  // overlapping bars of moves
-        const auto ways = grid.neighbors(cell);
-        if (ways.empty()) break;
+      case 5: {  // overlapping edge constraints
+        const auto neighbors = grid.neighbors(cell);
+        if (neighbors.empty()) break;
         const Cell from =
-            before != cell && std::ranges::count(ways, before) > 0
+            before != cell && std::ranges::count(neighbors, before) > 0
                 ? before
-                : ways[static_cast<std::size_t>(below(static_cast<int>(ways.size())))];
+                : neighbors[static_cast<std::size_t>(below(static_cast<int>(neighbors.size())))];
         for (int n = 1 + below(3); n > 0; --n)
           all.push_back({cell, from, t - below(6), t + below(7)});
         break;
@@ -394,8 +397,8 @@ class Fuzzer {
       case 9: {
         std::vector<std::pair<Cell, Cell>> mouths;
         const Corridors corridors(grid);
-        for (int chain = 0; chain < corridors.count(); ++chain) {
-          const auto row = corridors.places(chain);
+        for (int corridor = 0; corridor < corridors.count(); ++corridor) {
+          const auto row = corridors.places(corridor);
           mouths.emplace_back(row.front(), row[1]);
           mouths.emplace_back(row.back(), row[row.size() - 2]);
         }
@@ -424,7 +427,7 @@ class Fuzzer {
   FreeProblem problem_;
 };
 
-TEST(OptimalPathsLanguage, IsThatOfATimeExpandedGraph) {
+TEST(MddLanguage, EqualsThatOfTimeExpandedGraph) {
   const int seeds = testing::fuzz_rounds(60);
   int compared = 0;
   int incomplete = 0;
@@ -455,9 +458,9 @@ std::vector<std::vector<Cell>> cells_of(const Mdd& graph) {
   return layers;
 }
 
-// Asked for a cost that the graph of sequences does not know yet, or just not, against one that was
-// widened far beyond it.
-TEST(OptimalPathsLanguage, IsWholeWhereTheSequenceGraphIsBounded) {
+// Builds an MDD of a cost just outside the bound of the sequence graph, and compares it with an MDD
+// from a sequence graph that was widened beyond that cost.
+TEST(MddLanguage, IsCompleteAtTheBoundOfTheSequenceGraph) {
   int at_the_bound = 0;
   for (unsigned seed = 0; seed < 12; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -491,8 +494,8 @@ TEST(OptimalPathsLanguage, IsWholeWhereTheSequenceGraphIsBounded) {
   EXPECT_GT(at_the_bound, 10);
 }
 
-// States may be made of other completions than those of their stops.
-TEST(OptimalPathsLanguage, WidensTheCompletionsThatItsStatesAreMadeOf) {
+// SequenceStages may have been made with another CostToGo than that of its AgentStops.
+TEST(MddLanguage, WidensTheCostToGoOfItsStages) {
   const Grid grid = grid_of({"....."});
   FreeProblem problem{&grid, 0, {2}, 4, {}, {}};
   const Instance instance = instance_of(problem);
@@ -505,8 +508,9 @@ TEST(OptimalPathsLanguage, WidensTheCompletionsThatItsStatesAreMadeOf) {
             MddBuilder::Outcome::kBuilt);
 }
 
-// A limit that strikes at any time is no proof that there is no path, nor is the graph in parts.
-TEST(OptimalPathsLanguage, IsWholeOrNotThereWhenALimitStrikes) {
+// A limit that is reached at any time must neither count as a proof that there is no path nor leave
+// a part of the MDD.
+TEST(MddLanguage, IsCompleteOrEmptyWhenALimitIsReached) {
   const Grid grid = grid_of(std::vector<std::string>(40, std::string(40, '.')));
   FreeProblem problem{&grid, 0, {}, 1599, {}, {}};
   for (const Cell cell : {95, 1300, 777, 610, 1499, 38, 444, 820}) problem.stops.push_back(cell);
