@@ -156,8 +156,8 @@ Tuning random_tuning(Random& random) {
           using Number = std::remove_cvref_t<decltype(tuning.*at)>;
           const double usual = static_cast<double>(Tuning().*at);
           const double some =
-              random.pick<double>({t.least, usual / 8, usual / 2, 2 * usual, 8 * usual});
-          tuning.*at = static_cast<Number>(std::clamp(some, t.least, t.most));
+              random.pick<double>({t.min, usual / 8, usual / 2, 2 * usual, 8 * usual});
+          tuning.*at = static_cast<Number>(std::clamp(some, t.min, t.max));
         },
         t.place);
   }
