@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A root and what it takes to look at it, for the tests of those who do.
+// A root node with the objects that a test needs to view or branch it.
 #pragma once
 
 #include <memory>
@@ -35,7 +35,8 @@ struct NodeAtHand {
     view.enter(root, all);
   }
 
-  // Turns to a node below the root in which the first agents take these ways, each as short.
+  // Enters a child of the root in which the first agents take these paths, each as long as the
+  // root's.
   void take(const std::vector<std::vector<Position>>& ways) {
     std::vector<Path> paths;
     for (const auto& way : ways) {
