@@ -223,7 +223,7 @@ TEST(NodeView, ListsTheAgentsAffectedByAConstraint) {
   const Cell on_first = s.view.path(0)[1];
   EXPECT_EQ(affected_agents(0, {on_first, kNoCell, 1, 1}), std::vector<AgentIndex>({0}));
   EXPECT_EQ(affected_agents(0, {on_first, kNoCell, 2, 2}), std::vector<AgentIndex>());
-  // Agent 0 rests on its goal by time 3, and agent 1 does not enter it: nobody is affected.
+  // Agent 0 rests on its goal by time 3, and agent 1 does not enter it: no agent is affected.
   EXPECT_EQ(affected_agents(0, {3, kNoCell, 0, 3, ConstraintKind::kRestBy}),
             std::vector<AgentIndex>());
   // If agent 0 had to rest on a cell of agent 1's path, both would be affected.

@@ -8,7 +8,7 @@
 #include "tests/support/instances.h"
 
 namespace grove::detail {
-namespace gate_test {
+namespace global_bounds_test {
 
 // One agent in a corridor: the straight path costs 4, each wait adds one.
 const Instance& instance() {
@@ -107,5 +107,5 @@ TEST(GlobalBounds, NeedsNewTreeAsInAlgorithm4) {
   EXPECT_FALSE(sequential.needs_new_tree(kInfiniteCost, 10));
 }
 
-}  // namespace gate_test
+}  // namespace global_bounds_test
 }  // namespace grove::detail

@@ -12,7 +12,7 @@
 #include "tests/support/instances.h"
 
 namespace grove::detail {
-namespace crowding_test {
+namespace pebble_motion_test {
 
 using testing::AgentSpec;
 using Rows = std::vector<std::string>;
@@ -82,5 +82,5 @@ TEST(PebbleMotion, ChecksTasksOfAgentsWithoutGoals) {
   EXPECT_FALSE(is_infeasible(testing::instance_of({".....", "@@@.@"}, agents)));
 }
 
-}  // namespace crowding_test
+}  // namespace pebble_motion_test
 }  // namespace grove::detail

@@ -8,7 +8,7 @@
 #include "tests/search/node_at_hand.h"
 
 namespace grove::detail {
-namespace memory_test {
+namespace result_cache_test {
 
 using Known = DependencyTable::Known;
 
@@ -271,5 +271,5 @@ TEST(MddCache, DropsMddsThatWereNotUsedRecently) {
   EXPECT_EQ(sets.bytes(), 2 * kYoung * one.bytes());
 }
 
-}  // namespace memory_test
+}  // namespace result_cache_test
 }  // namespace grove::detail
