@@ -13,7 +13,7 @@
 namespace grove::detail {
 namespace neighborhoods_test {
 
-// `count` agents that cross an open square from left to right, each to another row.
+// `count` agents that cross an open square from left to right, each to a row of its own.
 Instance crossing(int count) {
   std::vector<testing::AgentSpec> agents;
   for (int i = 0; i < count; ++i)
