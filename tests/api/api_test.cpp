@@ -38,7 +38,7 @@ Instance small() {
                    {.id = "look", .place = Cell{2, 0}, .agents = {"red"}}});
 }
 
-// A corridor of robots that want to pass one another: hours of search.
+// Robots that must pass each other in a corridor: the search takes hours.
 Instance dense_instance(int robots = 14) {
   std::vector<Agent> agents;
   for (int i = 0; i < robots; ++i)

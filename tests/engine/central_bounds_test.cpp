@@ -19,7 +19,7 @@ namespace central_bounds_test {
 // Live nodes with the bounds that the test sets.
 struct ScriptedNodes : LiveNodes {
   Cost bound() const override {
-    if (meanwhile) meanwhile();
+    if (when_read) when_read();
     return least;
   }
   Cost evicted_bound() const override { return kInfiniteCost; }
@@ -30,7 +30,7 @@ struct ScriptedNodes : LiveNodes {
   void restart(std::span<const NodePtr>, Cost) override {}
 
   Cost least = 8;
-  std::function<void()> meanwhile;  // other workers' calls while the bound is read
+  std::function<void()> when_read;  // other workers' calls while the bound is read
   std::function<void()> when_pruned = [] {};
   std::vector<Cost> pruned;
 };
@@ -137,7 +137,7 @@ TEST_F(CentralBoundsTest, WeakerBoundIsNotTheReasonForInfeasibility) {
 // read.
 TEST_F(CentralBoundsTest, TreeAddedWhileTheBoundIsReadIsCounted) {
   nodes_.least = kInfiniteCost;
-  nodes_.meanwhile = [&] { bounds_.expect_trees_from(kInfiniteCost); };
+  nodes_.when_read = [&] { bounds_.expect_trees_from(kInfiniteCost); };
   bounds_.nodes_changed();
   EXPECT_EQ(bounds_.lower_bound(), 5);
   EXPECT_FALSE(bounds_.over());

@@ -66,8 +66,8 @@ class CentralTreesTest : public ::testing::Test {
   Limits limits_;
   SolveOptions options_;
   WatchedNodes nodes_;
-  RunObserver silent_;
-  RunEvents announcements_{silent_, [] { return Progress(); }};
+  RunObserver observer_;
+  RunEvents announcements_{observer_, [] { return Progress(); }};
   std::optional<ScriptedForest> forest_;
   std::optional<CentralBounds> bounds_;
   std::optional<CentralTrees> trees_;

@@ -31,7 +31,7 @@ std::vector<Cost> costs_of_ends(const Instance& instance, AgentIndex agent) {
     distances.push_back(distance_field(instance.grid(), cells.back()));
   }
   const std::size_t n = cells.size();
-  std::vector<Cost> least(n << n, kInfiniteCost);  // by the set visited, then the last
+  std::vector<Cost> least(n << n, kInfiniteCost);  // index: set visited, then last task
   for (std::size_t i = 0; i < n; ++i)
     least[(std::size_t{1} << i) * n + i] = distances[i][instance.agent(agent).start];
   for (std::size_t set = 1; set < std::size_t{1} << n; ++set)
@@ -83,7 +83,7 @@ TEST(Destinations, AreTheCheapestDistinctEndsOfManyTasks) {
              Tuning().visitor_steps * (std::ssize(instance.task(task).agents) - 1);
     };
     Cost best = kInfiniteCost;
-    Cost cost = kInfiniteCost;  // of the choice
+    Cost cost = kInfiniteCost;  // cost of the choice
     for (int i = 0; i < kTasks; ++i)
       for (int j = 0; j < kTasks; ++j) {
         const TaskIndex tasks[] = {instance.agent(0).tasks[i], instance.agent(1).tasks[j]};

@@ -72,7 +72,7 @@ TEST(Multicore, FindsTheOptimumOfOneThread) {
 }
 
 TEST(Multicore, DeterministicRunIsTheSameForAnyNumberOfThreads) {
-  std::size_t longest = 0;  // rows
+  std::size_t longest = 0;  // in rows
   for (const Instance& instance : instances()) {
     std::vector<Recorder::Row> rows;
     std::vector<Path> paths;

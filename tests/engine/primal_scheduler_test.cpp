@@ -49,9 +49,9 @@ bool may_do(PrimalScheduler scheduler, const PrimalSearch& primal, std::int64_t 
 }
 
 void expect_ratio(const PrimalScheduler& scheduler, const PrimalSearch& primal, double ratio) {
-  const auto most = static_cast<std::int64_t>(std::llround(1e6 * ratio));
-  EXPECT_TRUE(may_do(scheduler, primal, 1'000'000, most - 1)) << ratio;
-  EXPECT_FALSE(may_do(scheduler, primal, 1'000'000, most + 1)) << ratio;
+  const auto max_work = static_cast<std::int64_t>(std::llround(1e6 * ratio));
+  EXPECT_TRUE(may_do(scheduler, primal, 1'000'000, max_work - 1)) << ratio;
+  EXPECT_FALSE(may_do(scheduler, primal, 1'000'000, max_work + 1)) << ratio;
 }
 
 TEST(PrimalScheduler, StartsThePrimalSearchAfterSomeTreeWork) {

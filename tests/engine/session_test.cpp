@@ -137,7 +137,7 @@ TEST(Session, InvalidChangeLeavesTheSessionUnchanged) {
   task.blocked = {2};
   EXPECT_THROW(session.change(task), InstanceError);
   InstanceChange unknown;
-  unknown.dropped_tasks = {"nobody's"};
+  unknown.dropped_tasks = {"unknown"};
   EXPECT_THROW(session.change(unknown), InstanceError);
   ASSERT_TRUE(session.plan());
   EXPECT_EQ(session.plan()->cost, 4);

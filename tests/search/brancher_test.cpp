@@ -179,17 +179,17 @@ TEST(Brancher, BreaksTiesBySeed) {
                                      {{4, 0}, Position{6, 2}},
                                      {{4, 2}, Position{6, 0}}};
   const std::vector<std::string> rows{"...@...", "...@...", "...@..."};
-  auto ways = kCollide;
-  for (std::vector<Position> way : kCollide) {
-    for (Position& at : way) at.x += 4;
-    ways.push_back(way);
+  auto routes = kCollide;
+  for (std::vector<Position> route : kCollide) {
+    for (Position& at : route) at.x += 4;
+    routes.push_back(route);
   }
   std::set<std::vector<AgentIndex>> seen;
   for (std::uint64_t seed = 0; seed < 16; ++seed) {
     Branched s(rows, twice, {Techniques(), seed, true});
     Branched again(rows, twice, {Techniques(), seed, true});
-    s.take(ways);
-    again.take(ways);
+    s.take(routes);
+    again.take(routes);
     ASSERT_EQ(s.branch(), Brancher::Outcome::kBranched);
     ASSERT_EQ(again.branch(), Brancher::Outcome::kBranched);
     EXPECT_EQ(s.constrained(), again.constrained());

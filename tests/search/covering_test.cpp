@@ -9,9 +9,9 @@
 namespace grove::detail {
 namespace covering_test {
 
-// The least sum that satisfies all statements, by enumerating every assignment of 0 to `most` per
-// agent.
-Cost brute_force(const std::vector<GroupExcess>& statements, int agents, int most) {
+// The least sum that satisfies all statements, by enumerating every assignment of 0 to `max_given`
+// per agent.
+Cost brute_force(const std::vector<GroupExcess>& statements, int agents, int max_given) {
   std::vector<int> given(static_cast<std::size_t>(agents));
   Cost best = kInfiniteCost;
   for (;;) {
@@ -24,7 +24,7 @@ Cost brute_force(const std::vector<GroupExcess>& statements, int agents, int mos
     });
     if (fulfilled) best = std::min(best, sum);
     int i = 0;
-    while (i < agents && given[i] == most) given[i++] = 0;
+    while (i < agents && given[i] == max_given) given[i++] = 0;
     if (i == agents) return best;
     ++given[i];
   }

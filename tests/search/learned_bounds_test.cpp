@@ -29,10 +29,10 @@ struct Process {
     trees.add(root->tree());
   }
 
-  // Expands at most `most` nodes. Returns cost and bound of every node generated.
-  std::vector<std::pair<Cost, Cost>> expand(std::size_t most) {
+  // Expands at most `max_nodes` nodes. Returns cost and bound of every node generated.
+  std::vector<std::pair<Cost, Cost>> expand(std::size_t max_nodes) {
     std::vector<NodePtr> nodes{root};
-    for (std::size_t i = 0; i < nodes.size() && i < most; ++i) {
+    for (std::size_t i = 0; i < nodes.size() && i < max_nodes; ++i) {
       Expansion expansion;
       do {
         expansion = expander.expand(nodes[i], root->cost() + 20, limits);

@@ -37,11 +37,11 @@ struct NodeAtHand {
 
   // Enters a child of the root in which the first agents take these paths, each as long as the
   // root's.
-  void take(const std::vector<std::vector<Position>>& ways) {
+  void take(const std::vector<std::vector<Position>>& routes) {
     std::vector<Path> paths;
-    for (const auto& way : ways) {
+    for (const auto& route : routes) {
       paths.emplace_back();
-      for (const Position at : way) paths.back().push_back(instance.grid().cell(at));
+      for (const Position at : route) paths.back().push_back(instance.grid().cell(at));
     }
     std::vector<NewPath> taken;
     for (const Path& path : paths) taken.push_back({static_cast<AgentIndex>(taken.size()), &path});
