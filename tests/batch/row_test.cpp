@@ -139,7 +139,7 @@ constexpr std::array<std::string_view, 10> kLater{
     "trace",  "certified", "verify_s",     "proof_bytes"};
 
 // Older tables without these columns can be resumed.
-TEST(Rows, NeedNoLaterColumns) {
+TEST(Rows, AreReadWithoutLaterColumns) {
   json line = json::parse(json_line(solved_row()));
   for (const std::string_view column : kLater) line.erase(std::string(column));
   Row expected = solved_row();

@@ -171,7 +171,7 @@ TEST_F(CentralBoundsTest, PlanBelowReturnsOnlyACheaperPlan) {
   EXPECT_EQ(bounds_.plan_below(12)->cost, 11);
 }
 
-TEST_F(CentralBoundsTest, IsOverWhenOptimalEndedOrAtALimit) {
+TEST_F(CentralBoundsTest, IsOverIfOptimalOrEndedOrAtALimit) {
   bounds_.post(plan(), PlanSource::kTree);
   EXPECT_FALSE(bounds_.over());
   nodes_.least = 11;

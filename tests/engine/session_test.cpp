@@ -143,7 +143,7 @@ TEST(Session, InvalidChangeLeavesTheSessionUnchanged) {
   EXPECT_EQ(session.plan()->cost, 4);
 }
 
-TEST(Session, DelayedRobotIsNotFollowedWithoutFollowing) {
+TEST(Session, DelayKeepsTheRuleWithoutFollowing) {
   Session session = session_of(instance_of({"......."}, {AgentSpec{{0, 0}, Position{4, 0}, {}},
                                                          AgentSpec{{2, 0}, Position{6, 0}, {}}})
                                    .without_following());

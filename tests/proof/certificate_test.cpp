@@ -77,7 +77,7 @@ class Certificates : public ::testing::Test {
   Certificate certificate_;
 };
 
-TEST_F(Certificates, OfAnUnexpandedRootAreALeaf) {
+TEST_F(Certificates, OfAnUnexpandedRootHoldOneLeaf) {
   recorder_.tree(tree_);
   EXPECT_THAT(made(4), ElementsAre("theorem 4", "leaf", "end"));
 }

@@ -72,7 +72,7 @@ TEST_F(FrontierTest, TransferredNodesCountUntilTheyAreSettled) {
   EXPECT_EQ(frontier_.bound(), 8);
 }
 
-TEST_F(FrontierTest, NextNodeIsNotTransferred) {
+TEST_F(FrontierTest, NextNodeIsNotTransferredWithKeepsNext) {
   frontier_.push(node(2));
   EXPECT_TRUE(frontier_.take_for_transfer(5, true).empty());
   frontier_.push(node(7));
@@ -81,7 +81,7 @@ TEST_F(FrontierTest, NextNodeIsNotTransferred) {
   EXPECT_EQ(frontier_.take(), nullptr);
 }
 
-TEST_F(FrontierTest, NextNodeIsTransferredUnlessTheCallerKeepsIt) {
+TEST_F(FrontierTest, NextNodeIsTransferredWithoutKeepsNext) {
   frontier_.push(node(2));
   const NodePtr taken = frontier_.take();
   frontier_.push(node(3));

@@ -57,7 +57,7 @@ TEST(DependencyTable, ListsPartnersWithExcessOnce) {
 }
 
 // Subproblems of agents under `constraints` constraints of several kinds.
-class Groups : public ::testing::Test {
+class DependencyTableGroups : public ::testing::Test {
  protected:
   using Id = SubproblemTable::Id;
 
@@ -73,7 +73,7 @@ class Groups : public ::testing::Test {
   DependencyTable table_{subproblems_};
 };
 
-TEST_F(Groups, AreIdentifiedByTheirSubproblems) {
+TEST_F(DependencyTableGroups, AreIdentifiedByTheirSubproblems) {
   const std::vector<Id> some{id(0, 1), id(2, 0), id(4, 2)};
   const std::vector<Id> others{id(0, 1), id(2, 0), id(4, 3)};
   EXPECT_TRUE(table_.merge_group({0, 2, 4}, some, {1, false, 8}));
@@ -89,7 +89,7 @@ TEST_F(Groups, AreIdentifiedByTheirSubproblems) {
   EXPECT_TRUE(same(table_.of_group(others), {1, true, 1}));
 }
 
-TEST_F(Groups, AreFoundOnceIfAllSubproblemsMatch) {
+TEST_F(DependencyTableGroups, AreFoundOnceIfAllSubproblemsMatch) {
   const Id constrained = id(2, 2);
   table_.merge_group({0, 2, 3}, {id(0, 0), constrained, id(3, 1)}, {1, false, 8});
   table_.merge_group({1, 2, 3}, {id(1, 0), constrained, id(3, 0)}, {2, false, 8});
@@ -109,7 +109,7 @@ TEST_F(Groups, AreFoundOnceIfAllSubproblemsMatch) {
 }
 
 // Groups are listed under their two rarest subproblems, here those of agents 1 and 3.
-TEST_F(Groups, AreDistinctIfOneSubproblemDiffers) {
+TEST_F(DependencyTableGroups, AreDistinctIfOneSubproblemDiffers) {
   for (AgentIndex differs : {0, 2, 4}) {
     const auto at = [&](Cell kind) {
       std::vector<Id> ids;
@@ -133,7 +133,7 @@ TEST_F(Groups, AreDistinctIfOneSubproblemDiffers) {
 
 // A query examines only groups whose two rarest subproblems match, however many groups contain a
 // subproblem that all nodes have.
-TEST_F(Groups, AreListedUnderTheirRarestSubproblems) {
+TEST_F(DependencyTableGroups, AreListedUnderTheirRarestSubproblems) {
   for (int kind = 0; kind < 50; ++kind)
     table_.merge_group({0, 1, 2}, {id(0, 0), id(1, 1, kind), id(2, 2, kind)}, {kind, false, 1});
   const auto examined = [&](const std::vector<Id>& now) {
@@ -149,7 +149,7 @@ TEST_F(Groups, AreListedUnderTheirRarestSubproblems) {
 }
 
 // Entries that are received from others arrive in another order.
-TEST_F(Groups, DoNotDependOnTheNumberingOfSubproblems) {
+TEST_F(DependencyTableGroups, DoNotDependOnTheNumberingOfSubproblems) {
   const std::vector<int> constraint_counts{3, 0, 2, 1};
   const std::vector<Constraint> elsewhere{{7, kNoCell, 0, 0}};
   for (int last = 0; last < 4; ++last) {

@@ -55,7 +55,7 @@ TEST_F(ForestTest, NextBoundNeverExceedsTheCostOfTheNextTree) {
   }
 }
 
-TEST_F(ForestTest, TreesShareTheOrdersTheyHaveInCommon) {
+TEST_F(ForestTest, TreesShareCommonOrders) {
   SequenceForest forest(problem_, pool_, RtspBackend::kAuto, limits_);
   std::set<const AgentSequencing*> orders;
   while (const NodePtr root = forest.next_root())
