@@ -59,7 +59,7 @@ TEST_F(Manifests, ListScenarios) {
   EXPECT_EQ(entries[0].agents, 20);
 }
 
-TEST_F(Manifests, OfAFolderAreItsInstancesByName) {
+TEST_F(Manifests, OfAFolderListItsInstancesByName) {
   for (const char* name : {"s2/a.cts.json", "b.cts.json", "s1/z.cts.json", "s1/z.plan.json",
                            "m.map", "s1/deep/k.cts.json", "other.json"})
     add_file(name);
@@ -68,7 +68,7 @@ TEST_F(Manifests, OfAFolderAreItsInstancesByName) {
   EXPECT_EQ(ids(read_manifest(directory_ / "")), expected);
 }
 
-TEST_F(Manifests, GiveIdsThatDoNotDependOnHowTheyAreNamed) {
+TEST_F(Manifests, GiveIdsIndependentOfTheWorkingDirectory) {
   add_file("set/a.cts.json");
   add_file("other/b.cts.json");
   add_file("set/list.txt", "../other/b.cts.json\n" + directory_ / "set/a.cts.json");
@@ -81,8 +81,8 @@ TEST_F(Manifests, GiveIdsThatDoNotDependOnHowTheyAreNamed) {
   fs::current_path(before);
 }
 
-// An id is no path of the machine.
-TEST_F(Manifests, NameWhatLiesElsewhereByItsFolder) {
+// An id contains no path of the machine.
+TEST_F(Manifests, NameFilesElsewhereByTheirFolder) {
   add_file("far/away/set/b.cts.json");
   add_file("far/away/x.scen");
   add_file("far/away/m.map");
@@ -93,7 +93,7 @@ TEST_F(Manifests, NameWhatLiesElsewhereByItsFolder) {
   EXPECT_EQ(ids(read_manifest(directory_ / "lists/list.txt")), (Ids{"set/b", "c", "away/x-2"}));
 }
 
-TEST_F(Manifests, RefuseWithLineAndExpectation) {
+TEST_F(Manifests, RefuseInvalidLinesWithTheirNumber) {
   add_file("a.cts.json");
   add_file("a.json");
   add_file("x.scen");
@@ -137,7 +137,7 @@ TEST_F(Manifests, MayBeOneInstance) {
   EXPECT_NE(refusal([&] { read_manifest(directory_ / "b.cts.json"); }), "accepted");
 }
 
-TEST_F(Manifests, RefuseWhatIsNoManifest) {
+TEST_F(Manifests, RefuseOtherFilesAndFolders) {
   add_file("a.json");
   EXPECT_EQ(refusal([&] { read_manifest(directory_ / "a.json"); }),
             "a.json: is no manifest; expected a folder, or a text file with the path of an "
@@ -152,8 +152,8 @@ TEST_F(Manifests, RefuseWhatIsNoManifest) {
             std::string::npos);
 }
 
-// A digest changes with what the instance says and what its map holds, and with nothing else.
-TEST_F(Manifests, TellWhenAnInstanceHasChanged) {
+// A digest changes exactly when the contents of the instance or of its map change.
+TEST_F(Manifests, GiveADigestThatChangesWithTheInstance) {
   const std::string map = "type octile\nheight 1\nwidth 3\nmap\n...\n";
   const auto instance = [](const std::string& file, const std::string& id, int goal) {
     return R"({"map": ")" + file + R"(", "agents": [{"id": ")" + id +

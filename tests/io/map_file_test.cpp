@@ -35,7 +35,7 @@ TEST_F(MapFile, ReadsCellsRowByRow) {
   EXPECT_TRUE(warnings_.empty());
 }
 
-TEST_F(MapFile, AcceptsWhatOtherToolsWrite) {
+TEST_F(MapFile, AcceptsVariantsOfOtherTools) {
   EXPECT_EQ(read("type octile\r\nwidth 3\r\nheight 2\r\nmap\r\n...\r\n...\r\n").passable_count(),
             6);
   EXPECT_EQ(read(kHeader + "...\n...").passable_count(), 6);        // no last newline
@@ -63,13 +63,13 @@ TEST_F(MapFile, NamesLineAndColumnOfWrongCells) {
             "m.map: line 5, column 1: the row has 0 characters; expected 3");
 }
 
-TEST_F(MapFile, SaysHowObstaclesAreWritten) {
+TEST_F(MapFile, ExplainsHowObstaclesAreWritten) {
   EXPECT_EQ(refused(kHeader + "...\n.#.\n"),
             "m.map: line 6, column 2: found '#'; expected '@' where the map is blocked, as in "
             "Moving AI's maps");
 }
 
-TEST_F(MapFile, CountsRows) {
+TEST_F(MapFile, RefusesAWrongNumberOfRows) {
   EXPECT_EQ(refused(kHeader), "m.map: line 5, column 1: the map ends after 0 rows; expected 2");
   EXPECT_EQ(refused(kHeader + "...\n"),
             "m.map: line 6, column 1: the map ends after 1 rows; expected 2");
@@ -92,7 +92,7 @@ TEST_F(MapFile, ReadsHeadersStrictly) {
             "m.map: line 4, column 1: found 'maps'; expected 'map'");
 }
 
-TEST_F(MapFile, RefusesSizesThatCannotBe) {
+TEST_F(MapFile, RefusesInvalidSizes) {
   const auto with_height = [&](const std::string& height) {
     return refused("type octile\nheight " + height + "\nwidth 3\nmap\n").substr(0, 25);
   };
@@ -102,7 +102,7 @@ TEST_F(MapFile, RefusesSizesThatCannotBe) {
             "m.map: line 2, column 1: 60000 x 60000 cells are too many; expected at most 67108864");
 }
 
-TEST_F(MapFile, RefusesWhatIsNoFile) {
+TEST_F(MapFile, RefusesFoldersAndMissingFiles) {
   EXPECT_EQ(refusal([&] { read_map(directory_ / "none.map"); }),
             "none.map: cannot be read: No such file or directory");
   EXPECT_NE(refusal([&] { read_map(directory_.path()); }).find("is a folder; expected a file"),

@@ -31,7 +31,7 @@ std::string refused_with(const std::string& what, const std::string& by) {
   return refused(replaced(kFull, what, by));
 }
 
-TEST(SolverFiles, SayEverything) {
+TEST(SolverFiles, HoldAllSettings) {
   const SolverAdapter solver = parse_solver(kFull, "s.json");
   EXPECT_EQ(solver.name, "mine");
   EXPECT_EQ(solver.command, (Words{"{program}", "-x y", "{map}", "{scenario}", "-k={agents}"}));
@@ -50,7 +50,7 @@ TEST(SolverFiles, SayEverything) {
                                      TraceGroup::kLowerBound}));
 }
 
-TEST(SolverFiles, NeedLittle) {
+TEST(SolverFiles, HaveDefaults) {
   const SolverAdapter solver = parse_solver(
       R"({"name": "s", "command": "{program} {instance}", "instance": "mgcbs"})", "s.json");
   EXPECT_EQ(solver.input, SolverInput::kMgcbs);
@@ -64,7 +64,7 @@ TEST(SolverFiles, NeedLittle) {
   EXPECT_EQ(silent.plan, "");
 }
 
-TEST(SolverFiles, AreRefusedWithThePlace) {
+TEST(SolverFiles, AreRefusedWithThePlaceIfInvalid) {
   EXPECT_EQ(refused("[]"), "s.json: /: found an array; expected a JSON object");
   EXPECT_EQ(refused_with("\"threads\"", "\"thread\""),
             "s.json: /: unknown key 'thread'; expected 'threads', if that is what it means");
@@ -100,8 +100,8 @@ TEST(SolverFiles, AreRefusedWithThePlace) {
             "s.json: /: there is neither a plan nor a claim to read; expected one of plan, claims");
 }
 
-// What comes with Grove is read as strictly.
-TEST(SolverFiles, ComeWithGrove) {
+// The solver files of Grove are read as strictly.
+TEST(SolverFiles, OfGroveAreValid) {
   int count = 0;
   for (const auto& item : std::filesystem::directory_iterator(GROVE_SOLVERS)) {
     const SolverAdapter solver = read_solver(item.path());
@@ -111,7 +111,7 @@ TEST(SolverFiles, ComeWithGrove) {
   EXPECT_EQ(count, 6);
 }
 
-TEST(SolverCommands, AreWords) {
+TEST(SolverCommands, AreSplitIntoWords) {
   EXPECT_EQ(command_words(" a  'b c'\td\"e \"'f' \n"), (Words{"a", "b c", "de f"}));
   EXPECT_EQ(command_words("a ''"), (Words{"a", ""}));
   EXPECT_EQ(command_words(""), Words());
@@ -119,7 +119,7 @@ TEST(SolverCommands, AreWords) {
   EXPECT_EQ(command_words("a \"b'"), std::nullopt);
 }
 
-TEST(SolverTemplates, AreFilled) {
+TEST(SolverTemplates, AreFilledWithValues) {
   const auto value = [](std::string_view name) { return "<" + std::string(name) + ">"; };
   EXPECT_EQ(filled("a{map}b{seed}{map}", value), "a<map>b<seed><map>");
   EXPECT_EQ(filled("plain", value), "plain");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the checker says of a plan.
+// First violation that the checker finds in a plan.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace grove::detail::testing {
 
-// Empty: it is valid.
+// Returns "" if the plan is valid.
 inline std::string first_violation(const Instance& instance, const Plan& plan) {
   Solution claim;
   claim.status = status_of(plan.cost, 0, claim.omega);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A root and what it takes to look at it, for the tests of those who do.
+// A root node with the objects that a test needs to view or branch it.
 #pragma once
 
 #include <memory>
@@ -35,12 +35,13 @@ struct NodeAtHand {
     view.enter(root, all);
   }
 
-  // Turns to a node below the root in which the first agents take these ways, each as short.
-  void take(const std::vector<std::vector<Position>>& ways) {
+  // Enters a child of the root in which the first agents take these paths, each as long as the
+  // root's.
+  void take(const std::vector<std::vector<Position>>& routes) {
     std::vector<Path> paths;
-    for (const auto& way : ways) {
+    for (const auto& route : routes) {
       paths.emplace_back();
-      for (const Position at : way) paths.back().push_back(instance.grid().cell(at));
+      for (const Position at : route) paths.back().push_back(instance.grid().cell(at));
     }
     std::vector<NewPath> taken;
     for (const Path& path : paths) taken.push_back({static_cast<AgentIndex>(taken.size()), &path});

@@ -17,7 +17,7 @@ using testing::instance_of;
 
 using Sequences = std::multiset<std::vector<int>>;
 
-// One agent among obstacles whose sequence class is split again and again.
+// One agent among obstacles, whose sequence class is split repeatedly.
 class SplitClasses : public ::testing::TestWithParam<bool> {
  protected:
   static Instance instance(bool has_destination) {
@@ -26,36 +26,37 @@ class SplitClasses : public ::testing::TestWithParam<bool> {
     return instance_of({"......", ".@.@..", "......", "..@@..", "......"},
                        {{{0, 0}, destination, {{5, 0}, {0, 4}, {2, 2}, {4, 3}}}});
   }
-  // kNever: no path.
+  // Cost of a cheapest path, or kNever if there is no path.
   Time cost(const std::vector<Constraint>& constraints) {
     const auto outcome = planner_.find(0, open_, {.constraints = constraints}, Limits(), path_);
     EXPECT_NE(outcome, PathOutcome::kStopped);
     return outcome == PathOutcome::kFound ? static_cast<Time>(path_.size()) - 1 : kNever;
   }
-  std::vector<Constraint> random_bars(std::mt19937& random) const {
-    std::vector<Constraint> bars;
+  std::vector<Constraint> random_constraints(std::mt19937& random) const {
+    std::vector<Constraint> constraints;
     for (auto count = random() % 12; count > 0; --count) {
       const auto time = static_cast<Time>(random() % 25);
-      bars.push_back({static_cast<Cell>(1 + random() % 28), kNoCell, time,
-                      time + static_cast<Time>(random() % 4)});
+      constraints.push_back({static_cast<Cell>(1 + random() % 28), kNoCell, time,
+                             time + static_cast<Time>(random() % 4)});
     }
-    return bars;
+    return constraints;
   }
-  // Splits to the end; the sides of every split must hold what was split, and no more.
+  // Splits down to single sequences. The branches of every split must hold all of the class that
+  // was split, and no more.
   void split(std::vector<Constraint> constraints, Sequences& sequences) {
     const Time whole = cost(constraints);
     if (whole == kNever) return;
     const Sequence now = planner_.sequence(0, open_, constraints, path_);
-    const auto sides = planner_.sequence_split(0, open_, constraints, path_);
-    if (!sides) {
+    const auto branches = planner_.sequence_split(0, open_, constraints, path_);
+    if (!branches) {
       sequences.emplace(now.begin(), now.end());
       return;
     }
     Time best = kNever;
-    for (const AgentConstraint& side : *sides) {
-      constraints.push_back(side.constraint);
+    for (const AgentConstraint& branch : *branches) {
+      constraints.push_back(branch.constraint);
       const Time part = cost(constraints);
-      if (side.constraint.kind == ConstraintKind::kStopIs) {
+      if (branch.constraint.kind == ConstraintKind::kStopIs) {
         EXPECT_EQ(part, whole);
       }
       best = std::min(best, part);
@@ -80,11 +81,11 @@ TEST_P(SplitClasses, HoldEverySequenceOnce) {
   EXPECT_EQ(std::set(sequences.begin(), sequences.end()).size(), 24u);
 }
 
-TEST_P(SplitClasses, LoseNoCheapestPathWhateverIsBarred) {
+TEST_P(SplitClasses, KeepACheapestPathUnderRandomConstraints) {
   std::mt19937 random(5);
   for (int round = 0; round < 60; ++round) {
     Sequences sequences;
-    split(random_bars(random), sequences);
+    split(random_constraints(random), sequences);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The frontier when memory runs out in the middle of a change: no node is lost, and the bound
-// holds.
+// The frontier when an allocation fails in the middle of an operation: no node is lost, and the
+// bound holds.
 #include "search/frontier.h"
 
 #include <gtest/gtest.h>
@@ -25,8 +25,9 @@ class ScarceFrontier : public ::testing::Test {
     return Node::root(trees_.back());
   }
 
-  // Does `change` to a frontier with a node open and one taken, letting each of its allocations
-  // fail in turn; after each failure `holds` must be true. Returns how many failed.
+  // Applies `change` to a frontier with one open and one taken node, and lets each of its
+  // allocations fail in turn. After each failure `holds` must be true. Returns the number of
+  // failures.
   template <class NodeDelta, class Holds>
   int fail_everywhere(NodeDelta change, Holds holds) {
     for (int at = 0;; ++at) {
@@ -53,7 +54,7 @@ class ScarceFrontier : public ::testing::Test {
   std::deque<Tree> trees_;
 };
 
-TEST_F(ScarceFrontier, LosesNothingWhenAPushFails) {
+TEST_F(ScarceFrontier, KeepsItsNodesWhenPushFails) {
   const NodePtr more = node(4);
   const int failures = fail_everywhere(
       [&](Frontier& frontier, const NodePtr&) { frontier.push(more); },
@@ -61,7 +62,7 @@ TEST_F(ScarceFrontier, LosesNothingWhenAPushFails) {
   EXPECT_GT(failures, 0);
 }
 
-TEST_F(ScarceFrontier, LosesNothingWhenTakingFails) {
+TEST_F(ScarceFrontier, KeepsItsNodesWhenTakeFails) {
   const int failures = fail_everywhere(
       [](Frontier& frontier, const NodePtr& taken) {
         frontier.settle(taken);
@@ -71,14 +72,14 @@ TEST_F(ScarceFrontier, LosesNothingWhenTakingFails) {
   EXPECT_GT(failures, 0);
 }
 
-TEST_F(ScarceFrontier, LosesNothingWhenGivingBackFails) {
+TEST_F(ScarceFrontier, KeepsItsNodesWhenReinsertFails) {
   const int failures =
       fail_everywhere([](Frontier& frontier, const NodePtr& taken) { frontier.reinsert(taken); },
                       [](const Frontier& frontier) { return frontier.bound() == 3; });
   EXPECT_GT(failures, 0);
 }
 
-TEST_F(ScarceFrontier, KeepsTheBoundWhenBeginningAnewFails) {
+TEST_F(ScarceFrontier, KeepsItsBoundWhenRestartFails) {
   const std::vector<NodePtr> roots{node(1), node(2), node(6)};
   const int failures = fail_everywhere(
       [&](Frontier& frontier, const NodePtr& taken) {
