@@ -123,7 +123,7 @@ TEST(WdgHeuristic, ComputesTheExcessOfAGroupOfIndependentPairs) {
 
 // When the search by splits ends at its node limit, joint search continues.
 TEST(WdgHeuristic, UsesJointSearchAtTheNodeLimitOfSplits) {
-  SearchOptions options{Techniques::defaults().without({Technique::kTraversal, Technique::kTarget}),
+  SearchOptions options{Techniques::defaults().without({Technique::kCorridor, Technique::kTarget}),
                         0, true};
   options.tuning.pair_expansions = 1;
   Bounded with(kDoor, kHeadOn, options);
