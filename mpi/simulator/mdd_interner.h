@@ -12,8 +12,8 @@
 namespace grove::detail {
 
 // Each rank builds the MDDs that it needs itself, and most ranks need the same MDDs. Storing equal
-// MDDs once saves memory on room-32-32-4 22/40: two fifths of what 128 ranks hold otherwise, a
-// quarter of what 1,024 ranks hold. One thread at a time.
+// MDDs once saves two fifths of the memory of 128 simulated ranks, and a quarter with 1,024 ranks
+// (room-32-32-4, 22 agents, 40 tasks). One thread at a time.
 class MddInterner {
  public:
   // Returns an equal stored MDD that is still in use. If there is none, stores and returns `set`.

@@ -18,7 +18,8 @@ class ChildCosts {
  public:
   enum class Outcome : std::uint8_t {
     kDone,
-    kTooHard,  // the label limit was reached, now or at an earlier attempt
+    kTooHard,  // the label limit was reached, by this call or by an earlier call on the same
+               // subproblem
     kStopped,  // a limit was reached
   };
 

@@ -58,7 +58,7 @@ class RtspSolver {
 
 enum class RtspBackend : std::uint8_t {
   kAuto,       // Held-Karp table if it is small, else bounded dynamic programming
-  kHeldKarp,   // for n up to about 24: 2^n * n table entries
+  kHeldKarp,   // for n up to 26 (kMostTableStops): 2^n * n table entries
   kBoundedDp,  // sequence graph within a cost limit that grows on demand
   kCbc,        // integer program with subtour cuts
 };
