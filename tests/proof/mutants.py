@@ -4,8 +4,8 @@
 
     mutants.py FOLDER [--count N] [--only K,K] [--jobs J]
 
-Copies the sources to FOLDER, plants the bugs of mutants.txt there, builds that once, and runs grove-proofs for each
-of them, chosen by the environment variable GROVE_MUTANT as it starts: for each part of the search that the bug is tried
+Copies the sources to FOLDER, plants the bugs of mutants.txt there, builds that once, and runs grove-fuzz-certificates for
+each of them, chosen by the environment variable GROVE_MUTANT as it starts: for each part of the search that the bug is tried
 on, N tiny instances, searched, with a certificate each that grove-verify checks. Tables, one for each way in which bugs
 come out, say of each bug how often what was claimed was false (the oracle knows), how often the certificate was refused
 or fell short of the claim, and how often a false claim was verified, which must be never: else it ends with 1.
@@ -94,7 +94,7 @@ def copy_sources(folder, mutants):
 def build(folder):
     options = ["-D", "GROVE_BUILD_TESTS=ON", "-D", "GROVE_WITH_MPI=OFF"]
     subprocess.run(["cmake", "--preset", "release", *options], cwd=folder, check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["cmake", "--build", "--preset", "release", "--target", "grove-proofs", "grove-verify"],
+    subprocess.run(["cmake", "--build", "--preset", "release", "--target", "grove-fuzz-certificates", "grove-verify"],
                    cwd=folder, check=True)
 
 
@@ -119,7 +119,7 @@ def summed(of_parts, usual):
 
 def trial_of_part(folder, place, number, part, count, seconds):
     bin_folder = folder / "build/release/bin"
-    program = next(path for path in (folder / "build/release").rglob("grove-proofs") if path.is_file())
+    program = next(path for path in (folder / "build/release").rglob("grove-fuzz-certificates") if path.is_file())
     command = [program, "--verify", bin_folder / "grove-verify", "--folder", place, "--count", str(count),
                "--part", part, "--json"]
     try:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Examples; tests/fuzz/crowds.cpp holds it against everything that tiny crowds can come to.
+// Examples; tests/fuzz/fuzz_feasibility.cpp holds it against everything that tiny crowds can come to.
 #include "search/pebble_motion.h"
 
 #include <gtest/gtest.h>

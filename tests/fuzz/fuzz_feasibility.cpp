@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove-crowds: is it seen which crowds cannot get to where they must, and only of those? Exit
-// codes: 0 all is well, 1 a wrong answer, 2 bad usage.
+// grove-fuzz-feasibility: is it seen which crowds cannot get to where they must, and only of those?
+// Exit codes: 0 all is well, 1 a wrong answer, 2 bad usage.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -160,7 +160,7 @@ bool all_is_well(std::uint64_t seed, int count) {
 int main(int argc, char** argv) {
   using namespace grove::detail::fuzz;
   Arguments a;
-  CLI::App app("Which crowds cannot get to where they must?", "grove-crowds");
+  CLI::App app("Which crowds cannot get to where they must?", "grove-fuzz-feasibility");
   app.add_option("--tiny", a.tiny, "crowds of up to nine agents, against exhaustive search")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove-puzzles: is every small puzzle decided in time, and as the oracle has it? Exit codes: 0 all
-// is well, 1 a wrong answer or more left open than allowed, 2 bad usage.
+// grove-fuzz-joint: is every small puzzle decided in time, and as the oracle has it? Exit codes: 0
+// all is well, 1 a wrong answer or more left open than allowed, 2 bad usage.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -123,7 +123,7 @@ int run(const Arguments& a) {
 
 int main(int argc, char** argv) {
   grove::detail::fuzz::Arguments a;
-  CLI::App app("Small puzzles, decided in time and as the oracle has it?", "grove-puzzles");
+  CLI::App app("Small puzzles, decided in time and as the oracle has it?", "grove-fuzz-joint");
   app.add_option("--count", a.count)->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--seed", a.seed, "of the first; each other one's is one more")
       ->capture_default_str();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// grove-proofs: are certificates of tiny instances of all kinds verified, and do they say what is
-// true? And is one that was tampered with ever believed where it is false? The checker is another
-// program (--verify). Exit codes: 0 all is well, 1 not, 2 bad usage.
+// grove-fuzz-certificates: are certificates of tiny instances of all kinds verified, and do they
+// say what is true? And is one that was tampered with ever believed where it is false? The checker
+// is another program (--verify). Exit codes: 0 all is well, 1 not, 2 bad usage.
 #include <fmt/format.h>
 #include <sys/wait.h>
 
@@ -53,10 +53,10 @@ them and what they become when they are tampered with. Exit codes: 0 all is well
 
 The long campaign, some 100,000 tampered certificates, takes about ten minutes of one core, most of
 them calls of the checker:
-  grove-proofs --verify build/release/bin/grove-verify --folder FOLDER --count 2600 --mutations 50
+  grove-fuzz-certificates --verify build/release/bin/grove-verify --folder FOLDER --count 2600 --mutations 50
 On several cores, each with a folder and seeds of its own:
-  grove-proofs --verify build/release/bin/grove-verify --folder A --count 1300 --mutations 50 &
-  grove-proofs --verify build/release/bin/grove-verify --folder B --count 1300 --mutations 50 \
+  grove-fuzz-certificates --verify build/release/bin/grove-verify --folder A --count 1300 --mutations 50 &
+  grove-fuzz-certificates --verify build/release/bin/grove-verify --folder B --count 1300 --mutations 50 \
       --seed 1301)";
 
 struct Verdict {
@@ -275,7 +275,8 @@ class Trial {
 
 int main(int argc, char** argv) {
   grove::detail::fuzz::Arguments a;
-  CLI::App app("Certificates of tiny instances, checked and tampered with", "grove-proofs");
+  CLI::App app("Certificates of tiny instances, checked and tampered with",
+               "grove-fuzz-certificates");
   app.footer(grove::detail::fuzz::kFooter);
   app.add_option("--verify", a.verify, "the checker")->required()->check(CLI::ExistingFile);
   app.add_option("--folder", a.folder, "for its files; made if missing");
