@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove-changes: random changes of a plan that is being driven. Every answer is checked, and
+// grove-fuzz-replan: random changes of a plan that is being driven. Every answer is checked, and
 // measured beside solving the same from nothing in the same time.
 #include <fmt/format.h>
 
@@ -178,7 +178,7 @@ void print(const Results& r) {
 }
 
 int main(int argc, char** argv) {
-  CLI::App app("Random changes of a plan that is being driven", "grove-changes");
+  CLI::App app("Random changes of a plan that is being driven", "grove-fuzz-replan");
   Asked asked;
   app.add_option("INSTANCE", asked.instance)->required();
   app.add_option("PLAN", asked.plan)->required();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove-drives: random plans, random troubles; nobody collides and nobody waits for ever. Beside it
-// the same troubles with robots that keep to the clock.
+// grove-fuzz-execution: random plans, random troubles; nobody collides and nobody waits for ever.
+// Beside it the same troubles with robots that keep to the clock.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -157,7 +157,7 @@ void print(const Counts& c) {
 
 int main(int argc, char** argv) {
   using namespace grove::detail;
-  CLI::App app("Random plans, or one, driven with random troubles", "grove-drives");
+  CLI::App app("Random plans, or one, driven with random troubles", "grove-fuzz-execution");
   int plans = 100;
   std::int64_t drives = 100;
   std::uint64_t seed = 1;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove-schedules: the distributed protocol in random orders of events, against exhaustive search.
+// grove-fuzz-protocol: the distributed protocol in random orders of events, against exhaustive
+// search.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
