@@ -25,7 +25,7 @@ TESTS = {
     "fuzz/fuzz_test.cpp": "a solver that is deaf to its deadline, to see that the above is noticed",
     "fuzz/campaign.cpp": "a campaign has so many seconds",
     "fuzz/fuzz.cpp": "a campaign, not a test: so many seconds",
-    "fuzz/attack.cpp": "a campaign, not a test: so many seconds",
+    "fuzz/fuzz_metamorphic.cpp": "a campaign, not a test: so many seconds",
     "fuzz/fuzz_joint.cpp": "a campaign, not a test: measures",
     "fuzz/fuzz_feasibility.cpp": "a campaign, not a test: measures",
     "fuzz/fuzz_certificates.cpp": "a campaign, not a test: so many seconds for each search",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove-attack: instances of the shapes that hurt, up to middle size, against what must hold
-// without an oracle. For every valid plan P of an instance, whatever it costs: a node whose
+// grove-fuzz-metamorphic: instances of the shapes that hurt, up to middle size, against what must
+// hold without an oracle. For every valid plan P of an instance, whatever it costs: a node whose
 // constraints P obeys never claims a bound above the cost of P, and expanding it with a cutoff
 // above that cost keeps P in a child, or yields a plan as cheap. So trees are descended along many
 // valid plans, with cutoffs that go up and down and one expander with one memory for all descents.
