@@ -23,8 +23,8 @@
 #include "proof/certificate.h"
 #include "proof/proof_parts.h"
 #include "tests/fuzz/certificate_lines.h"
+#include "tests/fuzz/component_case.h"
 #include "tests/fuzz/fuzz_case.h"
-#include "tests/fuzz/lone_case.h"
 #include "tests/fuzz/tampering.h"
 #include "tests/oracle/joint_oracle.h"
 
@@ -115,7 +115,7 @@ class Trial {
 
   void look_at(std::uint64_t seed) {
     seed_ = seed;
-    case_ = lone_case(part_of_search_, seed);
+    case_ = component_case(part_of_search_, seed);
     case_.options.audit = false;
     if (part_of_search_ == Part::kAny && seed % 3 == 0) leave_to_the_tree(seed);
     const Instance instance = case_.instance.build();

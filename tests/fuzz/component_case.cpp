@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/fuzz/lone_case.h"
+#include "tests/fuzz/component_case.h"
 
 #include <algorithm>
 
@@ -123,7 +123,7 @@ void choose_techniques(Part part, SolveOptions& options, Random& random) {
 
 }  // namespace
 
-FuzzCase lone_case(Part part, std::uint64_t seed) {
+FuzzCase component_case(Part part, std::uint64_t seed) {
   FuzzCase fuzz_case = random_case(seed);
   if (part == Part::kAny) return fuzz_case;
   if (seed % 2 == 0) fuzz_case.instance = roomy_instance(seed);

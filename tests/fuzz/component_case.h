@@ -36,7 +36,7 @@ inline constexpr std::array kParts = {
 
 // The same seed makes the same case. Half of them are on larger boards than those of
 // random_case(), with up to four agents.
-FuzzCase lone_case(Part part, std::uint64_t seed);
+FuzzCase component_case(Part part, std::uint64_t seed);
 
 // A plan that costs a little more, by one step where that can be: what the search knows from the
 // beginning, and has to beat. The plan itself if no agent can wait.
