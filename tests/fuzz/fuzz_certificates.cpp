@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // grove-fuzz-certificates: are certificates of tiny instances of all kinds verified, and do they
-// say what is true? And is one that was tampered with ever believed where it is false? The checker
+// say what is true? And is one that was mutated ever believed where it is false? The checker
 // is another program (--verify). Exit codes: 0 all is well, 1 not, 2 bad usage.
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -23,9 +23,9 @@
 #include "proof/certificate.h"
 #include "proof/proof_parts.h"
 #include "tests/fuzz/certificate_lines.h"
+#include "tests/fuzz/certificate_mutation.h"
 #include "tests/fuzz/component_case.h"
 #include "tests/fuzz/fuzz_case.h"
-#include "tests/fuzz/tampering.h"
 #include "tests/oracle/joint_oracle.h"
 
 namespace grove::detail::fuzz {
@@ -49,9 +49,9 @@ constexpr std::size_t kOracleStates = 300'000;
 
 constexpr const char* kFooter =
     R"(Searches tiny instances whose optimum is known, certifies their bounds, and has the checker verify
-them and what they become when they are tampered with. Exit codes: 0 all is well, 1 not, 2 bad usage.
+them and what they become when they are mutated. Exit codes: 0 all is well, 1 not, 2 bad usage.
 
-The long campaign, some 100,000 tampered certificates, takes about ten minutes of one core, most of
+The long campaign, some 100,000 mutated certificates, takes about ten minutes of one core, most of
 them calls of the checker:
   grove-fuzz-certificates --verify build/release/bin/grove-verify --folder FOLDER --count 2600 --mutations 50
 On several cores, each with a folder and seeds of its own:
@@ -139,7 +139,7 @@ class Trial {
     if (a_.mutations == 0) return;
     const Lines original = certificate_lines(proof_);
     for (int i = 0; i < a_.mutations; ++i)
-      tamper(original, seed * 1000 + static_cast<std::uint64_t>(i));
+      mutate(original, seed * 1000 + static_cast<std::uint64_t>(i));
   }
 
   bool is_well() const { return wrong_ == 0; }
@@ -155,9 +155,8 @@ class Trial {
         "{} certificates: {} of the bound claimed, {} of the optimum, {} of less (by reason: ",
         cases_, whole_, of_optimum_, cases_ - whole_);
     for (const auto& [reason, count] : lesser_) text += fmt::format("{}: {}; ", reason, count);
-    text += fmt::format(
-        ")\n{} tampered with: {} refused, {} unreadable, {} believed and true\n{} wrong", mutants_,
-        refused_, unreadable_, believed_, wrong_);
+    text += fmt::format(")\n{} mutated: {} refused, {} unreadable, {} believed and true\n{} wrong",
+                        mutants_, refused_, unreadable_, believed_, wrong_);
     return text;
   }
 
@@ -225,8 +224,8 @@ class Trial {
       complain(fmt::format("only {} of {} is certified", made.bound, claimed));
   }
 
-  void tamper(const Lines& original, std::uint64_t seed) {
-    const Lines lines = tampered(original, seed);
+  void mutate(const Lines& original, std::uint64_t seed) {
+    const Lines lines = mutated(original, seed);
     if (lines == original) return;
     std::ofstream out(mutant_, std::ios::binary);
     for (const std::string& line : lines) out << line << '\n';
@@ -236,8 +235,8 @@ class Trial {
     switch (verdict.code) {
       case 0:
         if (verdict.bound > optimum_)
-          complain(fmt::format("tampered with by seed {}: {} is believed, and the optimum is {}",
-                               seed, verdict.bound, optimum_));
+          complain(fmt::format("mutated with seed {}: {} is believed, and the optimum is {}", seed,
+                               verdict.bound, optimum_));
         ++believed_;
         return;
       case 1:
@@ -247,7 +246,7 @@ class Trial {
         ++unreadable_;
         return;
       default:
-        complain(fmt::format("tampered with by seed {}: the checker ends with {}: {}", seed,
+        complain(fmt::format("mutated with seed {}: the checker ends with {}: {}", seed,
                              verdict.code, verdict.text));
     }
   }
@@ -275,8 +274,7 @@ class Trial {
 
 int main(int argc, char** argv) {
   grove::detail::fuzz::Arguments a;
-  CLI::App app("Certificates of tiny instances, checked and tampered with",
-               "grove-fuzz-certificates");
+  CLI::App app("Certificates of tiny instances, checked and mutated", "grove-fuzz-certificates");
   app.footer(grove::detail::fuzz::kFooter);
   app.add_option("--verify", a.verify, "the checker")->required()->check(CLI::ExistingFile);
   app.add_option("--folder", a.folder, "for its files; made if missing");

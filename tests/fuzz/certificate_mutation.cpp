@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/fuzz/tampering.h"
+#include "tests/fuzz/certificate_mutation.h"
 
 #include <fmt/format.h>
 
@@ -109,7 +109,7 @@ class Mutation {
 
 }  // namespace
 
-Lines tampered(Lines lines, std::uint64_t seed) {
+Lines mutated(Lines lines, std::uint64_t seed) {
   return Mutation(std::move(lines), seed).made();
 }
 

@@ -9,6 +9,6 @@
 namespace grove::detail::fuzz {
 
 // Something of it is another: as one would change it who wants to have it say more, or by chance.
-std::vector<std::string> tampered(std::vector<std::string> lines, std::uint64_t seed);
+std::vector<std::string> mutated(std::vector<std::string> lines, std::uint64_t seed);
 
 }  // namespace grove::detail::fuzz
