@@ -14,7 +14,7 @@
 #include "mpi/simulator/simulation.h"
 #include "mpi/simulator/timed_transport.h"
 #include "tests/primal/crowd.h"
-#include "tests/search/node_at_hand.h"
+#include "tests/search/root_fixture.h"
 #include "tests/support/clocks.h"
 
 namespace grove::detail {
@@ -222,7 +222,7 @@ TEST(BusyProfile, KeepsTheSumsHoweverLongItGets) {
 
 TEST(MddInterner, HoldEachOnceAsLongAsItIsInUse) {
   const Instance instance = random_crowd({.size = 8, .obstacles = 20, .agents = 2, .tasks = 0}, 1);
-  testing::NodeAtHand s(instance);
+  testing::RootFixture s(instance);
   const auto made = [&](AgentIndex agent, Time later) {
     return MddCache::make(s.planner, agent, s.view.order(agent), {}, s.view.cost_of(agent) + later,
                           1000, s.limits);

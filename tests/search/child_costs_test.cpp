@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/search/node_at_hand.h"
+#include "tests/search/root_fixture.h"
 
 namespace grove::detail {
 namespace prices_test {
 
-using testing::NodeAtHand;
+using testing::RootFixture;
 using Outcome = ChildCosts::Outcome;
 
 // Through the door at time 2, or when it is barred up to time 9 at time 10: 12 steps in all.
@@ -30,7 +30,7 @@ class PricesTest : public ::testing::Test {
     return increase;
   }
 
-  NodeAtHand node_{{"..@..", ".....", "..@.."}, {{{0, 1}, Position{4, 1}}}};
+  RootFixture node_{{"..@..", ".....", "..@.."}, {{{0, 1}, Position{4, 1}}}};
   const Constraint door_is_barred_{node_.instance.grid().cell({2, 1}), kNoPlace, 0, 9};
   ChildCosts prices_{node_.planner, node_.memory, PathQuery::kUnlimited};
 };
