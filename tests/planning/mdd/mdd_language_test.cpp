@@ -25,7 +25,7 @@
 #include "tests/support/sanitizers.h"
 
 namespace grove::detail {
-namespace optimal_paths_language_test {
+namespace mdd_language_test {
 
 using testing::FreeProblem;
 using testing::grid_of;
@@ -424,7 +424,7 @@ class Fuzzer {
   FreeProblem problem_;
 };
 
-TEST(OptimalPathsLanguage, IsThatOfATimeExpandedGraph) {
+TEST(MddLanguage, IsThatOfATimeExpandedGraph) {
   const int seeds = testing::fuzz_rounds(60);
   int compared = 0;
   int incomplete = 0;
@@ -457,7 +457,7 @@ std::vector<std::vector<Cell>> cells_of(const Mdd& graph) {
 
 // Asked for a cost that the graph of sequences does not know yet, or just not, against one that was
 // widened far beyond it.
-TEST(OptimalPathsLanguage, IsWholeWhereTheSequenceGraphIsBounded) {
+TEST(MddLanguage, IsWholeWhereTheSequenceGraphIsBounded) {
   int at_the_bound = 0;
   for (unsigned seed = 0; seed < 12; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -492,7 +492,7 @@ TEST(OptimalPathsLanguage, IsWholeWhereTheSequenceGraphIsBounded) {
 }
 
 // States may be made of other completions than those of their stops.
-TEST(OptimalPathsLanguage, WidensTheCompletionsThatItsStatesAreMadeOf) {
+TEST(MddLanguage, WidensTheCompletionsThatItsStatesAreMadeOf) {
   const Grid grid = grid_of({"....."});
   FreeProblem problem{&grid, 0, {2}, 4, {}, {}};
   const Instance instance = instance_of(problem);
@@ -506,7 +506,7 @@ TEST(OptimalPathsLanguage, WidensTheCompletionsThatItsStatesAreMadeOf) {
 }
 
 // A limit that strikes at any time is no proof that there is no path, nor is the graph in parts.
-TEST(OptimalPathsLanguage, IsWholeOrNotThereWhenALimitStrikes) {
+TEST(MddLanguage, IsWholeOrNotThereWhenALimitStrikes) {
   const Grid grid = grid_of(std::vector<std::string>(40, std::string(40, '.')));
   FreeProblem problem{&grid, 0, {}, 1599, {}, {}};
   for (const Cell cell : {95, 1300, 777, 610, 1499, 38, 444, 820}) problem.stops.push_back(cell);
@@ -545,5 +545,5 @@ TEST(OptimalPathsLanguage, IsWholeOrNotThereWhenALimitStrikes) {
 #endif
 }
 
-}  // namespace optimal_paths_language_test
+}  // namespace mdd_language_test
 }  // namespace grove::detail

@@ -19,7 +19,7 @@
 #include "tests/support/fuzz_factor.h"
 
 namespace grove::detail {
-namespace optimal_paths_test {
+namespace mdd_test {
 
 using Outcome = MddBuilder::Outcome;
 using Paths = std::set<Path>;
@@ -216,7 +216,7 @@ class Fuzzer {
   std::mt19937 random_;
 };
 
-TEST(OptimalPathsFuzz, AgreeWithTryingAll) {
+TEST(MddFuzz, AgreeWithTryingAll) {
   const int seeds = testing::fuzz_rounds(700);
   int fits = 0;
   int collides = 0;
@@ -268,5 +268,5 @@ TEST(JointMddSearch, CountsTheRestOfTheShorterOne) {
   EXPECT_EQ(pair.find(rests.graph, passes.graph, kPlenty, Limits()), Dependence::kDependent);
 }
 
-}  // namespace optimal_paths_test
+}  // namespace mdd_test
 }  // namespace grove::detail
