@@ -141,7 +141,7 @@ class Installed(unittest.TestCase):
         self.assertEqual(run(folder / "stranger", LD_LIBRARY_PATH=self.library.parent), "cost 3\n")
 
     def test_the_example(self):
-        example = next(self.prefix.glob("share/doc/**/front_door.cpp"))
+        example = next(self.prefix.glob("share/doc/**/minimal.cpp"))
         folder = self.project("example", "find_package(grove REQUIRED)", "grove::grove")
         shutil.copy(example, folder / "main.cpp")
         run(CMAKE, "-S", folder, "-B", folder / "build", f"-DCMAKE_CXX_COMPILER={COMPILER}",
