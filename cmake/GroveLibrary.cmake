@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The library as others see it: all layers below the front door in one file, shared or static.
+# The library as others see it: all layers below the public API in one file, shared or static.
 set(grove_library_layers model execution io sequencing planning joint lagrangian conflicts search primal baselines engine api)
 list(TRANSFORM grove_library_layers PREPEND grove_)
 

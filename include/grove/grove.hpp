@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Grove's front door: everything that users of the library need, and all that is kept stable.
+/// Grove's public API: everything that users of the library need, and all that is kept stable.
 ///
 ///     #include <grove/grove.hpp>
 ///

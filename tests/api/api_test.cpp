@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The front door, as its users come through it: nothing but <grove/grove.hpp> is included.
+// The public API, as its users come through it: nothing but <grove/grove.hpp> is included.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -39,8 +39,8 @@ TESTS = {
 # Layers take the time from Limits::now(), which a test can set.
 LAYERS = {
     "src/model/limits.h": "the clock",
-    "src/api/run.h": "the front door: its users' seconds",
-    "src/api/solve.cpp": "the front door: its users' seconds",
+    "src/api/run.h": "the public API: its users' seconds",
+    "src/api/solve.cpp": "the public API: its users' seconds",
     "src/batch/batch_clock.cpp": "the clock that batches are given",
     "src/io/atomic_file.cpp": "names that come but once; the age of files",
     "src/io/file_lock.cpp": "tells since when a folder is locked",
