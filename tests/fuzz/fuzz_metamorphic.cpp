@@ -267,8 +267,8 @@ bool holds(const Instance& instance, const Node& node, const std::vector<Path>& 
   std::vector<std::vector<Constraint>> constraints;
   node.constraints(constraints);
   for (std::size_t a = 0; a < paths.size(); ++a)
-    if (!obeys_all(instance, static_cast<AgentIndex>(a), node.tree().orders[a]->sequences,
-                   constraints[a], paths[a]))
+    if (!satisfies_all(instance, static_cast<AgentIndex>(a), node.tree().orders[a]->sequences,
+                       constraints[a], paths[a]))
       return false;
   return true;
 }

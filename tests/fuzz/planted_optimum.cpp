@@ -69,8 +69,8 @@ class RealizedSequences {
 
 }  // namespace
 
-bool obeys_all(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
-               std::span<const Constraint> constraints, const Path& path) {
+bool satisfies_all(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
+                   std::span<const Constraint> constraints, const Path& path) {
   const auto satisfies = [&](const Constraint& c) {
     return is_about_sequence(c) || testing::satisfies(instance.world(), path, c);
   };
@@ -89,8 +89,8 @@ bool PlantedOptimum::held_by(const Node& node) const {
   for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
     constraints.clear();
     node.constraints(agent, constraints);
-    if (!obeys_all(instance_, agent, node.tree().orders[agent]->sequences, constraints,
-                   paths_[agent]))
+    if (!satisfies_all(instance_, agent, node.tree().orders[agent]->sequences, constraints,
+                       paths_[agent]))
       return false;
   }
   return true;

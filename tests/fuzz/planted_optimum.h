@@ -55,7 +55,7 @@ class PlantedOptimum : public RunObserver {
 };
 
 // Does `path` realize a sequence of the class, and do it and that sequence obey the constraints?
-bool obeys_all(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
-               std::span<const Constraint> constraints, const Path& path);
+bool satisfies_all(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
+                   std::span<const Constraint> constraints, const Path& path);
 
 }  // namespace grove::detail::fuzz

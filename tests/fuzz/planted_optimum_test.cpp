@@ -121,7 +121,7 @@ TEST(ObeysAll, ReadsOrdersOffAPath) {
       TinyInstance::parse("map\n....\nagents\n0,0 -> -\ntasks\n1,0: 0\n3,0: 0\n").build();
   const auto satisfies = [&](const Path& path, ConstraintKind kind, Cell first) {
     const std::vector<Constraint> constraints{{first, first == 1 ? 0 : 1, 0, 0, kind}};
-    return obeys_all(instance, 0, SequenceClass(), constraints, path);
+    return satisfies_all(instance, 0, SequenceClass(), constraints, path);
   };
   const Path there{0, 1, 2, 3};
   EXPECT_TRUE(satisfies(there, ConstraintKind::kStopIs, 1));
@@ -132,8 +132,8 @@ TEST(ObeysAll, ReadsOrdersOffAPath) {
   EXPECT_TRUE(satisfies(back, ConstraintKind::kStopIs, 3));
   EXPECT_TRUE(satisfies(back, ConstraintKind::kStopIsNot, 1));
   EXPECT_FALSE(satisfies(back, ConstraintKind::kStopIs, 1));
-  EXPECT_FALSE(obeys_all(instance, 0, SequenceClass({1}, 0), {}, there));
-  EXPECT_TRUE(obeys_all(instance, 0, SequenceClass({}, 1), {}, back));
+  EXPECT_FALSE(satisfies_all(instance, 0, SequenceClass({1}, 0), {}, there));
+  EXPECT_TRUE(satisfies_all(instance, 0, SequenceClass({}, 1), {}, back));
 }
 
 // Interrupts its search after so many expansions: a limit that says the same on any machine.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a constraint asks of a path is written twice, in the library and in tests/support/obeys: the
-// two must agree.
+// What a constraint asks of a path is written twice, in the library and in tests/support/satisfies:
+// the two must agree.
 #include "planning/constraint.h"
 
 #include <gtest/gtest.h>

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include "tests/support/satisfies.h"
+
 #include <gtest/gtest.h>
 
 #include "tests/planning/single_agent.h"
-#include "tests/support/satisfies.h"
 
 namespace grove::detail::testing {
-namespace obeys_test {
+namespace satisfies_test {
 
-TEST(Obeys, CountsTheRestForEver) {
+TEST(Satisfies, CountsTheRestForEver) {
   const Grid grid = grid_of({"..."});
   const Path path{0, 1, 2};
   EXPECT_TRUE(satisfies(grid, path, {1, kNoCell, 2, kNever}));
@@ -19,7 +20,7 @@ TEST(Obeys, CountsTheRestForEver) {
   EXPECT_TRUE(satisfies(grid, path, {1, 2, 0, kNever}));
 }
 
-TEST(Obeys, GoesByTheLastArrival) {
+TEST(Satisfies, GoesByTheLastArrival) {
   const Grid grid = grid_of({"..."});
   const auto no_rest = [](Cell cell, Time by) {
     return Constraint{cell, kNoCell, 0, by, ConstraintKind::kNoRestBy};
@@ -40,7 +41,7 @@ TEST(Obeys, GoesByTheLastArrival) {
 }
 
 // 0 - 1 - 2 - 3, 1 and 2 inside.
-TEST(Obeys, KnowsATraversalFromATurn) {
+TEST(Satisfies, KnowsATraversalFromATurn) {
   const Grid grid = grid_of({"...."});
   const auto leaves = [](Cell end, Cell inner, Time begin, Time until) {
     return Constraint{end, inner, begin, until, ConstraintKind::kNoTraversal};
@@ -56,7 +57,7 @@ TEST(Obeys, KnowsATraversalFromATurn) {
 }
 
 // Round a loop: it comes out at the cell where it went in.
-TEST(Obeys, KnowsATraversalOfALoop) {
+TEST(Satisfies, KnowsATraversalOfALoop) {
   const Grid grid = grid_of({"..@", "...", "@.@"});
   const Constraint left{4, 3, 0, kNever, ConstraintKind::kNoTraversal};
   EXPECT_FALSE(satisfies(grid, {7, 4, 1, 0, 3, 4}, left));
@@ -64,5 +65,5 @@ TEST(Obeys, KnowsATraversalOfALoop) {
   EXPECT_TRUE(satisfies(grid, {7, 4, 3, 0, 1, 4}, left));
 }
 
-}  // namespace obeys_test
+}  // namespace satisfies_test
 }  // namespace grove::detail::testing
