@@ -22,7 +22,7 @@
 #include "tests/support/fuzz_factor.h"
 
 namespace grove::detail {
-namespace free_low_level_test {
+namespace free_order_sipp_test {
 
 using Outcome = PathOutcome;
 using testing::free_reference_cost;
@@ -486,5 +486,5 @@ TEST(FreeLowLevel, APathOutsideTheClassRealizesNothing) {
   EXPECT_THROW(realized_sequence(agent.goals, {}), std::invalid_argument);
 }
 
-}  // namespace free_low_level_test
+}  // namespace free_order_sipp_test
 }  // namespace grove::detail
