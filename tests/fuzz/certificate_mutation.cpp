@@ -76,7 +76,7 @@ class Mutation {
       }
   }
 
-  // What is below a split is replaced by a leaf.
+  // Replaces the split at line `at`, with all below it, by a leaf.
   void cut_off(int at) {
     const auto opens = [](const std::string& line) {
       return line.starts_with("split") || line.starts_with("later");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Certificates that somebody has changed.
+// Mutations of certificates, to test that the checker refuses false ones.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,9 @@
 
 namespace grove::detail::fuzz {
 
-// Something of it is another: as one would change it who wants to have it say more, or by chance.
+// Returns `lines` with one to four random mutations: a number or keyword changed, a line removed,
+// duplicated or swapped, or a subtree replaced by a leaf. Often the theorem claims more, as in a
+// forged certificate.
 std::vector<std::string> mutated(std::vector<std::string> lines, std::uint64_t seed);
 
 }  // namespace grove::detail::fuzz

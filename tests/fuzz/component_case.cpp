@@ -10,7 +10,7 @@
 namespace grove::detail::fuzz {
 namespace {
 
-constexpr double kAtOnce = 1e6;  // of a share of work: whatever the others do
+constexpr double kAtOnce = 1e6;  // ratio of work: as much as it takes, before all other work
 constexpr std::int64_t kToTheEnd = 1'000'000'000'000;
 
 std::vector<std::string> open_board(Random& random) {
@@ -25,7 +25,7 @@ std::vector<std::string> open_board(Random& random) {
   return rows;
 }
 
-// Two rooms and a corridor of some cells between them.
+// Two rooms joined by a corridor.
 std::vector<std::string> corridor_board(Random& random) {
   const auto length = static_cast<std::size_t>(random.between(1, 5));
   const auto room = static_cast<std::size_t>(random.between(1, 2));
@@ -36,7 +36,7 @@ std::vector<std::string> corridor_board(Random& random) {
   return rows;
 }
 
-// Agents from anywhere to anywhere, a task or two for some, others with tasks alone.
+// Random starts and goals. Some agents have a task or two; agents without a goal have two.
 TinyInstance roomy_instance(std::uint64_t seed) {
   Random random(seed ^ 0x4007);
   TinyInstance instance;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cases in which one part of the search has to prove all that is proven.
+// Cases in which a single component of the search must prove the whole bound.
 #pragma once
 
 #include <array>
@@ -11,12 +11,12 @@
 namespace grove::detail::fuzz {
 
 enum class Part : std::uint8_t {
-  kAny,       // all of them and any options: random_case()
-  kTree,      // splits and single agents
-  kPairs,     // and what pairs and groups cost more, by their paths and by splits
-  kGroups,    // and joint search of pairs and groups, at once
-  kJoint,     // joint search of all agents
-  kPrices,    // the prices at the root; the tree stops soon
+  kAny,       // all components and any options: random_case()
+  kTree,      // branching and the bounds of single agents
+  kPairs,     // kTree, and WDG weights of pairs and groups, by joint MDDs and by splits
+  kGroups,    // kPairs, and EPEA* for pairs and groups, from the start
+  kJoint,     // EPEA* for all agents
+  kPrices,    // the Lagrangian bound at the root; the tree stops soon
   kSequences  // one tree for each joint sequence
 };
 
@@ -34,12 +34,12 @@ inline constexpr std::array kParts = {
     NamedPart{Part::kSequences, "sequences"},
 };
 
-// The same seed makes the same case. Half of them are on larger boards than those of
-// random_case(), with up to four agents.
+// Returns the case of `seed`. Half of the cases are on larger boards than those of random_case(),
+// with up to four agents.
 FuzzCase component_case(Part part, std::uint64_t seed);
 
-// A plan that costs a little more, by one step where that can be: what the search knows from the
-// beginning, and has to beat. The plan itself if no agent can wait.
+// Returns a valid plan that costs one step more than `plan`: the start plan that the search has to
+// improve. Returns `plan` itself if no agent can wait.
 Plan dearer(const Instance& instance, const Plan& plan);
 
 }  // namespace grove::detail::fuzz

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// grove-fuzz-certificates: are certificates of tiny instances of all kinds verified, and do they
-// say what is true? And is one that was mutated ever believed where it is false? The checker
-// is another program (--verify). Exit codes: 0 all is well, 1 not, 2 bad usage.
+// grove-fuzz-certificates: certifies searches of tiny instances of all kinds. It tests that the
+// checker verifies each certificate and that the verified bound is true, and that the checker never
+// accepts a false claim of a mutated certificate. The checker is another program (--verify). Exit
+// codes: 0 no failure, 1 failure, 2 bad usage.
 #include <fmt/format.h>
 #include <sys/wait.h>
 
@@ -40,7 +41,7 @@ struct Arguments {
   int count = 200;
   int mutations = 0;
   std::uint64_t seed = 1;
-  double seconds = 0.5;  // for each case
+  double seconds = 0.5;  // time limit of each case
   bool json = false;
   std::string part = "any";
 };
@@ -62,7 +63,7 @@ On several cores, each with a folder and seeds of its own:
 struct Verdict {
   int code = 0;
   std::string text;
-  Cost bound = 0;  // if it was verified
+  Cost bound = 0;  // the verified bound, if code == 0
 };
 
 Verdict verdict_of(const Arguments& a, const fs::path& instance, const fs::path& proof) {
@@ -80,19 +81,20 @@ Verdict verdict_of(const Arguments& a, const fs::path& instance, const fs::path&
   constexpr std::string_view kCost = "verified: no plan costs less than ";
   const std::size_t at = verdict.text.find(kCost);
   if (at == std::string::npos) {
-    verdict.bound = verdict.text.find("verified: there is no plan") != std::string::npos
-                        ? kInfiniteCost
-                        : throw std::runtime_error("the checker says " + verdict.text);
+    verdict.bound =
+        verdict.text.find("verified: there is no plan") != std::string::npos
+            ? kInfiniteCost
+            : throw std::runtime_error("unexpected output of the checker: " + verdict.text);
   } else {
     verdict.bound = std::stoll(verdict.text.substr(at + kCost.size()));
   }
   return verdict;
 }
 
-// Stops a run at its second node: by then its prices are what they will ever be.
-class StopsSoon : public RunObserver {
+// Interrupts a run at its second node: by then the Lagrangian bound has its final value.
+class StopsAtSecondNode : public RunObserver {
  public:
-  explicit StopsSoon(Limits& limits) { limits.watch_interrupt(&interrupt_); }
+  explicit StopsAtSecondNode(Limits& limits) { limits.watch_interrupt(&interrupt_); }
   void on_event(RunEvent /*event*/, const Progress& progress) override {
     if (progress.nodes_expanded >= 2) interrupt_ = true;
   }
@@ -113,11 +115,11 @@ class Trial {
         proof_(a.folder / "proofs.proof"),
         mutant_(a.folder / "proofs.mutant") {}
 
-  void look_at(std::uint64_t seed) {
+  void test_seed(std::uint64_t seed) {
     seed_ = seed;
     case_ = component_case(part_of_search_, seed);
     case_.options.audit = false;
-    if (part_of_search_ == Part::kAny && seed % 3 == 0) leave_to_the_tree(seed);
+    if (part_of_search_ == Part::kAny && seed % 3 == 0) prefer_tree_and_lagrangian(seed);
     const Instance instance = case_.instance.build();
     const oracle::Answer truth = oracle::solve_jointly(instance, kOracleStates);
     if (truth.verdict == oracle::Verdict::kTooLarge) return;
@@ -152,7 +154,8 @@ class Trial {
   }
   std::string summary() const {
     std::string text = fmt::format(
-        "{} certificates: {} of the bound claimed, {} of the optimum, {} of less (by reason: ",
+        "{} certificates: {} of the claimed bound, {} of the optimum, {} of a lower bound (by "
+        "reason: ",
         cases_, whole_, of_optimum_, cases_ - whole_);
     for (const auto& [reason, count] : lesser_) text += fmt::format("{}: {}; ", reason, count);
     text += fmt::format(")\n{} mutated: {} refused, {} unreadable, {} believed and true\n{} wrong",
@@ -161,9 +164,9 @@ class Trial {
   }
 
  private:
-  // Else plans, or joint search, end most of these runs before the tree has proven much; and prices
-  // are for more agents.
-  void leave_to_the_tree(std::uint64_t seed) {
+  // Without this, incumbents or the joint search end most runs before the tree has proven much, and
+  // the Lagrangian bound needs more agents.
+  void prefer_tree_and_lagrangian(std::uint64_t seed) {
     SolveOptions& options = case_.options;
     options.omega = Omega::from_double(0);
     options.policy = Policy::kFree;
@@ -193,8 +196,8 @@ class Trial {
     Limits limits;
     limits.set_deadline(Limits::Clock::now() +
                         std::chrono::microseconds(static_cast<std::int64_t>(a_.seconds * 1e6)));
-    StopsSoon stops_soon(limits);
-    RunObserver* const observer = part_of_search_ == Part::kPrices ? &stops_soon : nullptr;
+    StopsAtSecondNode stops_early(limits);
+    RunObserver* const observer = part_of_search_ == Part::kPrices ? &stops_early : nullptr;
     const Solution solution = detail::solve(instance, options, limits, observer);
     recorder.flush();
     return solution;
@@ -277,20 +280,21 @@ int main(int argc, char** argv) {
   CLI::App app("Certificates of tiny instances, checked and mutated", "grove-fuzz-certificates");
   app.footer(grove::detail::fuzz::kFooter);
   app.add_option("--verify", a.verify, "the checker")->required()->check(CLI::ExistingFile);
-  app.add_option("--folder", a.folder, "for its files; made if missing");
+  app.add_option("--folder", a.folder, "directory for files; created if missing");
   app.add_option("--count", a.count)->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--mutations", a.mutations, "of each certificate")->capture_default_str();
-  app.add_option("--seed", a.seed, "of the first; each other one's is one more")
+  app.add_option("--mutations", a.mutations, "number of mutations of each certificate")
       ->capture_default_str();
-  app.add_option("--seconds", a.seconds, "for each")
+  app.add_option("--seed", a.seed, "seed of the first case; each next case has the next seed")
+      ->capture_default_str();
+  app.add_option("--seconds", a.seconds, "time limit of each case")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   std::vector<std::string> parts;
   for (const auto& named : grove::detail::fuzz::kParts) parts.emplace_back(named.name);
-  app.add_option("--part", a.part, "of the search, which has to prove all by itself")
+  app.add_option("--part", a.part, "component of the search that must prove the whole bound")
       ->check(CLI::IsMember(parts))
       ->capture_default_str();
-  app.add_flag("--json", a.json, "counts alone, for programs");
+  app.add_flag("--json", a.json, "print only the counts, as JSON");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -298,7 +302,7 @@ int main(int argc, char** argv) {
   }
   std::filesystem::create_directories(a.folder);
   grove::detail::fuzz::Trial trial(a);
-  for (int i = 0; i < a.count; ++i) trial.look_at(a.seed + static_cast<std::uint64_t>(i));
+  for (int i = 0; i < a.count; ++i) trial.test_seed(a.seed + static_cast<std::uint64_t>(i));
   fmt::print("{}\n", a.json ? trial.json() : trial.summary());
   return trial.is_well() ? 0 : 1;
 }
