@@ -32,7 +32,7 @@ Kind returned(const Kind& sent) {
   return std::get<Kind>(addressed.message);
 }
 
-TEST(Messages, ArriveAsTheyWereSent) {
+TEST(Messages, RoundTrip) {
   EXPECT_EQ(returned(some_status()), some_status());
   const auto order = returned(message::SendNodes{3, 64, true});
   EXPECT_EQ(order.to, 3);
@@ -40,7 +40,7 @@ TEST(Messages, ArriveAsTheyWereSent) {
   EXPECT_TRUE(order.to_idle);
 }
 
-TEST(Messages, TellWhatARankHasDone) {
+TEST(Messages, StatisticsRoundTripAndAddUp) {
   message::ProcessStatistics sent;
   sent.survey.whole = {{{"prices_asked", 5}}, {.process = 9, .nodes = 1, .groups = 3}};
   sent.survey.ranks[7] = {.expanded = 11, .open = 2, .bound = 40, .memory = 9};
@@ -59,7 +59,7 @@ TEST(Messages, TellWhatARankHasDone) {
   EXPECT_EQ(sum.ranks.at(7).open, 2);
 }
 
-TEST(Messages, AreAsLongWhateverMemoryAProcessTakes) {
+TEST(Messages, LengthDoesNotDependOnProcessMemory) {
   const auto length = [](std::int64_t memory) {
     message::ProcessStatistics account;
     account.survey.whole.memory.process = memory;
@@ -69,7 +69,7 @@ TEST(Messages, AreAsLongWhateverMemoryAProcessTakes) {
   EXPECT_EQ(length(0), length(std::int64_t{1} << 40));
 }
 
-TEST(Messages, PackFacts) {
+TEST(Messages, LearnedBoundsRoundTrip) {
   LearnedBound fact;
   for (const AgentIndex agent : {7, 19}) {
     SubproblemRecord& situation = fact.agents.emplace_back(3, agent);
@@ -99,7 +99,7 @@ message::RequestPricing some_question() {
   return ask;
 }
 
-TEST(Messages, AskForPricesAndTellThem) {
+TEST(Messages, PricingRequestAndReplyRoundTrip) {
   const auto share = returned(some_question()).share;
   EXPECT_EQ(share.round, 7);
   EXPECT_EQ(share.first, 2);
@@ -122,13 +122,13 @@ TEST(Messages, AskForPricesAndTellThem) {
   EXPECT_EQ(answer.work, 11);
 }
 
-TEST(Messages, AreRefusedWhenCutShort) {
+TEST(Messages, TruncatedMessageIsRefused) {
   for (const std::string& whole : {bytes(some_status()), bytes(some_question())})
     for (std::size_t length = 0; length < whole.size(); ++length)
       EXPECT_THROW(message::message_of(whole.substr(0, length)), std::invalid_argument) << length;
 }
 
-TEST(Messages, NoiseIsRefusedOrTakenForOtherValues) {
+TEST(Messages, CorruptedMessageIsRefusedOrDecoded) {
   std::mt19937 dice(1);
   const std::string whole = bytes(some_status());
   for (int i = 0; i < 3000; ++i) {

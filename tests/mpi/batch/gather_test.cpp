@@ -9,8 +9,8 @@
 namespace grove::detail::batch {
 namespace gather_test {
 
-// Round after round: who is quick must not be taken for who is slow.
-TEST(DistributedCheckpoint, TellsAllWhatEachSaid) {
+// Many rounds: a fast rank's message must not be counted in a slow rank's round.
+TEST(Gather, ReturnsTheTextsOfAllRanksOnEachRank) {
   for (const int count : {1, 2, 3, 7})
     for (const std::uint64_t seed : {1, 2, 3}) {
       std::mt19937_64 random(seed);
