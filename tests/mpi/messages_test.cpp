@@ -44,15 +44,15 @@ TEST(Messages, StatisticsRoundTripAndAddUp) {
   message::ProcessStatistics sent;
   sent.survey.whole = {{{"prices_asked", 5}}, {.process = 9, .nodes = 1, .groups = 3}};
   sent.survey.ranks[7] = {.expanded = 11, .open = 2, .bound = 40, .memory = 9};
-  const RunStatistics told = returned(sent).survey;
-  EXPECT_EQ(told.whole.counts, sent.survey.whole.counts);
-  EXPECT_EQ(told.whole.memory.groups, 3);
-  EXPECT_EQ(told.ranks.at(7).expanded, 11);
-  EXPECT_EQ(told.ranks.at(7).bound, 40);
+  const RunStatistics received = returned(sent).survey;
+  EXPECT_EQ(received.whole.counts, sent.survey.whole.counts);
+  EXPECT_EQ(received.whole.memory.groups, 3);
+  EXPECT_EQ(received.ranks.at(7).expanded, 11);
+  EXPECT_EQ(received.ranks.at(7).bound, 40);
   RunStatistics sum;
   sum.whole.counts["prices_asked"] = 1;
   sum.ranks[6] = {};
-  add(told, sum);
+  add(received, sum);
   EXPECT_EQ(sum.whole.counts.at("prices_asked"), 6);
   EXPECT_EQ(sum.whole.memory.nodes, 1);
   EXPECT_EQ(sum.ranks.size(), 2);
@@ -84,9 +84,9 @@ TEST(Messages, LearnedBoundsRoundTrip) {
   EXPECT_EQ(back.excess, fact.excess);
   EXPECT_THROW(message::unpacked(bytes.substr(1)), std::invalid_argument);
   EXPECT_THROW(message::unpacked(bytes + "x"), std::invalid_argument);
-  const auto told = returned(message::LearnedBounds{512, {bytes, bytes}});
-  EXPECT_EQ(told.reach, 512);
-  EXPECT_EQ(told.facts, (std::vector{bytes, bytes}));
+  const auto received = returned(message::LearnedBounds{512, {bytes, bytes}});
+  EXPECT_EQ(received.reach, 512);
+  EXPECT_EQ(received.facts, (std::vector{bytes, bytes}));
 }
 
 message::RequestPricing some_question() {

@@ -43,10 +43,10 @@ class RankWithRoot {
   // Returns the status that the rank sends at that time, or nullopt if it sends none.
   std::optional<message::Status> send_updates(double now) {
     rank_.send_updates(now);
-    std::optional<message::Status> said;
+    std::optional<message::Status> reported;
     for (const message::Message& message : network_.take())
-      if (const auto* status = std::get_if<message::Status>(&message)) said = *status;
-    return said;
+      if (const auto* status = std::get_if<message::Status>(&message)) reported = *status;
+    return reported;
   }
   // Returns false if no node is left.
   bool expand() {
@@ -105,16 +105,16 @@ TEST(Rank, ReportsALargeSurplusAtOnce) {
   RankWithRoot rank(Omega(), -1);
   const auto first = rank.send_updates(0);
   ASSERT_TRUE(first);
-  std::int64_t said = first->open;
+  std::int64_t reported = first->open;
   int statuses = 0;
   int expansions = 0;
   while (rank.open() < 200 && expansions < 5000 && rank.expand()) {
     ++expansions;
     if (const auto status = rank.send_updates(0)) {
       ++statuses;
-      said = status->open;
+      reported = status->open;
     }
-    EXPECT_LE(rank.open() / 2, 2 * (said / 2));
+    EXPECT_LE(rank.open() / 2, 2 * (reported / 2));
   }
   EXPECT_GE(rank.open(), 200) << "too few nodes to test anything";
   EXPECT_LT(statuses, expansions / 2) << "small changes are reported later";

@@ -20,7 +20,7 @@ std::string told_while(const std::vector<std::string>& files) {
   return ::testing::internal::GetCapturedStderr();
 }
 
-TEST(DiskFlusher, EndsWhenAllFilesAreThere) {
+TEST(DiskFlusher, PrintsNothingIfAllFilesExist) {
   const TemporaryDirectory directory;
   std::vector<std::string> files;
   for (int i = 0; i < 20; ++i) files.push_back(directory.write(std::to_string(i), "plan"));
@@ -28,8 +28,8 @@ TEST(DiskFlusher, EndsWhenAllFilesAreThere) {
   EXPECT_EQ(told_while(files), "");
 }
 
-// That it says so shows that it has tried, and that its end has waited.
-TEST(DiskFlusher, TellsOnceWhatFails) {
+// The message shows that it has tried to flush, and that its end has waited for this.
+TEST(DiskFlusher, ReportsTheFirstFailureOnce) {
   const TemporaryDirectory directory;
   const std::string told = told_while({directory / "a", directory / "b"});
   EXPECT_NE(told.find("/a: cannot be written: No such file"), std::string::npos) << told;

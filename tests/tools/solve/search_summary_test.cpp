@@ -11,11 +11,11 @@ using ::testing::Contains;
 using ::testing::EndsWith;
 using ::testing::IsEmpty;
 
-TEST(SearchSummary, SaysNothingOfARunThatSearchedNothing) {
+TEST(SearchSummary, IsEmptyWithoutASearch) {
   EXPECT_THAT(search_summary({}), IsEmpty());
 }
 
-TEST(SearchSummary, TellsWhatWasCounted) {
+TEST(SearchSummary, ListsTheCounts) {
   Stats stats;
   stats.counts = {{"nodes_expanded", 7},     {"nodes_generated", 15}, {"roots_generated", 1},
                   {"splits_no_rest_by", 2},  {"splits_bar", 5},       {"bypasses", 3},
