@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the public API costs: a small solve through it and without it, microseconds. overhead.py
-// sets Python and the program beside it.
+// Measures the overhead of the public API: a small solve with and without it, in microseconds.
+// overhead.py compares both with Python and with the program.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
