@@ -138,7 +138,7 @@ FuzzCase component_case(Part part, std::uint64_t seed) {
   return fuzz_case;
 }
 
-Plan dearer(const Instance& instance, const Plan& plan) {
+Plan higher_cost_plan(const Instance& instance, const Plan& plan) {
   for (std::size_t agent = 0; agent < plan.agents.size(); ++agent)
     for (Time time = 0; time < plan.agents[agent].cost; ++time) {
       Solution slower;

@@ -40,6 +40,6 @@ FuzzCase component_case(Part part, std::uint64_t seed);
 
 // Returns a valid plan that costs one step more than `plan`: the start plan that the search has to
 // improve. Returns `plan` itself if no agent can wait.
-Plan dearer(const Instance& instance, const Plan& plan);
+Plan higher_cost_plan(const Instance& instance, const Plan& plan);
 
 }  // namespace grove::detail::fuzz

@@ -126,7 +126,7 @@ class Trial {
     optimum_ = truth.plan ? truth.plan->cost : kInfiniteCost;
     write(instance);
     if (part_of_search_ != Part::kAny && truth.plan && seed % 4 < 2)
-      case_.options.start = dearer(instance, *truth.plan);
+      case_.options.start = higher_cost_plan(instance, *truth.plan);
     Solution solution;
     try {
       solution = solve(instance);

@@ -123,16 +123,16 @@ class KnownInstances {
  public:
   void test_seed(std::uint64_t seed) {
     using Clock = std::chrono::steady_clock;
-    const KnownCrowd crowd = known_crowd(seed);
+    const KnownCrowd known = known_crowd(seed);
     const auto began = Clock::now();
-    const auto reason = pebble_motion_infeasibility(crowd.instance);
+    const auto reason = pebble_motion_infeasibility(known.instance);
     slowest_ = std::max(slowest_, std::chrono::duration<double>(Clock::now() - began).count());
-    ++(crowd.has_plan ? possible_ : impossible_);
-    most_agents_ = std::max(most_agents_, crowd.instance.agent_count());
-    if (reason.has_value() != crowd.has_plan) return;
+    ++(known.has_plan ? possible_ : impossible_);
+    most_agents_ = std::max(most_agents_, known.instance.agent_count());
+    if (reason.has_value() != known.has_plan) return;
     ++wrong_;
-    fmt::print("seed {}: WRONG: {}, {} agents: {}\n", seed, crowd.board,
-               crowd.instance.agent_count(), reason ? *reason : "there is no plan");
+    fmt::print("seed {}: WRONG: {}, {} agents: {}\n", seed, known.board,
+               known.instance.agent_count(), reason ? *reason : "there is no plan");
   }
   int wrong() const { return wrong_; }
   std::string summary() const {
@@ -148,10 +148,10 @@ class KnownInstances {
 
 template <class Tests>
 bool all_is_well(std::uint64_t seed, int count) {
-  Tests crowds;
-  for (int i = 0; i < count; ++i) crowds.test_seed(seed + static_cast<std::uint64_t>(i));
-  fmt::print("{}\n", crowds.summary());
-  return crowds.wrong() == 0;
+  Tests tests;
+  for (int i = 0; i < count; ++i) tests.test_seed(seed + static_cast<std::uint64_t>(i));
+  fmt::print("{}\n", tests.summary());
+  return tests.wrong() == 0;
 }
 
 }  // namespace

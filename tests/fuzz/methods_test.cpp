@@ -120,7 +120,7 @@ Cost best_choice(const Instance& instance, AgentIndex agent, std::vector<Cell>& 
 
 TEST(Destinations, AreDistinctAndCheapest) {
   int chosen = 0;
-  int dearer = 0;  // instances in which distinctness raises the cost
+  int raised = 0;  // instances in which distinctness raises the cost
   const std::uint64_t seeds = testing::fuzz_rounds(80);
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -144,10 +144,10 @@ TEST(Destinations, AreDistinctAndCheapest) {
     }
     EXPECT_EQ(destinations->bound, bound);
     EXPECT_EQ(cost, best_choice(instance, 0, taken));
-    if (cost > bound) ++dearer;
+    if (cost > bound) ++raised;
   }
   EXPECT_GT(chosen, 30);
-  EXPECT_GT(dearer, 1);
+  EXPECT_GT(raised, 1);
 }
 
 // Checks every reported plan and bound against the oracle.

@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
       ++failed;
     }
   fmt::print("{} schedules ({} unfinished, {} at a limit, {} resumed, {} reopened, {} restarts), ",
-             tally.tried, tally.unfinished, tally.struck, tally.resumed, tally.reopened,
+             tally.tried, tally.unfinished, tally.limit_reached, tally.resumed, tally.reopened,
              tally.restarts);
   fmt::print("{} nodes, {} batches, {} remote pricings, {} bounds, {} messages: {} false\n",
              tally.nodes, tally.batches, tally.prices, tally.facts, tally.messages, failed);

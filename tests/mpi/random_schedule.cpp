@@ -170,9 +170,9 @@ Solution solve_in_random_order(const Instance& instance, const SolveOptions& opt
       process.frozen_until =
           counts.steps +
           static_cast<int>(random() % static_cast<unsigned>(disturbances.longest_freeze));
-    if (static_cast<int>(random() % 100'000) < schedule.strikes) {
+    if (static_cast<int>(random() % 100'000) < schedule.limit_rate) {
       process.limits.stop(chance(random, 50) ? StopReason::kTime : StopReason::kInterrupt);
-      counts.struck = true;
+      counts.limit_reached = true;
     }
     turns += done.worked;
     if (look(coordinator.lower_bound())) break;

@@ -17,14 +17,14 @@ struct Schedule {
   std::uint64_t seed = 0;
   std::int64_t most_steps = 60'000;
   std::int64_t most_turns = 5'000;  // limit on the steps of workers; a work item takes three
-  int strikes = 0;  // probability per step, in 1/100,000, that one rank reaches a limit
+  int limit_rate = 0;  // probability per step, in 1/100,000, that one rank reaches a limit
 };
 
 struct ScheduleCounts {
   std::int64_t steps = 0;
   std::int64_t messages = 0;
-  bool ended = false;   // false: killed, or most_steps or most_turns reached
-  bool struck = false;  // some rank reached a limit
+  bool ended = false;          // false: killed, or most_steps or most_turns reached
+  bool limit_reached = false;  // some rank reached a limit
   bool stuck = false;  // no message is in transit, no rank does anything, and the run has not ended
   bool left_messages = false;  // a message was not received although all ranks have left
 };

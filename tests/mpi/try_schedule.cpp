@@ -54,7 +54,7 @@ Schedule random_schedule(Techniques techniques, fuzz::Random& dice) {
   Schedule schedule;
   if (techniques.has(Technique::kPrimal))
     schedule.most_turns /= 10;  // a primal step takes a millisecond
-  if (dice.percent(15)) schedule.strikes = dice.pick<int>({10, 100});
+  if (dice.percent(15)) schedule.limit_rate = dice.pick<int>({10, 100});
   schedule.ranks = dice.pick<int>({1, 2, 2, 3, 4, 5, 7, 8});
   schedule.workers = dice.between(1, 2);
   schedule.seed = static_cast<std::uint64_t>(dice.below(1 << 30));
@@ -206,15 +206,16 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
   } while (tester.has_killed());
   const auto stop = solution.stats.texts.find("stopped_by");
   const bool gave_up = stop != solution.stats.texts.end() && stop->second == "memory limit";
-  const bool stopped = !counts.ended || counts.struck || gave_up;
+  const bool stopped = !counts.ended || counts.limit_reached || gave_up;
   std::ranges::copy(fuzz::false_claims(instance, truth, options.omega, solution, stopped),
                     std::back_inserter(wrong));
   std::ranges::copy(tester.wrong(), std::back_inserter(wrong));
   if (counts.stuck) wrong.emplace_back("deadlock: all ranks wait for each other");
   if (counts.left_messages) wrong.emplace_back("messages were not received");
-  if (counts.ended && !counts.struck && tester.misses_one()) wrong.emplace_back("no checkpoint");
+  if (counts.ended && !counts.limit_reached && tester.misses_one())
+    wrong.emplace_back("no checkpoint");
   tally.unfinished += !counts.ended;
-  tally.struck += counts.struck;
+  tally.limit_reached += counts.limit_reached;
   tally.reopened += tester.reopened();
   tally.messages += counts.messages;
   const auto& stats = solution.stats.counts;

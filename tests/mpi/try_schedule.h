@@ -19,7 +19,7 @@ struct ScheduleTally {
   std::int64_t prices = 0;  // subproblems that other ranks priced for rank 0
   std::int64_t facts = 0;   // learned bounds that ranks sent to each other
   std::int64_t resumed = 0;
-  std::int64_t struck = 0;
+  std::int64_t limit_reached = 0;
   std::int64_t reopened = 0;  // checkpoints from which a single process resumed
 };
 

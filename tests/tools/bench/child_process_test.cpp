@@ -106,15 +106,15 @@ TEST_F(Children, HaveTheirOwnProcessGroup) {
 }
 
 TEST_F(Children, DieWithTheirParent) {
-  const std::string told = directory_ / "told";
-  ASSERT_EQ(::mkfifo(told.c_str(), 0600), 0);
+  const std::string fifo = directory_ / "fifo";
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
   const pid_t parent = ::fork();
   ASSERT_GE(parent, 0);
   if (parent == 0) {
-    run("exec 3> '" + told + "'; echo $$ >&3; " + kWithoutEnd);
+    run("exec 3> '" + fifo + "'; echo $$ >&3; " + kWithoutEnd);
     ::_exit(0);
   }
-  std::ifstream from_child(told);
+  std::ifstream from_child(fifo);
   pid_t child = 0;
   from_child >> child;
   ::kill(parent, SIGKILL);

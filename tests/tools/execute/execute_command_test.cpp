@@ -42,11 +42,12 @@ class ExecuteCommand : public ::testing::Test {
 };
 
 TEST_F(ExecuteCommand, ExecutedPlansAreValid) {
-  for (const std::vector<std::string>& troubles : {std::vector<std::string>{},
-                                                   {"--delays", "0.5", "--seed", "3"},
-                                                   {"--slow", "a1=2.5"},
-                                                   {"--stop", "a2@10=60", "--stop", "a3@0=5"}}) {
-    std::vector<std::string> words = troubles;
+  for (const std::vector<std::string>& disturbances :
+       {std::vector<std::string>{},
+        {"--delays", "0.5", "--seed", "3"},
+        {"--slow", "a1=2.5"},
+        {"--stop", "a2@10=60", "--stop", "a3@0=5"}}) {
+    std::vector<std::string> words = disturbances;
     words.insert(words.end(), {"--output", directory_ / "driven.plan.json"});
     const ProcessResult done = execute(words);
     ASSERT_EQ(done.exit_code, 0) << done.err;
@@ -146,11 +147,11 @@ TEST_F(ExecuteCommand, ReportsBlockedRobots) {
 }
 
 TEST_F(ExecuteCommand, SameSeedGivesTheSameExecution) {
-  const auto drive = [&](const char* seed) {
+  const auto output_with = [&](const char* seed) {
     return execute({"--delays", "0.3", "--seed", seed}).out;
   };
-  EXPECT_EQ(drive("1"), drive("1"));
-  EXPECT_NE(drive("1"), drive("2"));
+  EXPECT_EQ(output_with("1"), output_with("1"));
+  EXPECT_NE(output_with("1"), output_with("2"));
 }
 
 TEST_F(ExecuteCommand, RefusesInvalidOptionsAndPlans) {

@@ -99,8 +99,8 @@ TEST_F(ReplanCommand, OptionsMayComeBeforeTheFiles) {
     const ProcessResult done = run_grove(words);
     EXPECT_EQ(done.exit_code, 0) << done.err;
   }
-  const std::string told = read("then.plan.json")["stats"]["options"];
-  EXPECT_THAT(told, testing::HasSubstr("--drop-task " + first_task()));
+  const std::string options = read("then.plan.json")["stats"]["options"];
+  EXPECT_THAT(options, testing::HasSubstr("--drop-task " + first_task()));
   expect_valid({"--at", "20", "--late", "a3=5", "--late", "a1=2"});
   EXPECT_THAT(std::string(read("then.plan.json")["stats"]["options"]),
               testing::HasSubstr("--late a3=5 --late a1=2"));

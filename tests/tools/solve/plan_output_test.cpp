@@ -91,16 +91,16 @@ TEST_F(PlanOutput, RefutesAFalseBoundByTheExistingPlan) {
 }
 
 TEST_F(PlanOutput, ReportsKeptAndMissingPlans) {
-  const auto told = [](const Solution& solution, std::optional<Cost> kept) {
+  const auto output = [](const Solution& solution, std::optional<Cost> kept) {
     ::testing::internal::CaptureStderr();
     tell_without_plan(solution, "p.json", kept);
     return ::testing::internal::GetCapturedStderr();
   };
-  EXPECT_EQ(told(waiting(1), {}), "");
-  EXPECT_EQ(told(waiting(1), 2),
+  EXPECT_EQ(output(waiting(1), {}), "");
+  EXPECT_EQ(output(waiting(1), 2),
             "grove: the plan found costs 3 (feasible, lower bound 2); p.json keeps its valid plan "
             "of cost 2\n");
-  EXPECT_EQ(told(without_plan(Status::kInfeasible, 0), {}),
+  EXPECT_EQ(output(without_plan(Status::kInfeasible, 0), {}),
             "grove: no plan was found (infeasible)\n");
 }
 

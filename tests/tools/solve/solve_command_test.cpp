@@ -60,7 +60,7 @@ class SolveCommand : public ::testing::Test {
   }
   bool exists(const std::string& name) const { return std::filesystem::exists(directory_ / name); }
   // True if a log file exists and contains this text.
-  bool said_so_far(const std::string& log, const std::string& text) const {
+  bool log_contains(const std::string& log, const std::string& text) const {
     return exists(log) && file_content(directory_ / log).find(text) != std::string::npos;
   }
 
@@ -232,7 +232,7 @@ TEST_F(SolveCommand, EndsIfTheMemoryLimitCannotBeKept) {
 TEST_F(SolveCommand, SignalsEndARunCleanly) {
   for (const int signal : {SIGINT, SIGTERM}) {
     options_.signal = signal;
-    options_.signal_when = [this] { return said_so_far("run.log", "\nB "); };
+    options_.signal_when = [this] { return log_contains("run.log", "\nB "); };
     const ProcessResult solved = solve(
         {"puzzle.json", "--without", "joint-search", "--log", "run.log", "--output", "p.json"});
     EXPECT_EQ(solved.exit_code, 0) << solved.err;
@@ -662,7 +662,7 @@ TEST_F(Incumbents, OfMethodBClaimOnlyBoundsOfTheInstance) {
 
 TEST_F(Incumbents, HaveTheirSourceInTheLog) {
   options_.signal = SIGINT;
-  options_.signal_when = [this] { return said_so_far("l", "\nL  "); };
+  options_.signal_when = [this] { return log_contains("l", "\nL  "); };
   const ProcessResult solved =
       solve({"doors.json", "--omega", "0", "--threads", "1", "--log", "l", "--output", "p.json"});
   options_.signal = 0;
