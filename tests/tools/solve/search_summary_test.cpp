@@ -25,7 +25,7 @@ TEST(SearchSummary, ListsTheCounts) {
   EXPECT_THAT(lines, Contains("Nodes         expanded 7, generated 15, trees 1"));
   EXPECT_THAT(lines, Contains("Splits        bar 5, no-rest-by 2; 3 bypasses"));
   EXPECT_THAT(lines, Contains(EndsWith("8, 75 % of them known")));
-  EXPECT_THAT(lines, Contains(EndsWith("0, 0 % of them known")));  // path sets: none asked
+  EXPECT_THAT(lines, Contains(EndsWith("0, 0 % of them known")));  // MDDs: no queries
   EXPECT_THAT(lines, Contains("Better plans  start 1, neighborhood 4 (cost -9)"));
 }
 
