@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The library as others see it: all layers below the front door in one file, shared or static.
+# The library as others see it: all layers below the public API in one file, shared or static.
 set(grove_library_layers model execution io sequencing planning joint lagrangian conflicts search primal baselines engine api)
 list(TRANSFORM grove_library_layers PREPEND grove_)
 
@@ -23,7 +23,7 @@ set_target_properties(grove_library PROPERTIES EXPORT_NAME grove)
 
 # All of it again, and grove::mpi::solve(): one of the two is enough for a program.
 if(GROVE_WITH_MPI)
-  add_library(grove_mpi_library SHARED $<TARGET_OBJECTS:grove_api> ${PROJECT_SOURCE_DIR}/mpi/front_door.cpp)
+  add_library(grove_mpi_library SHARED $<TARGET_OBJECTS:grove_api> ${PROJECT_SOURCE_DIR}/mpi/public_api.cpp)
   add_library(grove::mpi ALIAS grove_mpi_library)
   grove_library(grove_mpi_library grove-mpi)
   target_include_directories(grove_mpi_library PRIVATE ${PROJECT_SOURCE_DIR})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove._grove: the front door for Python. What is nicer said in Python stands in
+// grove._grove: the public API for Python. What is nicer said in Python stands in
 // grove/__init__.py.
 #include <exception>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What Python sees of the front door's values: places as tuples and words, plans and solutions with
+// What Python sees of the public API's values: places as tuples and words, plans and solutions with
 // the instance that they are of.
 #pragma once
 

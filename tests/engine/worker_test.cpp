@@ -166,7 +166,7 @@ TEST(Worker, HelpsToBoundANodeTakenByAnotherUntilNothingIsLeft) {
   }
   EXPECT_GT(helps, 1) << "weights were computed first";
   EXPECT_FALSE(item) << "no other work is left";
-  EXPECT_EQ(count(worker, "helps"), helps);
+  EXPECT_EQ(count(worker, "assists"), helps);
   EXPECT_GT(count(worker, "pair_expansions"), 0);
   EXPECT_EQ(s.observer.expansions, 0) << "the other worker expands the node";
   EXPECT_EQ(s.nodes.frontier.live(), 1u);

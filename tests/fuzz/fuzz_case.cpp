@@ -95,7 +95,7 @@ void read_option(const std::string& line, FuzzCase& fuzz_case) {
     throw std::invalid_argument(fmt::format("did not expect the option '{}'", key));
 }
 
-// All, none, all but one, one alone, or any.
+// All techniques, none, all but one, only one, or a random set.
 Techniques random_techniques(Random& random) {
   const Technique one = kTechniques[random.below(static_cast<int>(kTechniques.size()))].technique;
   switch (random.below(6)) {
@@ -122,22 +122,22 @@ Omega random_omega(Random& random) {
   return Omega::parse(kChoices[random.below(std::size(kChoices))]);
 }
 
-// Mostly as much as it takes; else so little that nodes must be given up.
+// Mostly unlimited; otherwise so little that nodes must be evicted.
 std::size_t random_node_memory(Random& random) {
   constexpr std::size_t kUnlimited = SolveOptions::kUnlimited;
   return random.pick<std::size_t>({kUnlimited, kUnlimited, kUnlimited, 1'000, 3'000, 10'000});
 }
 
-// Mostly what it is; else a few numbers are at an end of their range, or far from their default
-// but not so far that a run takes longer than the fuzzer waits.
+// Mostly the default; otherwise a few tunables are at a bound of their range, or far from their
+// default, but not so far that a run exceeds the time limit of the fuzzer.
 Tuning random_tuning(Random& random) {
   Tuning tuning;
-  // Else tiny instances are solved before the joint search is due.
+  // Otherwise tiny instances are solved before the joint search starts.
   if (random.percent(20)) {
     tuning.joint_start_work = 0;
     tuning.joint_step_work = random.pick<std::int64_t>({1, 20, 4000});
   }
-  // Nor would it be tried with so few agents.
+  // Otherwise the Lagrangian bound does not run with so few agents.
   if (random.percent(30)) {
     tuning.lagrangian_min_agents = 1;
     tuning.lagrangian_start_work = 0;
@@ -228,7 +228,7 @@ FuzzCase random_case(std::uint64_t seed) {
   fuzz_case.options.node_memory = random_node_memory(random);
   fuzz_case.options.threads = random.pick<int>({1, 1, 1, 1, 1, 2, 2, 3, 4});
   fuzz_case.options.deterministic = random.below(8) == 0;
-  // What the published low levels are for.
+  // The problems that the published low levels support.
   if (fuzz_case.options.policy != Policy::kFixed && random.below(6) == 0 && on_plain_grid)
     fuzz_case.options.low_level = random.pick<LowLevel>(
         {LowLevel::kVisitedSets, LowLevel::kSingleLegs, LowLevel::kTimeIntervalForest});

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "tests/planning/random_matter.h"
+#include "tests/planning/random_cases.h"
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "planning/corridors.h"
-#include "tests/planning/random_matter.h"
+#include "tests/planning/random_cases.h"
 #include "tests/planning/single_agent.h"
 #include "tests/support/satisfies.h"
 

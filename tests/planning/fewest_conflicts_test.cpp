@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "tests/planning/random_matter.h"
+#include "tests/planning/random_cases.h"
 #include "tests/support/instances.h"
 
 namespace grove::detail {

@@ -6,7 +6,7 @@
 
 #include "model/plan.h"
 #include "tests/planning/free_reference.h"
-#include "tests/planning/random_matter.h"
+#include "tests/planning/random_cases.h"
 
 namespace grove::detail::testing {
 

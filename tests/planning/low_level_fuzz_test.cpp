@@ -7,7 +7,7 @@
 #include <random>
 
 #include "planning/fixed_order_sipp.h"
-#include "tests/planning/random_matter.h"
+#include "tests/planning/random_cases.h"
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"
 #include "tests/support/fuzz_factor.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "planning/free_order_sipp.h"
-#include "tests/planning/random_matter.h"
+#include "tests/planning/random_cases.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 

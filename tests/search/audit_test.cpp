@@ -5,14 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "model/assert.h"
-#include "tests/search/node_at_hand.h"
+#include "tests/search/root_fixture.h"
 
 namespace grove::detail {
 namespace audit_test {
 
-struct TwoAgents : testing::NodeAtHand {
+struct TwoAgents : testing::RootFixture {
   TwoAgents()
-      : NodeAtHand({"....", "...."}, {{{0, 0}, Position{3, 0}}, {{0, 1}, Position{3, 1}}}) {}
+      : RootFixture({"....", "...."}, {{{0, 0}, Position{3, 0}}, {{0, 1}, Position{3, 1}}}) {}
 
   // A child of the root in which agent 0 takes `path` and the node claims `cost`.
   NodePtr child(const Path& path, Cost cost, const AgentConstraint& added = {}) {

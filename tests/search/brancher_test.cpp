@@ -6,19 +6,19 @@
 #include <algorithm>
 #include <set>
 
-#include "tests/search/node_at_hand.h"
+#include "tests/search/root_fixture.h"
 #include "tests/support/clocks.h"
 
 namespace grove::detail {
 namespace brancher_test {
 
 using testing::AgentSpec;
-using testing::NodeAtHand;
+using testing::RootFixture;
 
 const Techniques kCardinal{Technique::kStrongBranching};
 
-struct Branched : NodeAtHand {
-  using NodeAtHand::NodeAtHand;
+struct Branched : RootFixture {
+  using RootFixture::RootFixture;
 
   Brancher::Outcome branch(Cost cutoff = kInfiniteCost,
                            std::span<const Split> fallback_splits = {}) {
@@ -200,7 +200,7 @@ TEST(Brancher, BreaksTiesBySeed) {
 
 // A search for a pair of agents examines only these two and does not load the others.
 TEST(NodeView, LoadsOnlyTheAgentsOfItsScope) {
-  NodeAtHand s(kOpenAndAisles, kFour);
+  RootFixture s(kOpenAndAisles, kFour);
   const std::array<AgentIndex, 2> pair{2, 3};
   s.view.enter(s.root, pair);
   ASSERT_FALSE(s.view.conflict_free());
@@ -214,7 +214,7 @@ TEST(NodeView, LoadsOnlyTheAgentsOfItsScope) {
 }
 
 TEST(NodeView, ListsTheAgentsAffectedByAConstraint) {
-  NodeAtHand s({"....", "...."}, {{{0, 0}, Position{3, 0}}, {{0, 1}, Position{3, 1}}});
+  RootFixture s({"....", "...."}, {{{0, 0}, Position{3, 0}}, {{0, 1}, Position{3, 1}}});
   std::vector<AgentIndex> agents;
   const auto affected_agents = [&](AgentIndex agent, const Constraint& c) {
     s.view.affected_agents({agent, c}, agents);

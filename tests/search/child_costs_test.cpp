@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/search/node_at_hand.h"
+#include "tests/search/root_fixture.h"
 
 namespace grove::detail {
 namespace child_costs_test {
 
-using testing::NodeAtHand;
+using testing::RootFixture;
 using Outcome = ChildCosts::Outcome;
 
 // Path lengths of the agent: 4 through the open door at time 2. If the door is blocked up to time 9
@@ -33,7 +33,7 @@ class ChildCostsTest : public ::testing::Test {
     return increase;
   }
 
-  NodeAtHand node_{{"..@..", ".....", "..@.."}, {{{0, 1}, Position{4, 1}}}};
+  RootFixture node_{{"..@..", ".....", "..@.."}, {{{0, 1}, Position{4, 1}}}};
   const Constraint door_is_blocked_{node_.instance.grid().cell({2, 1}), kNoPlace, 0, 9};
   ChildCosts child_costs_{node_.planner, node_.memory, PathQuery::kUnlimited};
 };

@@ -10,7 +10,7 @@
 #include "search/feasibility.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/group_oracle.h"
-#include "tests/search/node_at_hand.h"
+#include "tests/search/root_fixture.h"
 #include "tests/support/fuzz_factor.h"
 
 namespace grove::detail {
@@ -27,10 +27,10 @@ SearchOptions options_of(std::uint64_t seed) {
 }
 
 // A node up to five splits below the root of a tiny instance of any kind.
-struct Below : testing::NodeAtHand {
+struct Below : testing::RootFixture {
   Below(const fuzz::TinyInstance& tiny, std::uint64_t seed)
-      : NodeAtHand(seed % 5 == 0 ? tiny.build().without_following() : tiny.build(),
-                   options_of(seed)),
+      : RootFixture(seed % 5 == 0 ? tiny.build().without_following() : tiny.build(),
+                    options_of(seed)),
         random(seed) {
     Brancher brancher(problem, options, planner, memory);
     for (int depth = below(6); depth > 0 && !view.conflict_free(); --depth) {

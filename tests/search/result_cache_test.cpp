@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "tests/search/node_at_hand.h"
+#include "tests/search/root_fixture.h"
 
 namespace grove::detail {
 namespace result_cache_test {
@@ -173,9 +173,9 @@ TEST_F(DependencyTableGroups, DoNotDependOnTheNumberingOfSubproblems) {
   }
 }
 
-struct TwoWorkers : testing::NodeAtHand {
+struct TwoWorkers : testing::RootFixture {
   TwoWorkers()
-      : NodeAtHand({"..."}, {{{0, 0}, Position{2, 0}}}),
+      : RootFixture({"..."}, {{{0, 0}, Position{2, 0}}}),
         other(planner, memory.common(), options.tuning.mdd_nodes) {}
 
   WorkerCache other;

@@ -3,18 +3,18 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/search/node_at_hand.h"
+#include "tests/search/root_fixture.h"
 #include "tests/support/clocks.h"
 
 namespace grove::detail {
 namespace wdg_heuristic_test {
 
 using testing::AgentSpec;
-using testing::NodeAtHand;
+using testing::RootFixture;
 using Outcome = WdgHeuristic::Outcome;
 
-struct Bounded : NodeAtHand {
-  using NodeAtHand::NodeAtHand;
+struct Bounded : RootFixture {
+  using RootFixture::RootFixture;
 
   // Bound of the root minus its cost.
   Cost excess(Cost cutoff = kInfiniteCost, BoundingEffort bounding_effort = BoundingEffort::kFull) {

@@ -37,7 +37,7 @@ void SimulatedRanks::run_rank(int rank, const std::function<void(int rank)>& bod
     }
     body(rank);
   } catch (const Killed&) {
-    // as asked
+    // by kill()
   } catch (...) {
     if (!failure_) failure_ = std::current_exception();
     killed_ = true;
@@ -50,7 +50,7 @@ void SimulatedRanks::run_rank(int rank, const std::function<void(int rank)>& bod
 void SimulatedRanks::pause(int rank) {
   std::unique_lock lock(mutex_);
   now_ += std::uniform_real_distribution<double>(0, kLongestStep_s)(random_);
-  if (now_ > kNoEnd_s) throw std::runtime_error("the ranks come to no end");
+  if (now_ > kNoEnd_s) throw std::runtime_error("the ranks do not end");
   if (on_time) on_time(now_);
   pass_turn();
   wait_for_turn(lock, rank);

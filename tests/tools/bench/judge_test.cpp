@@ -42,12 +42,12 @@ class Judges : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(Judges, BelieveWhatTheyHaveChecked) {
+TEST_F(Judges, AcceptCheckedPlans) {
   EXPECT_EQ(verdict(), batch::outcome_of(instance_, solution_));
   EXPECT_TRUE(verdict().solved);
 }
 
-TEST_F(Judges, CountAPlanAfterTheTimeLimitAsUnsolved) {
+TEST_F(Judges, CountPlansAfterTheTimeLimitAsUnsolved) {
   EXPECT_TRUE(verdict({ChildEnd::Kind::kExited, 0, 60}).solved);
   const Outcome late = verdict({ChildEnd::Kind::kExited, 0, 60.01});
   EXPECT_EQ(late.status, "optimal");
@@ -55,7 +55,7 @@ TEST_F(Judges, CountAPlanAfterTheTimeLimitAsUnsolved) {
   EXPECT_EQ(late.error, "time limit");
 }
 
-TEST_F(Judges, RefuseWrongPlans) {
+TEST_F(Judges, RefuseInvalidPlans) {
   std::string text = solution_text(instance_, solution_);
   text.replace(text.find("[2,0]"), 5, "[3,0]");
   directory_.write("plan", text);
@@ -66,7 +66,7 @@ TEST_F(Judges, RefuseWrongPlans) {
   EXPECT_TRUE(outcome.error.starts_with("the plan is wrong: /agents/0/path/2")) << outcome.error;
 }
 
-TEST_F(Judges, NameWhatWentWrong) {
+TEST_F(Judges, ReportTheCauseOfAFailure) {
   directory_.write("said", "grove: warning: odd\ngrove: error: broken\n");
   EXPECT_EQ(verdict({ChildEnd::Kind::kExited, 2, 1}).error, "ended with exit code 2: broken");
   EXPECT_EQ(verdict({ChildEnd::Kind::kSignalled, SIGKILL, 1}).error, "ended by signal 9 (Killed)");

@@ -28,14 +28,14 @@ BenchState counted() {
   return state;
 }
 
-TEST(BenchProgress, SaysHowFarAndHowGood) {
+TEST(BenchProgress, ShowsProgressAndSolvedCounts) {
   EXPECT_EQ(progress_text(counted()).line,
             "4/10 done; 1:05 elapsed, about 0:08 left; solved: auto 3/3, paper 0/1; 1 error");
   EXPECT_EQ(progress_text(counted()).done, 4);
   EXPECT_EQ(progress_text(counted()).total, 10);
 }
 
-TEST(BenchSummary, CountsWhatIsNotSolvedAsTheLimit) {
+TEST(BenchSummary, CountsUnsolvedRunsAsTheTimeLimit) {
   BenchState state = counted();
   EXPECT_EQ(summary_table(state),
             "method  solved/run  median s  errors\n"
@@ -48,7 +48,7 @@ TEST(BenchSummary, CountsWhatIsNotSolvedAsTheLimit) {
   EXPECT_NE(summary_table(state).find("4/4      3.50"), std::string::npos) << summary_table(state);
 }
 
-TEST(BenchSummary, TellsWhatElseThereIs) {
+TEST(BenchSummary, ShowsOtherOutcomesOnlyIfPresent) {
   BenchState state = counted();
   for (const char* status :
        {batch::kInvalidPlan, batch::kClaimed, batch::kClaimed, batch::kUnsupported}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove convert from GraphML and LIF to roadmaps, as one would use it.
+// grove convert from GraphML and LIF to roadmaps, as users call it.
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_directory.h"
@@ -10,7 +10,7 @@ namespace convert_roadmap_test {
 
 using Arguments = std::vector<std::string>;
 
-// Written by hand as networkx would: an aisle of 4 m, a ramp of 2.6 m.
+// Written by hand in the style of networkx: an aisle of 4 m, a ramp of 2.6 m.
 const std::string kGraphml = R"(<?xml version='1.0' encoding='utf-8'?>
 <graphml xmlns="http://graphml.graphdrawing.org/xmlns">
   <key id="d2" for="edge" attr.name="length" attr.type="double" />
@@ -38,7 +38,7 @@ std::string lif_edge(const std::string& from, const std::string& to, const std::
          R"("maxSpeed": )" +
          speed + "}]}";
 }
-// A street from in to out, and a press that is off it; each road in both directions.
+// A street from "in" to "out", and a press next to it; each road in both directions.
 const std::string kLif =
     R"({"metaInformation": {"projectIdentification": "plant", "creator": "us",
   "exportTimestamp": "2024-03-01T10:00:00.00Z", "lifVersion": "1.0.0"},
@@ -82,7 +82,7 @@ class ConvertRoadmap : public ::testing::Test {
     EXPECT_EQ(directory_.files(), files);
     return text;
   }
-  // What grove check says of an optimal plan of the instance.
+  // Returns the output of grove check for an optimal plan of the instance.
   std::string solved() const {
     const Arguments solve = {"solve", "i.cts.json", "--omega", "0", "--quiet", "--output", "plan"};
     EXPECT_EQ(grove(solve).exit_code, 0);
@@ -94,7 +94,7 @@ class ConvertRoadmap : public ::testing::Test {
 
 const std::string kHint = " (see 'grove convert --help')";
 
-TEST_F(ConvertRoadmap, GraphmlBecomesARoadmapThatIsSolved) {
+TEST_F(ConvertRoadmap, GraphmlIsConvertedToASolvableRoadmap) {
   EXPECT_EQ(converted({"g.graphml", "o.roadmap.json", "--metres-per-step", "0.5"}),
             "wrote o.roadmap.json: 3 vertices, 3 roads, 1 of them one way, 26 places\n"
             "rounding: at most 0.8 steps (0.4 m): 5.2 became 6, line 11, column 5 from 'mid' to "
@@ -112,7 +112,7 @@ TEST_F(ConvertRoadmap, GraphmlBecomesARoadmapThatIsSolved) {
   EXPECT_EQ(solved(), "valid: cost 14, lower bound 14, gap 0.00 %, 1 agent\n");
 }
 
-TEST_F(ConvertRoadmap, WithoutRoundingItSaysSo) {
+TEST_F(ConvertRoadmap, ReportsThatNothingWasRounded) {
   EXPECT_EQ(converted({"g.graphml", "o", "--to", "roadmap", "--metres-per-step", "0.2"}),
             "wrote o: 3 vertices, 3 roads, 1 of them one way, 63 places\n"
             "rounding: none; every road takes a whole number of steps\n");
@@ -122,7 +122,7 @@ const std::string kLanes =
     "grove: warning: p.lif.json: 3 pairs of opposite edges are two lanes each, on which robots "
     "pass one another; where robots share one lane: --merge-lanes\n";
 
-TEST_F(ConvertRoadmap, LifBecomesARoadmapOfTwoLanesOrOne) {
+TEST_F(ConvertRoadmap, LifIsConvertedWithTwoLanesOrOne) {
   const Arguments convert = {"p.lif.json", "o.roadmap.json",     "--metres-per-step",
                              "1",          "--seconds-per-step", "1"};
   EXPECT_EQ(converted(convert, kLanes),
@@ -130,7 +130,7 @@ TEST_F(ConvertRoadmap, LifBecomesARoadmapOfTwoLanesOrOne) {
             "rounding: at most 0.8 steps (0.8 s): 5.2 became 6, /layouts/0/edges/0 from 'in' to "
             "'fork'\n"
             "rounding: at most 15.38 %: 5.2 became 6, /layouts/0/edges/0 from 'in' to 'fork'\n");
-  // a: 6 + 14 + 14 + 6, b: 7 + 6; on lanes of their own.
+  // a: 6 + 14 + 14 + 6, b: 7 + 6; each on its own lane.
   EXPECT_EQ(solved(), "valid: cost 53, lower bound 53, gap 0.00 %, 2 agents\n");
 
   Arguments merge = convert;
@@ -143,14 +143,14 @@ TEST_F(ConvertRoadmap, LifBecomesARoadmapOfTwoLanesOrOne) {
   EXPECT_EQ(solved(), "valid: cost 53, lower bound 53, gap 0.00 %, 2 agents\n");
 }
 
-TEST_F(ConvertRoadmap, OnOneLaneRobotsDoNotPassOneAnother) {
+TEST_F(ConvertRoadmap, RobotsCannotPassEachOtherOnOneLane) {
   directory_.write("i.cts.json",
                    R"({"roadmap": "o.roadmap.json", "tasks": [], "agents": [
   {"id": "a", "start": "in", "goal": "fork"}, {"id": "b", "start": "fork", "goal": "in"}]})");
   Arguments convert = {"p.lif.json", "o.roadmap.json", "--metres-per-step", "2"};
   EXPECT_EQ(run(convert).exit_code, 0);
   EXPECT_EQ(solved(), "valid: cost 6, lower bound 6, gap 0.00 %, 2 agents\n");
-  // Each goes aside for the other, and an exhaustive search knows no less.
+  // Each robot moves aside for the other; exhaustive search finds the same cost.
   convert.emplace_back("--merge-lanes");
   EXPECT_EQ(run(convert).exit_code, 0);
   EXPECT_EQ(solved(), "valid: cost 12, lower bound 12, gap 0.00 %, 2 agents\n");
@@ -166,14 +166,14 @@ TEST_F(ConvertRoadmap, RoadsWithoutAnEdgeAreRefused) {
             "one.graphml: has no edge; expected at least one");
   std::string lif = kLif;
   for (std::size_t at = 0; (at = lif.find("\"T\", \"rot", at)) != std::string::npos;)
-    lif.replace(at, 3, "\"U\"");  // the edges are for another type than the nodes
+    lif.replace(at, 3, "\"U\"");  // the edges are for a different vehicle type than the nodes
   directory_.write("u.lif.json", lif);
   EXPECT_EQ(
       refused({"u.lif.json", "o.roadmap.json", "--metres-per-step", "1", "--vehicle-type", "T"}),
       "u.lif.json: has no edge that vehicle type 'T' may use; expected at least one");
 }
 
-TEST_F(ConvertRoadmap, SpeedsThatDoNotCountAreTold) {
+TEST_F(ConvertRoadmap, WarnsOfIgnoredSpeeds) {
   const ProcessResult result = run({"p.lif.json", "o.roadmap.json", "--metres-per-step", "6"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err,
@@ -184,7 +184,7 @@ TEST_F(ConvertRoadmap, SpeedsThatDoNotCountAreTold) {
                 "one another; for that: shorter steps\n");
 }
 
-TEST_F(ConvertRoadmap, OptionsThatDoNotFitAreRefused) {
+TEST_F(ConvertRoadmap, UnsuitableOptionsAreRefused) {
   const Arguments good = {"g.graphml", "o.roadmap.json", "--metres-per-step", "1"};
   const auto with = [&](const Arguments& more) {
     Arguments all = good;
@@ -236,7 +236,7 @@ TEST_F(ConvertRoadmap, OptionsThatDoNotFitAreRefused) {
             "--seconds-per-step" + roads + "; or --to waypoints or nav-path" + kHint);
 }
 
-TEST_F(ConvertRoadmap, FilesThatDoNotFitAreRefused) {
+TEST_F(ConvertRoadmap, UnsuitableFilesAreRefused) {
   EXPECT_EQ(refused({"p.lif.json", "o.roadmap.json", "--from", "graphml", "--metres-per-step", "1"})
                 .substr(0, 12),
             "p.lif.json: ");

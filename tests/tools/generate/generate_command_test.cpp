@@ -27,7 +27,7 @@ std::vector<std::string> words_of(const std::string& text) {
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-// Runs the arguments, written as one string, in `directory`.
+// Runs grove in `directory` with the arguments, separated by blanks.
 ProcessResult generate(const TemporaryDirectory& directory, const std::string& arguments) {
   ProcessOptions options;
   options.directory = directory.path().string();
@@ -35,7 +35,7 @@ ProcessResult generate(const TemporaryDirectory& directory, const std::string& a
   return run_grove(std::move(words), options);
 }
 
-TEST(ShippedData, IsWhatTheCommandsInItsReadmeMake) {
+TEST(ShippedData, IsTheOutputOfTheCommandsInItsReadme) {
   const TemporaryDirectory directory;
   const fs::path data = GROVE_DATA;
   const std::string command_start = "grove generate ";
@@ -49,14 +49,14 @@ TEST(ShippedData, IsWhatTheCommandsInItsReadmeMake) {
     EXPECT_EQ(file_content(directory / name), file_content(data / name)) << name;
 }
 
-TEST(ShippedData, HoldsNothingThatTheReadmeDoesNotName) {
+TEST(ShippedData, ContainsOnlyFilesNamedInItsReadme) {
   const std::string readme = file_content(fs::path(GROVE_DATA) / "README.md");
   for (const auto& entry : fs::directory_iterator(GROVE_DATA))
     EXPECT_NE((readme + "README.md").find(entry.path().filename().string()), std::string::npos)
         << entry.path();
 }
 
-TEST(ShippedData, CanBeReadWithoutAWarning) {
+TEST(ShippedData, IsReadWithoutWarnings) {
   int instances = 0;
   for (const auto& entry : fs::directory_iterator(GROVE_DATA)) {
     if (!entry.path().string().ends_with(".cts.json")) continue;
@@ -66,7 +66,7 @@ TEST(ShippedData, CanBeReadWithoutAWarning) {
   EXPECT_GE(instances, 5);
 }
 
-TEST(GenerateCommand, MakesAnInstanceFromAMapAlone) {
+TEST(GenerateCommand, MakesAnInstanceFromOnlyAMap) {
   const TemporaryDirectory directory;
   EXPECT_EQ(generate(directory, "map random --seed 3 -o my.map").out,
             "wrote my.map: 32 x 32 cells, 819 passable\n");
@@ -112,7 +112,7 @@ TEST(GenerateCommand, MakesADatasetWithItsManifest) {
             file_content(directory / "out/set/my_s1_n10_m30.cts.json"));
 }
 
-TEST(GenerateCommand, DrawsScenariosForADatasetFromAMapAlone) {
+TEST(GenerateCommand, DrawsScenariosForADatasetFromOnlyAMap) {
   const TemporaryDirectory directory;
   generate(directory, "map empty -o my.map");
   EXPECT_EQ(generate(directory,
@@ -155,7 +155,7 @@ TEST(GenerateCommand, MakesRoadmapsAndInstancesOnThem) {
   }
 }
 
-TEST(GenerateCommand, MakesTheSameRoadmapOfTheSameSeed) {
+TEST(GenerateCommand, SameSeedGivesTheSameRoadmap) {
   const TemporaryDirectory directory;
   const std::string start = "roadmap --kind planar --vertices 30 --one-way 20 ";
   for (const char* rest : {"--seed 4 -o 4.json", "--seed 4 -o again.json", "--seed 5 -o 5.json"})
@@ -164,7 +164,7 @@ TEST(GenerateCommand, MakesTheSameRoadmapOfTheSameSeed) {
   EXPECT_NE(file_content(directory / "4.json"), file_content(directory / "5.json"));
 }
 
-TEST(GenerateCommand, MakesAgentsThatTurnAndTasksThatTakeTime) {
+TEST(GenerateCommand, MakesTurningAgentsAndTasksWithDurations) {
   const TemporaryDirectory directory;
   generate(directory, "map rooms --seed 1 -o my.map");
   const std::string start = "instance --map my.map --agents 5 --tasks 10 --seed 1 ";
@@ -181,7 +181,7 @@ TEST(GenerateCommand, MakesAgentsThatTurnAndTasksThatTakeTime) {
   for (const Task& task : instance.tasks()) EXPECT_EQ(task.duration, 3);
 }
 
-TEST(GenerateCommand, TellsExtrasInTheNamesOfASet) {
+TEST(GenerateCommand, MarksExtrasInTheNamesOfADataset) {
   const TemporaryDirectory directory;
   generate(directory, "map empty -o my.map");
   const std::string start = "dataset --map my.map --agents 5 --tasks 10 --output-dir set ";
@@ -198,7 +198,7 @@ TEST(GenerateCommand, TellsExtrasInTheNamesOfASet) {
                 "my_s1_n5_m10_d0-10.cts.json", "my_s1_n5_m10_turning3_headings_d2-5.cts.json"}));
 }
 
-TEST(GenerateCommand, RefusesOptionsThatDoNotFitTogether) {
+TEST(GenerateCommand, RefusesIncompatibleOptions) {
   const TemporaryDirectory directory;
   generate(directory, "map empty -o my.map");
   generate(directory, "roadmap --kind warehouse -o w.json");
@@ -270,7 +270,7 @@ TEST(GeneratePaper, MakesTheSameSetForRobotsThatTurn) {
   EXPECT_EQ(turning.task(3).cell, plain.task(3).cell);
 }
 
-TEST(GeneratePaper, MakesOneSetOfThreeMapsAndBothProblems) {
+TEST(GeneratePaper, MakesOneSetOfThreeMapsAndTwoProblems) {
   const TemporaryDirectory directory;
   const ProcessResult result = generate(
       directory, "paper --scenarios 1-2,4 --agents 5,10 --tasks 10,30 --output-dir out/paper");
@@ -289,7 +289,7 @@ TEST(GeneratePaper, MakesOneSetOfThreeMapsAndBothProblems) {
   const auto mg = lines_of(file_content(directory / "out/paper/manifest-mg.txt"));
   EXPECT_EQ(mg.size(), 36U);
   for (const std::string& name : mg) EXPECT_TRUE(name.ends_with("_mg.cts.json")) << name;
-  // Maps and instances are those of the data that comes with Grove.
+  // Maps and instances equal the data shipped with Grove.
   const fs::path data = GROVE_DATA;
   for (const char* map : {"empty-32x32.map", "random-32x32-20.map", "rooms-32x32.map"})
     EXPECT_EQ(file_content(directory.path() / "out/paper" / map), file_content(data / map)) << map;
@@ -332,7 +332,7 @@ TEST(GeneratePaper, TakesScenariosOfBothKindsFromMovingAi) {
   EXPECT_FALSE(fs::exists(directory / "no"));
 }
 
-TEST(GeneratePaper, RefusesWhatMakesNoSense) {
+TEST(GeneratePaper, RefusesInvalidOptions) {
   const TemporaryDirectory directory;
   const auto said = [&](const std::string& more) {
     return complaint(generate(directory, "paper --output-dir out " + more));
@@ -351,7 +351,7 @@ TEST(GeneratePaper, RefusesWhatMakesNoSense) {
   EXPECT_FALSE(fs::exists(directory / "out"));
 }
 
-TEST(GenerateCommand, RefusesCountsThatDoNotFitAndLeavesNothing) {
+TEST(GenerateCommand, RefusesTooLargeCountsAndWritesNothing) {
   const TemporaryDirectory directory;
   generate(directory, "map empty --width 10 --height 10 -o my.map");
   generate(directory, "scenario --map my.map --rows 40 -o my.scen");
@@ -385,7 +385,7 @@ TEST(GenerateCommand, RefusesAScenarioForAnotherMap) {
             "a.scen: line 2: the row is for map 'a.map'; expected 'b.map'");
 }
 
-TEST(GenerateCommand, RefusesOutputsThatCannotBeWritten) {
+TEST(GenerateCommand, RefusesUnwritableOutputs) {
   const TemporaryDirectory directory;
   EXPECT_EQ(complaint(generate(directory, "map empty -o none/my.map")),
             "none/my.map: cannot be written: No such file or directory");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Single-agent search that chooses the order of the stops, compared with a search by definition and
 // with FixedOrderSipp over all orders. GROVE_FUZZ_FACTOR multiplies the number of cases.
+#include "planning/free_order_sipp.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 #include <stdexcept>
 
 #include "planning/fixed_order_sipp.h"
-#include "planning/free_order_sipp.h"
 #include "sequencing/cost_matrix.h"
 #include "sequencing/direct_legs.h"
 #include "sequencing/k_best_sequences.h"
@@ -22,7 +23,7 @@
 #include "tests/support/fuzz_factor.h"
 
 namespace grove::detail {
-namespace free_low_level_test {
+namespace free_order_sipp_test {
 
 using Outcome = PathOutcome;
 using testing::free_reference_cost;
@@ -489,5 +490,5 @@ TEST(FreeOrderSipp, PathOutsideTheClassRealizesNoSequence) {
   EXPECT_THROW(realized_sequence(agent.goals, {}), std::invalid_argument);
 }
 
-}  // namespace free_low_level_test
+}  // namespace free_order_sipp_test
 }  // namespace grove::detail

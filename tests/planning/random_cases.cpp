@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/planning/random_matter.h"
+#include "tests/planning/random_cases.h"
 
 #include <algorithm>
 #include <string>

@@ -15,12 +15,12 @@
 
 namespace grove::detail::testing {
 
-struct NodeAtHand {
-  NodeAtHand(const std::vector<std::string>& rows, const std::vector<AgentSpec>& agents,
-             const SearchOptions& search_options = {Techniques::defaults(), 0, true})
-      : NodeAtHand(instance_of(rows, agents), search_options) {}
-  explicit NodeAtHand(Instance given,
-                      const SearchOptions& search_options = {Techniques::defaults(), 0, true})
+struct RootFixture {
+  RootFixture(const std::vector<std::string>& rows, const std::vector<AgentSpec>& agents,
+              const SearchOptions& search_options = {Techniques::defaults(), 0, true})
+      : RootFixture(instance_of(rows, agents), search_options) {}
+  explicit RootFixture(Instance given,
+                       const SearchOptions& search_options = {Techniques::defaults(), 0, true})
       : options(search_options),
         instance(std::move(given)),
         problem(instance, limits),

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Layered graphs of all optimal paths of an agent, and the joint test of two agents: all agents and
-// all pairs of an instance by the paper's recipe, each agent with so many constraints, every one a
-// bar on the optimal path found before it.
+// Measures building MDDs (all agents) and the joint MDD test (all pairs of agents) on instances
+// made by the paper's recipe. Each agent has a given number of constraints; each is a vertex
+// constraint on the optimal path found before it.
 //
 // The time shown is the median over the agents or pairs of one pass; worst_us is the longest. Maps
-// and scenarios are those of Moving AI in the folder that GROVE_MOVINGAI names.
+// and scenarios are those of Moving AI in the directory GROVE_MOVINGAI.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -66,7 +66,7 @@ class Agents {
     }
   }
 
-  // Microseconds by agent.
+  // Returns the time by agent, in microseconds.
   std::vector<double> build() {
     std::vector<double> times;
     for (Agent& a : agents_)
@@ -75,7 +75,7 @@ class Agents {
       }));
     return times;
   }
-  // By pair; counts the answers.
+  // Returns the time by pair, in microseconds, and counts the answers.
   std::vector<double> test(std::vector<int>& answers) {
     answers.assign(3, 0);
     std::vector<double> times;
@@ -129,8 +129,8 @@ void build_graphs(benchmark::State& state, const std::filesystem::path& folder,
   for (const Agent& a : agents.all()) nodes.push_back(a.paths.node_count());
   state.counters["worst_us"] = *std::ranges::max_element(times);
   state.counters["nodes"] = median(nodes);
-  state.counters["most_nodes"] = *std::ranges::max_element(nodes);
-  state.counters["given_up"] = static_cast<double>(
+  state.counters["max_nodes"] = *std::ranges::max_element(nodes);
+  state.counters["too_large"] = static_cast<double>(
       std::ranges::count(agents.all(), MddBuilder::Outcome::kTooLarge, &Agent::outcome));
 }
 
@@ -142,7 +142,7 @@ void test_pairs(benchmark::State& state, const std::filesystem::path& folder,
   std::vector<int> answers;
   for (auto _ : state) state.SetIterationTime(median(times = agents.test(answers)) * 1e-6);
   state.counters["worst_us"] = *std::ranges::max_element(times);
-  state.counters["compatible"] = answers[static_cast<std::size_t>(Dependence::kIndependent)];
+  state.counters["independent"] = answers[static_cast<std::size_t>(Dependence::kIndependent)];
   state.counters["dependent"] = answers[static_cast<std::size_t>(Dependence::kDependent)];
   state.counters["unknown"] = answers[static_cast<std::size_t>(Dependence::kUnknown)];
 }

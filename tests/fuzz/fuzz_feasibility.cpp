@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove-crowds: is it seen which crowds cannot get to where they must, and only of those? Exit
-// codes: 0 all is well, 1 a wrong answer, 2 bad usage.
+// grove-fuzz-feasibility: tests that pebble_motion_infeasibility() recognises exactly the dense
+// instances without a plan. Exit codes: 0 no failure, 1 a wrong answer, 2 bad usage.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -29,10 +29,10 @@ struct Arguments {
   std::uint64_t seed = 1;
 };
 
-// Tiny crowds, against all that they can come to.
-class TinyCrowds {
+// Tiny dense instances, compared with the set of all reachable configurations.
+class TinyInstances {
  public:
-  void look_at(std::uint64_t seed) {
+  void test_seed(std::uint64_t seed) {
     crowd_ = tiny_crowd(seed);
     const Instance instance = crowd_.build();
     const std::set<Places> all = oracle::arrangements_from_starts(instance, kMost);
@@ -50,8 +50,8 @@ class TinyCrowds {
   }
   int wrong() const { return wrong_; }
   std::string summary() const {
-    return fmt::format("{} tiny crowds: {} questions, {} of them about what cannot be; {} wrong",
-                       crowds_, asked_, impossible_, wrong_);
+    return fmt::format("{} tiny instances: {} questions, {} of them infeasible; {} wrong", crowds_,
+                       asked_, impossible_, wrong_);
   }
 
  private:
@@ -69,7 +69,7 @@ class TinyCrowds {
       std::swap(places[i - 1], places[random.below(i)]);
     return places;
   }
-  // Two agents, or none.
+  // Swaps the places of two agents, or of none.
   static Places swapped(Places places, Random& random) {
     std::swap(places[0], places[random.below(places.size())]);
     return places;
@@ -82,7 +82,7 @@ class TinyCrowds {
     builder.add_task("t", task, std::vector<std::string>{instance.agent(agent).id});
     return std::move(builder).build();
   }
-  // Every agent, everywhere.
+  // Asks for every agent and place whether the agent can visit the place and return.
   void ask_for_places(const Instance& instance, const Places& starts, const std::set<Places>& all) {
     const World& world = instance.world();
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
@@ -118,26 +118,26 @@ class TinyCrowds {
   std::int64_t asked_ = 0, impossible_ = 0;
 };
 
-// Large ones of which it is known.
-class KnownCrowds {
+// Large instances for which the answer is known by construction.
+class KnownInstances {
  public:
-  void look_at(std::uint64_t seed) {
+  void test_seed(std::uint64_t seed) {
     using Clock = std::chrono::steady_clock;
-    const KnownCrowd crowd = known_crowd(seed);
+    const KnownCrowd known = known_crowd(seed);
     const auto began = Clock::now();
-    const auto reason = pebble_motion_infeasibility(crowd.instance);
+    const auto reason = pebble_motion_infeasibility(known.instance);
     slowest_ = std::max(slowest_, std::chrono::duration<double>(Clock::now() - began).count());
-    ++(crowd.has_plan ? possible_ : impossible_);
-    most_agents_ = std::max(most_agents_, crowd.instance.agent_count());
-    if (reason.has_value() != crowd.has_plan) return;
+    ++(known.has_plan ? possible_ : impossible_);
+    most_agents_ = std::max(most_agents_, known.instance.agent_count());
+    if (reason.has_value() != known.has_plan) return;
     ++wrong_;
-    fmt::print("seed {}: WRONG: {}, {} agents: {}\n", seed, crowd.board,
-               crowd.instance.agent_count(), reason ? *reason : "there is no plan");
+    fmt::print("seed {}: WRONG: {}, {} agents: {}\n", seed, known.board,
+               known.instance.agent_count(), reason ? *reason : "there is no plan");
   }
   int wrong() const { return wrong_; }
   std::string summary() const {
     return fmt::format(
-        "{} crowds of up to {} agents, {} with a plan, {} without: {} wrong; slowest {:.1f} ms",
+        "{} instances of up to {} agents, {} with a plan, {} without: {} wrong; slowest {:.1f} ms",
         possible_ + impossible_, most_agents_, possible_, impossible_, wrong_, slowest_ * 1e3);
   }
 
@@ -146,12 +146,12 @@ class KnownCrowds {
   double slowest_ = 0;
 };
 
-template <class Crowds>
+template <class Tests>
 bool all_is_well(std::uint64_t seed, int count) {
-  Crowds crowds;
-  for (int i = 0; i < count; ++i) crowds.look_at(seed + static_cast<std::uint64_t>(i));
-  fmt::print("{}\n", crowds.summary());
-  return crowds.wrong() == 0;
+  Tests tests;
+  for (int i = 0; i < count; ++i) tests.test_seed(seed + static_cast<std::uint64_t>(i));
+  fmt::print("{}\n", tests.summary());
+  return tests.wrong() == 0;
 }
 
 }  // namespace
@@ -160,21 +160,23 @@ bool all_is_well(std::uint64_t seed, int count) {
 int main(int argc, char** argv) {
   using namespace grove::detail::fuzz;
   Arguments a;
-  CLI::App app("Which crowds cannot get to where they must?", "grove-crowds");
-  app.add_option("--tiny", a.tiny, "crowds of up to nine agents, against exhaustive search")
+  CLI::App app("Tests the feasibility test of dense instances.", "grove-fuzz-feasibility");
+  app.add_option("--tiny", a.tiny,
+                 "number of instances of up to nine agents, compared with exhaustive search")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_option("--count", a.count, "crowds of 10 to 2,000 agents of which it is known")
+  app.add_option("--count", a.count,
+                 "number of instances of 10 to 2,000 agents with a known answer")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_option("--seed", a.seed, "of the first; each other one's is one more")
+  app.add_option("--seed", a.seed, "seed of the first instance; each next one has the next seed")
       ->capture_default_str();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  const bool tiny = all_is_well<TinyCrowds>(a.seed, a.tiny);
-  const bool known = all_is_well<KnownCrowds>(a.seed, a.count);
+  const bool tiny = all_is_well<TinyInstances>(a.seed, a.tiny);
+  const bool known = all_is_well<KnownInstances>(a.seed, a.count);
   return tiny && known ? 0 : 1;
 }

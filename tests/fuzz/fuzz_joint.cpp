@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// grove-puzzles: is every small puzzle decided in time, and as the oracle has it? Exit codes: 0 all
-// is well, 1 a wrong answer or more left open than allowed, 2 bad usage.
+// grove-fuzz-joint: tests that every small puzzle is solved within the time limit and that the
+// answer agrees with the oracle. Exit codes: 0 no failure, 1 a wrong answer or more unsolved
+// instances than allowed, 2 bad usage.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -42,10 +43,11 @@ struct Tally {
   std::vector<double> cpu_seconds = {};
 };
 
-// What is wrong with an answer; empty: nothing. Whether the oracle had an answer too is in `tally`.
+// Returns the error in an answer, or an empty string. Counts in `tally` whether the oracle had an
+// answer too.
 std::string complaint(const Instance& instance, const Solution& solution, std::size_t states,
                       Tally& tally) {
-  if (solution.plan && !check(instance, solution).empty()) return "its plan is none";
+  if (solution.plan && !check(instance, solution).empty()) return "the plan is invalid";
   const oracle::Answer truth = oracle::solve_jointly(instance, states);
   if (truth.verdict == oracle::Verdict::kTooLarge) return "";
   ++tally.compared;
@@ -123,18 +125,19 @@ int run(const Arguments& a) {
 
 int main(int argc, char** argv) {
   grove::detail::fuzz::Arguments a;
-  CLI::App app("Small puzzles, decided in time and as the oracle has it?", "grove-puzzles");
+  CLI::App app("Compares the solver with the oracle on small puzzles.", "grove-fuzz-joint");
   app.add_option("--count", a.count)->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--seed", a.seed, "of the first; each other one's is one more")
+  app.add_option("--seed", a.seed, "seed of the first puzzle; each next puzzle has the next seed")
       ->capture_default_str();
-  app.add_option("--seconds", a.seconds, "for each")
+  app.add_option("--seconds", a.seconds, "time limit of each puzzle")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--threads", a.threads)->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--oracle-states", a.oracle_states, "that the oracle may make")
+  app.add_option("--oracle-states", a.oracle_states, "limit on the joint states of the oracle")
       ->capture_default_str();
-  app.add_option("--most-open", a.most_open, "so many may be left open")->capture_default_str();
-  app.add_option("--write", a.folder, "instead of solving them, write them to files in this folder")
+  app.add_option("--most-open", a.most_open, "number of puzzles that may stay unsolved")
+      ->capture_default_str();
+  app.add_option("--write", a.folder, "write the puzzles to this directory instead of solving them")
       ->check(CLI::ExistingDirectory);
   try {
     app.parse(argc, argv);

@@ -12,7 +12,7 @@
 
 #include "planning/joint_mdd_search.h"
 #include "tests/planning/free_reference.h"
-#include "tests/planning/random_matter.h"
+#include "tests/planning/random_cases.h"
 #include "tests/planning/single_agent.h"
 #include "tests/planning/step_rules.h"
 #include "tests/support/clocks.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/fuzz/lone_case.h"
+#include "tests/fuzz/component_case.h"
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@
 namespace grove::detail::fuzz {
 namespace {
 
-constexpr double kAtOnce = 1e6;  // of a share of work: whatever the others do
+constexpr double kAtOnce = 1e6;  // ratio of work: as much as it takes, before all other work
 constexpr std::int64_t kToTheEnd = 1'000'000'000'000;
 
 std::vector<std::string> open_board(Random& random) {
@@ -25,7 +25,7 @@ std::vector<std::string> open_board(Random& random) {
   return rows;
 }
 
-// Two rooms and a corridor of some cells between them.
+// Two rooms joined by a corridor.
 std::vector<std::string> corridor_board(Random& random) {
   const auto length = static_cast<std::size_t>(random.between(1, 5));
   const auto room = static_cast<std::size_t>(random.between(1, 2));
@@ -36,7 +36,7 @@ std::vector<std::string> corridor_board(Random& random) {
   return rows;
 }
 
-// Agents from anywhere to anywhere, a task or two for some, others with tasks alone.
+// Random starts and goals. Some agents have a task or two; agents without a goal have two.
 TinyInstance roomy_instance(std::uint64_t seed) {
   Random random(seed ^ 0x4007);
   TinyInstance instance;
@@ -123,7 +123,7 @@ void choose_techniques(Part part, SolveOptions& options, Random& random) {
 
 }  // namespace
 
-FuzzCase lone_case(Part part, std::uint64_t seed) {
+FuzzCase component_case(Part part, std::uint64_t seed) {
   FuzzCase fuzz_case = random_case(seed);
   if (part == Part::kAny) return fuzz_case;
   if (seed % 2 == 0) fuzz_case.instance = roomy_instance(seed);
@@ -138,7 +138,7 @@ FuzzCase lone_case(Part part, std::uint64_t seed) {
   return fuzz_case;
 }
 
-Plan dearer(const Instance& instance, const Plan& plan) {
+Plan higher_cost_plan(const Instance& instance, const Plan& plan) {
   for (std::size_t agent = 0; agent < plan.agents.size(); ++agent)
     for (Time time = 0; time < plan.agents[agent].cost; ++time) {
       Solution slower;

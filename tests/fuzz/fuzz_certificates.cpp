@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// grove-proofs: are certificates of tiny instances of all kinds verified, and do they say what is
-// true? And is one that was tampered with ever believed where it is false? The checker is another
-// program (--verify). Exit codes: 0 all is well, 1 not, 2 bad usage.
+// grove-fuzz-certificates: certifies searches of tiny instances of all kinds. It tests that the
+// checker verifies each certificate and that the verified bound is true, and that the checker never
+// accepts a false claim of a mutated certificate. The checker is another program (--verify). Exit
+// codes: 0 no failure, 1 failure, 2 bad usage.
 #include <fmt/format.h>
 #include <sys/wait.h>
 
@@ -23,9 +24,9 @@
 #include "proof/certificate.h"
 #include "proof/proof_parts.h"
 #include "tests/fuzz/certificate_lines.h"
+#include "tests/fuzz/certificate_mutation.h"
+#include "tests/fuzz/component_case.h"
 #include "tests/fuzz/fuzz_case.h"
-#include "tests/fuzz/lone_case.h"
-#include "tests/fuzz/tampering.h"
 #include "tests/oracle/joint_oracle.h"
 
 namespace grove::detail::fuzz {
@@ -40,7 +41,7 @@ struct Arguments {
   int count = 200;
   int mutations = 0;
   std::uint64_t seed = 1;
-  double seconds = 0.5;  // for each case
+  double seconds = 0.5;  // time limit of each case
   bool json = false;
   std::string part = "any";
 };
@@ -49,20 +50,20 @@ constexpr std::size_t kOracleStates = 300'000;
 
 constexpr const char* kFooter =
     R"(Searches tiny instances whose optimum is known, certifies their bounds, and has the checker verify
-them and what they become when they are tampered with. Exit codes: 0 all is well, 1 not, 2 bad usage.
+them and what they become when they are mutated. Exit codes: 0 all is well, 1 not, 2 bad usage.
 
-The long campaign, some 100,000 tampered certificates, takes about ten minutes of one core, most of
+The long campaign, some 100,000 mutated certificates, takes about ten minutes of one core, most of
 them calls of the checker:
-  grove-proofs --verify build/release/bin/grove-verify --folder FOLDER --count 2600 --mutations 50
+  grove-fuzz-certificates --verify build/release/bin/grove-verify --folder FOLDER --count 2600 --mutations 50
 On several cores, each with a folder and seeds of its own:
-  grove-proofs --verify build/release/bin/grove-verify --folder A --count 1300 --mutations 50 &
-  grove-proofs --verify build/release/bin/grove-verify --folder B --count 1300 --mutations 50 \
+  grove-fuzz-certificates --verify build/release/bin/grove-verify --folder A --count 1300 --mutations 50 &
+  grove-fuzz-certificates --verify build/release/bin/grove-verify --folder B --count 1300 --mutations 50 \
       --seed 1301)";
 
 struct Verdict {
   int code = 0;
   std::string text;
-  Cost bound = 0;  // if it was verified
+  Cost bound = 0;  // the verified bound, if code == 0
 };
 
 Verdict verdict_of(const Arguments& a, const fs::path& instance, const fs::path& proof) {
@@ -80,19 +81,20 @@ Verdict verdict_of(const Arguments& a, const fs::path& instance, const fs::path&
   constexpr std::string_view kCost = "verified: no plan costs less than ";
   const std::size_t at = verdict.text.find(kCost);
   if (at == std::string::npos) {
-    verdict.bound = verdict.text.find("verified: there is no plan") != std::string::npos
-                        ? kInfiniteCost
-                        : throw std::runtime_error("the checker says " + verdict.text);
+    verdict.bound =
+        verdict.text.find("verified: there is no plan") != std::string::npos
+            ? kInfiniteCost
+            : throw std::runtime_error("unexpected output of the checker: " + verdict.text);
   } else {
     verdict.bound = std::stoll(verdict.text.substr(at + kCost.size()));
   }
   return verdict;
 }
 
-// Stops a run at its second node: by then its prices are what they will ever be.
-class StopsSoon : public RunObserver {
+// Interrupts a run at its second node: by then the Lagrangian bound has its final value.
+class StopsAtSecondNode : public RunObserver {
  public:
-  explicit StopsSoon(Limits& limits) { limits.watch_interrupt(&interrupt_); }
+  explicit StopsAtSecondNode(Limits& limits) { limits.watch_interrupt(&interrupt_); }
   void on_event(RunEvent /*event*/, const Progress& progress) override {
     if (progress.nodes_expanded >= 2) interrupt_ = true;
   }
@@ -113,18 +115,18 @@ class Trial {
         proof_(a.folder / "proofs.proof"),
         mutant_(a.folder / "proofs.mutant") {}
 
-  void look_at(std::uint64_t seed) {
+  void test_seed(std::uint64_t seed) {
     seed_ = seed;
-    case_ = lone_case(part_of_search_, seed);
+    case_ = component_case(part_of_search_, seed);
     case_.options.audit = false;
-    if (part_of_search_ == Part::kAny && seed % 3 == 0) leave_to_the_tree(seed);
+    if (part_of_search_ == Part::kAny && seed % 3 == 0) prefer_tree_and_lagrangian(seed);
     const Instance instance = case_.instance.build();
     const oracle::Answer truth = oracle::solve_jointly(instance, kOracleStates);
     if (truth.verdict == oracle::Verdict::kTooLarge) return;
     optimum_ = truth.plan ? truth.plan->cost : kInfiniteCost;
     write(instance);
     if (part_of_search_ != Part::kAny && truth.plan && seed % 4 < 2)
-      case_.options.start = dearer(instance, *truth.plan);
+      case_.options.start = higher_cost_plan(instance, *truth.plan);
     Solution solution;
     try {
       solution = solve(instance);
@@ -139,7 +141,7 @@ class Trial {
     if (a_.mutations == 0) return;
     const Lines original = certificate_lines(proof_);
     for (int i = 0; i < a_.mutations; ++i)
-      tamper(original, seed * 1000 + static_cast<std::uint64_t>(i));
+      mutate(original, seed * 1000 + static_cast<std::uint64_t>(i));
   }
 
   bool is_well() const { return wrong_ == 0; }
@@ -152,19 +154,19 @@ class Trial {
   }
   std::string summary() const {
     std::string text = fmt::format(
-        "{} certificates: {} of the bound claimed, {} of the optimum, {} of less (by reason: ",
+        "{} certificates: {} of the claimed bound, {} of the optimum, {} of a lower bound (by "
+        "reason: ",
         cases_, whole_, of_optimum_, cases_ - whole_);
     for (const auto& [reason, count] : lesser_) text += fmt::format("{}: {}; ", reason, count);
-    text += fmt::format(
-        ")\n{} tampered with: {} refused, {} unreadable, {} believed and true\n{} wrong", mutants_,
-        refused_, unreadable_, believed_, wrong_);
+    text += fmt::format(")\n{} mutated: {} refused, {} unreadable, {} believed and true\n{} wrong",
+                        mutants_, refused_, unreadable_, believed_, wrong_);
     return text;
   }
 
  private:
-  // Else plans, or joint search, end most of these runs before the tree has proven much; and prices
-  // are for more agents.
-  void leave_to_the_tree(std::uint64_t seed) {
+  // Without this, incumbents or the joint search end most runs before the tree has proven much, and
+  // the Lagrangian bound needs more agents.
+  void prefer_tree_and_lagrangian(std::uint64_t seed) {
     SolveOptions& options = case_.options;
     options.omega = Omega::from_double(0);
     options.policy = Policy::kFree;
@@ -194,8 +196,8 @@ class Trial {
     Limits limits;
     limits.set_deadline(Limits::Clock::now() +
                         std::chrono::microseconds(static_cast<std::int64_t>(a_.seconds * 1e6)));
-    StopsSoon stops_soon(limits);
-    RunObserver* const observer = part_of_search_ == Part::kPrices ? &stops_soon : nullptr;
+    StopsAtSecondNode stops_early(limits);
+    RunObserver* const observer = part_of_search_ == Part::kPrices ? &stops_early : nullptr;
     const Solution solution = detail::solve(instance, options, limits, observer);
     recorder.flush();
     return solution;
@@ -225,8 +227,8 @@ class Trial {
       complain(fmt::format("only {} of {} is certified", made.bound, claimed));
   }
 
-  void tamper(const Lines& original, std::uint64_t seed) {
-    const Lines lines = tampered(original, seed);
+  void mutate(const Lines& original, std::uint64_t seed) {
+    const Lines lines = mutated(original, seed);
     if (lines == original) return;
     std::ofstream out(mutant_, std::ios::binary);
     for (const std::string& line : lines) out << line << '\n';
@@ -236,8 +238,8 @@ class Trial {
     switch (verdict.code) {
       case 0:
         if (verdict.bound > optimum_)
-          complain(fmt::format("tampered with by seed {}: {} is believed, and the optimum is {}",
-                               seed, verdict.bound, optimum_));
+          complain(fmt::format("mutated with seed {}: {} is believed, and the optimum is {}", seed,
+                               verdict.bound, optimum_));
         ++believed_;
         return;
       case 1:
@@ -247,7 +249,7 @@ class Trial {
         ++unreadable_;
         return;
       default:
-        complain(fmt::format("tampered with by seed {}: the checker ends with {}: {}", seed,
+        complain(fmt::format("mutated with seed {}: the checker ends with {}: {}", seed,
                              verdict.code, verdict.text));
     }
   }
@@ -275,23 +277,24 @@ class Trial {
 
 int main(int argc, char** argv) {
   grove::detail::fuzz::Arguments a;
-  CLI::App app("Certificates of tiny instances, checked and tampered with", "grove-proofs");
+  CLI::App app("Certificates of tiny instances, checked and mutated", "grove-fuzz-certificates");
   app.footer(grove::detail::fuzz::kFooter);
   app.add_option("--verify", a.verify, "the checker")->required()->check(CLI::ExistingFile);
-  app.add_option("--folder", a.folder, "for its files; made if missing");
+  app.add_option("--folder", a.folder, "directory for files; created if missing");
   app.add_option("--count", a.count)->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--mutations", a.mutations, "of each certificate")->capture_default_str();
-  app.add_option("--seed", a.seed, "of the first; each other one's is one more")
+  app.add_option("--mutations", a.mutations, "number of mutations of each certificate")
       ->capture_default_str();
-  app.add_option("--seconds", a.seconds, "for each")
+  app.add_option("--seed", a.seed, "seed of the first case; each next case has the next seed")
+      ->capture_default_str();
+  app.add_option("--seconds", a.seconds, "time limit of each case")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   std::vector<std::string> parts;
   for (const auto& named : grove::detail::fuzz::kParts) parts.emplace_back(named.name);
-  app.add_option("--part", a.part, "of the search, which has to prove all by itself")
+  app.add_option("--part", a.part, "component of the search that must prove the whole bound")
       ->check(CLI::IsMember(parts))
       ->capture_default_str();
-  app.add_flag("--json", a.json, "counts alone, for programs");
+  app.add_flag("--json", a.json, "print only the counts, as JSON");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -299,7 +302,7 @@ int main(int argc, char** argv) {
   }
   std::filesystem::create_directories(a.folder);
   grove::detail::fuzz::Trial trial(a);
-  for (int i = 0; i < a.count; ++i) trial.look_at(a.seed + static_cast<std::uint64_t>(i));
+  for (int i = 0; i < a.count; ++i) trial.test_seed(a.seed + static_cast<std::uint64_t>(i));
   fmt::print("{}\n", a.json ? trial.json() : trial.summary());
   return trial.is_well() ? 0 : 1;
 }

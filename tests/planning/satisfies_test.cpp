@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include "tests/support/satisfies.h"
+
 #include <gtest/gtest.h>
 
 #include "tests/planning/single_agent.h"
-#include "tests/support/satisfies.h"
 
 namespace grove::detail::testing {
-namespace obeys_test {
+namespace satisfies_test {
 
 TEST(Satisfies, CountsRestForever) {
   const Grid grid = grid_of({"..."});
@@ -64,5 +65,5 @@ TEST(Satisfies, RecognizesTraversalOfLoop) {
   EXPECT_TRUE(satisfies(grid, {7, 4, 3, 0, 1, 4}, left));
 }
 
-}  // namespace obeys_test
+}  // namespace satisfies_test
 }  // namespace grove::detail::testing

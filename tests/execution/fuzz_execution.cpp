@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// grove-drives: executes random plans with random disturbances. No robots may collide and no robot
-// may wait for ever. For comparison, the same disturbances with robots that follow the times of the
-// plan.
+// grove-fuzz-execution: executes random plans with random disturbances. No robots may collide and
+// no robot may wait for ever. For comparison, the same disturbances with robots that follow the
+// times of the plan.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -161,7 +161,7 @@ void print(const Counts& c) {
 
 int main(int argc, char** argv) {
   using namespace grove::detail;
-  CLI::App app("Random plans, or one, driven with random troubles", "grove-drives");
+  CLI::App app("Random plans, or one, driven with random troubles", "grove-fuzz-execution");
   int plans = 100;
   std::int64_t drives = 100;
   std::uint64_t seed = 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The library in forty lines: a world, an instance, a plan with a proven bound, and what becomes of
-// it when a robot is late and somebody wants one thing more.
+// The library in forty lines: a world, an instance, a plan with a proven bound, and a new plan
+// after a robot is delayed and a task is added.
 #include <cstdio>
 #include <grove/grove.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove-changes: applies random changes to a plan during its execution. Checks every answer and
+// grove-fuzz-replan: applies random changes to a plan during its execution. Checks every answer and
 // compares it with a solve from scratch in the same time.
 #include <fmt/format.h>
 
@@ -179,7 +179,7 @@ void print(const Results& r) {
 }
 
 int main(int argc, char** argv) {
-  CLI::App app("Random changes of a plan during its execution", "grove-changes");
+  CLI::App app("Random changes of a plan during its execution", "grove-fuzz-replan");
   Arguments arguments;
   app.add_option("INSTANCE", arguments.instance)->required();
   app.add_option("PLAN", arguments.plan)->required();

@@ -25,7 +25,7 @@
 #include "tests/support/sanitizers.h"
 
 namespace grove::detail {
-namespace optimal_paths_language_test {
+namespace mdd_language_test {
 
 using testing::FreeProblem;
 using testing::grid_of;
@@ -549,5 +549,5 @@ TEST(MddLanguage, IsCompleteOrEmptyWhenALimitIsReached) {
 #endif
 }
 
-}  // namespace optimal_paths_language_test
+}  // namespace mdd_language_test
 }  // namespace grove::detail

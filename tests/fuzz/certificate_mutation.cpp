@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/fuzz/tampering.h"
+#include "tests/fuzz/certificate_mutation.h"
 
 #include <fmt/format.h>
 
@@ -76,7 +76,7 @@ class Mutation {
       }
   }
 
-  // What is below a split is replaced by a leaf.
+  // Replaces the split at line `at`, with all below it, by a leaf.
   void cut_off(int at) {
     const auto opens = [](const std::string& line) {
       return line.starts_with("split") || line.starts_with("later");
@@ -109,7 +109,7 @@ class Mutation {
 
 }  // namespace
 
-Lines tampered(Lines lines, std::uint64_t seed) {
+Lines mutated(Lines lines, std::uint64_t seed) {
   return Mutation(std::move(lines), seed).made();
 }
 

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
-// grove-attack: instances of the shapes that hurt, up to middle size, against what must hold
-// without an oracle. For every valid plan P of an instance, whatever it costs: a node whose
-// constraints P obeys never claims a bound above the cost of P, and expanding it with a cutoff
-// above that cost keeps P in a child, or yields a plan as cheap. So trees are descended along many
-// valid plans, with cutoffs that go up and down and one expander with one memory for all descents.
+// grove-fuzz-metamorphic: metamorphic tests of the search. They need no oracle, so instances have
+// up to a dozen agents, on maps of difficult shapes.
+//
+// *Property.* Let P be a valid plan of an instance, of any cost. A node whose constraints P
+// satisfies never has a bound above the cost of P. If such a node is expanded with a cutoff above
+// the cost of P, then a child holds P, or the expansion yields a plan that costs at most as much as
+// P.
+//
+// `--mode descend` follows many valid plans down the trees. Cutoffs rise and fall, and one expander
+// with one cache serves all descents.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -95,7 +100,7 @@ Rows obstacles(int w, int h, int percent, Random& random) {
   return rows;
 }
 
-// A hall with loops that begin and end on one cell, dead ends and bays.
+// A corridor with dead ends, bays, and loops that begin and end at one cell.
 Rows lollipops(int length, Random& random) {
   Rows rows = filled(length, 7, '@');
   for (int x = 0; x < length; ++x) rows[3][x] = '.';
@@ -231,7 +236,7 @@ TinyInstance make(std::uint64_t seed, bool tiny) {
   return instance;
 }
 
-// On a grid, or in a world of any kind.
+// On a grid, or in any kind of world (roads, agents that turn, tasks with a duration).
 TinyInstance draw(std::uint64_t seed, bool tiny, Random& random) {
   if (tiny && random.percent(30)) return random_instance(seed);
   if (tiny && random.percent(50)) return random_world(seed);
@@ -267,8 +272,8 @@ bool holds(const Instance& instance, const Node& node, const std::vector<Path>& 
   std::vector<std::vector<Constraint>> constraints;
   node.constraints(constraints);
   for (std::size_t a = 0; a < paths.size(); ++a)
-    if (!obeys_all(instance, static_cast<AgentIndex>(a), node.tree().orders[a]->sequences,
-                   constraints[a], paths[a]))
+    if (!satisfies_all(instance, static_cast<AgentIndex>(a), node.tree().orders[a]->sequences,
+                       constraints[a], paths[a]))
       return false;
   return true;
 }
@@ -286,7 +291,7 @@ struct Counts {
                infeasible = 0, unsolved = 0, histories = 0, histories_differ = 0;
 };
 
-// Ask a new expander too, and count where it says something else.
+// Also expand with a new expander, and count the expansions with a different result.
 bool compare_histories = false;
 
 [[noreturn]] void fail(const TinyInstance& tiny, const std::string& what, Techniques techniques,
@@ -298,7 +303,7 @@ bool compare_histories = false;
   throw std::logic_error(text);
 }
 
-// Valid plans of the instance: of itself, and of maps with a cell less.
+// Valid plans of the instance, found on its map and on maps with some more blocked cells.
 std::vector<Plan> some_plans(const TinyInstance& tiny, const Instance& instance, Random& random,
                              int wanted, double seconds) {
   std::vector<Plan> plans;
@@ -346,7 +351,7 @@ void descend(const TinyInstance& tiny, const Instance& instance, std::uint64_t s
   const auto expander_seed = static_cast<std::uint64_t>(random.below(100));
   Expander expander(problem, stops, {techniques, expander_seed});
   const NodePtr root = forest.next_root();
-  std::vector<NodePtr> reached{root};  // nodes to begin descents at, whatever they hold
+  std::vector<NodePtr> reached{root};  // start nodes of descents, whether they hold a plan or not
   const auto end =
       Limits::Clock::now() + std::chrono::milliseconds(static_cast<int>(seconds * 1000));
   for (int round = 0; round < 40 && Limits::Clock::now() < end; ++round) {
@@ -377,7 +382,7 @@ void descend(const TinyInstance& tiny, const Instance& instance, std::uint64_t s
       }
       if (expansion.stopped) {
         if (Limits::Clock::now() < end + std::chrono::seconds(1))
-          fail(tiny, "stopped?", techniques, seed);
+          fail(tiny, "stopped before the limit", techniques, seed);
         return;
       }
       ++counts.expansions;
@@ -411,7 +416,7 @@ void descend(const TinyInstance& tiny, const Instance& instance, std::uint64_t s
       }
       if (expansion.plan) {
         if (expansion.plan->cost > plan.cost)
-          fail(tiny, "the best plan of a node is not", techniques, seed);
+          fail(tiny, "the plan of a node is not its best", techniques, seed);
         ++counts.finished;
         break;
       }
@@ -468,7 +473,7 @@ TinyInstance transformed(const TinyInstance& from, Random& random) {
     }
   std::vector<int> order(from.agents.size());
   for (std::size_t a = 0; a < order.size(); ++a) order[a] = static_cast<int>(a);
-  random.shuffle(order);  // new place of each
+  random.shuffle(order);  // order[a]: new index of agent a
   for (std::size_t a = 0; a < order.size(); ++a) {
     auto agent = from.agents[a];
     agent.start = move(agent.start);
@@ -539,7 +544,7 @@ void agree(const TinyInstance& tiny, const Instance& instance, std::uint64_t see
     }
     const TinyInstance other = k >= 2 && random.percent(60) ? transformed(tiny, random) : tiny;
     const Instance of = other.build();
-    // The first plan, or one that is a little worse.
+    // Start with the first plan, or with one that may cost more.
     if (other == tiny && first.plan && k >= 2 && random.percent(60))
       options.start = random.percent(40) ? *first.plan
                                          : a_plan_of(some_plans(tiny, instance, random, 3, 0.2),
@@ -594,7 +599,7 @@ void against_oracle(const TinyInstance& tiny, const Instance& instance, std::uin
 }
 
 int main_of(int argc, char** argv) {
-  CLI::App app("Attacks the search.");
+  CLI::App app("Tests relations between runs of the search, without an oracle.");
   std::string mode = "descend";
   std::int64_t count = 1000;
   std::uint64_t seed = 1;
