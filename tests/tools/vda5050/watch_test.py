@@ -36,7 +36,7 @@ class Watching(unittest.TestCase):
         self.tell("a", "order", order(0, 2, 4))
         self.tell("a", "state", self.state("a", 1))
         self.tell("b", "order", order(0, 1, 4))
-        self.assertEqual(self.said, ["b: order: n1 is released, where a still may be"])
+        self.assertEqual(self.said, ["b: order: n1 is released, but a may still be there"])
 
     def test_a_node_that_was_not_released(self):
         self.tell("a", "order", order(0, 2, 4))
@@ -66,6 +66,7 @@ class Watching(unittest.TestCase):
         other = order(0, 1, 1)
         other["version"] = "1.0.0"
         self.tell("a", "order", other)
-        for text, expected in zip(self.said, ("no JSON", "/nodes/1/released: 'yes' is not of type 'boolean'", "of 1.0.0, a")):
+        for text, expected in zip(self.said, ("invalid JSON", "/nodes/1/released: 'yes' is not of type 'boolean'",
+                                             "header has 1.0.0, a")):
             self.assertIn(expected, text)
         self.assertEqual(self.watch.violations, 3)
