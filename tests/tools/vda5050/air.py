@@ -17,7 +17,7 @@ from grove_vda5050.protocol import PROTOCOLS, Header, Topics
 from grove_vda5050.release import Releases
 from grove_vda5050.route import THETA, check_order, make_route
 from grove_vda5050.vehicle import SimulatedVehicle
-from grove_vda5050.watch import Watch
+from grove_vda5050.monitor import Monitor
 
 TICK = 0.1
 HEARTBEAT = 10.0
@@ -47,7 +47,7 @@ class Air:
         self.stops = stops or {}                # robot: (begin, end)
         self.topics = Topics(PROTOCOLS[version], "i", "m")
         self.complaints = []
-        self.watch = Watch(self.topics, self.complaints.append)
+        self.monitor = Monitor(self.topics, self.complaints.append)
         self.world = World(1.0)
         those = routes(name, following)
         self.control = Control(releases(order(name, following), those), style(version), "an order",
@@ -79,7 +79,7 @@ class Air:
 
     def seen(self, serial, name, message):
         """By the one who looks on, in the order in which the broker has them."""
-        self.watch.on_message(self.topics.topic(serial, name), json.dumps(message).encode())
+        self.monitor.on_message(self.topics.topic(serial, name), json.dumps(message).encode())
 
     def send(self, robot, content):
         message = json.loads(json.dumps(self.headers[robot].message(content)))

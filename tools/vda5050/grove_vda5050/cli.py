@@ -24,11 +24,11 @@ from .clock import Clock
 from .control import Control, Limits
 from .fleet import Fleet, Troubles
 from .messages import Style
+from .monitor import Monitor
 from .mqtt import Broker, Connection
 from .protocol import PROTOCOLS, Header, Topics
 from .release import Releases
 from .route import ALLOWED, THETA, check_order, make_route, readable
-from .watch import Watch
 
 TICK = 0.2
 PROGRAM = Path(sys.argv[0]).resolve()
@@ -387,7 +387,7 @@ def _vehicles(a):
 
 # ---- watch
 
-def _receive_all(watch, connection, until):
+def _receive_all(monitor, connection, until):
     while True:
         left = until - time.monotonic()
         if left <= 0 and connection.inbox.empty():
@@ -396,29 +396,29 @@ def _receive_all(watch, connection, until):
             message = connection.inbox.get(timeout=min(max(left, 0), 3600))
         except queue.Empty:
             continue
-        watch.on_message(message.topic, message.payload)
+        monitor.on_message(message.topic, message.payload)
 
 
-def _watched(watch):
-    counts = ", ".join(f"{count} {name}" for name, count in sorted(watch.messages.items())) or "none"
-    checked = ("not checked by schemas: python3-jsonschema is missing" if watch.validators is None
-               else f"all checked by the schemas of {watch.topics.protocol.version}")
+def _monitored(monitor):
+    counts = ", ".join(f"{count} {name}" for name, count in sorted(monitor.messages.items())) or "none"
+    checked = ("not checked by schemas: python3-jsonschema is missing" if monitor.validators is None
+               else f"all checked by the schemas of {monitor.topics.protocol.version}")
     yield f"Watched       {counts}; {checked}"
-    yield f"Released      {watch.violations or 'nothing'} wrong, {watch.actions} actions reported finished"
+    yield f"Released      {monitor.violations or 'nothing'} wrong, {monitor.actions} actions reported finished"
 
 
 def _watch(a):
     topics = Setup(a).topics
-    watch = Watch(topics, lambda text: print(text, flush=True))
+    monitor = Monitor(topics, lambda text: print(text, flush=True))
     broker = _make_broker(a)
     connection = trial.monitor_connection(broker, topics)
     print(f"Watching      {topics.topic('...', '...')} at {broker}", flush=True)
     with contextlib.suppress(KeyboardInterrupt, _Terminated):
-        _receive_all(watch, connection, time.monotonic() + a.seconds)
+        _receive_all(monitor, connection, time.monotonic() + a.seconds)
     connection.close()
-    for line in _watched(watch):
+    for line in _monitored(monitor):
         print(line)
-    return FAILURE if watch.violations else 0
+    return FAILURE if monitor.violations else 0
 
 
 # ---- trial
@@ -440,7 +440,7 @@ def _trial(a):
     _check_stops(a, setup)
     for line in _describe(a, setup):
         say(line)
-    watch = Watch(setup.topics, say)
+    monitor = Monitor(setup.topics, say)
     with trial.own_broker() as broker, _log(a, setup) as log:
         listener = trial.monitor_connection(broker, setup.topics)
         with trial.own_vehicles(PROGRAM, list(_vehicle_arguments(a, broker))) as process:
@@ -448,12 +448,12 @@ def _trial(a):
             completed = drive.run()
             vehicles_code, vehicles_text = trial.end_vehicles(process)
         drive.connection.close()
-        _receive_all(watch, listener, time.monotonic() + 1)
+        _receive_all(monitor, listener, time.monotonic() + 1)
         listener.close()
-    for line in (*drive.summary(), *vehicles_text.splitlines(), *_watched(watch)):
+    for line in (*drive.summary(), *vehicles_text.splitlines(), *_monitored(monitor)):
         say(line)
     failures = [text for failed, text in ((not completed, drive.failure()), (vehicles_code, "vehicles collided"),
-                                          (watch.violations, "messages were wrong")) if failed]
+                                          (monitor.violations, "messages were wrong")) if failed]
     if failures:
         complain("; ".join(failures))
     return FAILURE if failures else 0

@@ -38,7 +38,7 @@ class _Vehicle:
         self.known_from = 0     # sequence number: earlier releases were not observed
 
 
-class Watch:
+class Monitor:
     def __init__(self, topics: Topics, say=lambda text: None):
         self.topics, self.say = topics, say
         self.validators = load_validators(topics.protocol.version)
