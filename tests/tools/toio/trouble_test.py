@@ -41,7 +41,7 @@ class Lifted(unittest.TestCase):
         said = []
         self.drive([(RED, 2.0, 2.0)], say=said.append)
         self.assertIn(f"{RED} is off the mat", "\n".join(said))
-        self.assertIn(f"{RED} goes on", "\n".join(said))
+        self.assertIn(f"{RED} continues", "\n".join(said))
 
     def test_one_that_never_comes_back(self):
         done = []
@@ -151,7 +151,7 @@ class Cubes(unittest.TestCase):
             self.assertGreater(world.least, BODY)
 
     def test_codes_that_end_it_are_said(self):
-        for code, text in ((protocol.BAD_STATE, "switched off"), (protocol.UNSUPPORTED, "does not take the commands")):
+        for code, text in ((protocol.BAD_STATE, "switched off"), (protocol.UNSUPPORTED, "does not accept the commands")):
             said = []
             outcome, _ = plans.run(drive_with(Refusing, "crowd", 10, {RED}, said, code=code))
             self.assertIn(f"{RED} ", "".join(said))
