@@ -66,7 +66,7 @@ class Refusals(unittest.TestCase):
                 ("found 'a0@1=never'", "trial", order(), "--stop", "a0@1=never"),
                 ("found '0'; expected an integer of at least 1", "trial", order(), "--base", "0"),
                 ("--ca-file: requires --tls", "drive", order(), "--broker", "localhost", "--ca-file", "x"),
-                ("cannot be made", "orders", order(), "-o", "/dev/null/x")):
+                ("cannot be created", "orders", order(), "-o", "/dev/null/x")):
             with self.subTest(said=said):
                 self.refused(said, *arguments)
 

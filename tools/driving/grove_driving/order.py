@@ -155,7 +155,7 @@ def _check_names(reader, robots):
     starts = {}
     for i, robot in enumerate(robots):
         if robot.name in (r.name for r in robots[:i]):
-            reader.fail(f"/robots/{i}/id", robot.name, "unique ids")
+            reader.fail(f"/robots/{i}/id", robot.name, "ids that differ")
         if robot.start in starts:
             reader.fail(f"/robots/{i}/start", list(robot.start),
                         f"a start that differs from that of {starts[robot.start]}")
