@@ -3,7 +3,7 @@
 """How the distributed search scales: simulated with up to thousands of ranks, and checked with real ones.
 
     benchmarks/scaling.py simulate --maps FOLDER [--jobs 2]   three hard instances: simulated.csv
-    benchmarks/scaling.py hours --ranks 1,128             instances of minutes: hours.csv
+    benchmarks/scaling.py long --ranks 1,128                  instances of minutes: long.csv
     benchmarks/scaling.py weak                            more ranks for more work: weak.csv
     benchmarks/scaling.py bound --maps FOLDER                 if messages cost nothing: bound.csv
     benchmarks/scaling.py compare --maps FOLDER               2 ranks, also measured: compared.csv
@@ -37,11 +37,11 @@ HERE = Path(__file__).resolve().parent
 # ranks expand more; larger ones would take hours.
 HARD = [Case("room-32-32-4", 22, 40, 2), Case("random-32-32-20", 50, None, 1),
         Case("room-32-32-4", 40, None, 4)]
-# One core needs minutes and 10^6 nodes or more for each; data/hours has the plans to begin with.
+# One core needs minutes and 10^6 nodes or more for each; data/long has the plans to begin with.
 OPEN = "map random --width 32 --height 32 --obstacles 0.2 --seed 1"
 ROOMS = "map rooms --width 32 --height 32 --seed 1"
 WAREHOUSE = "roadmap --kind warehouse"
-HOURS = [DrawnCase("rooms-50-mapf", ROOMS, 50, None, 1), DrawnCase("open-60-mapf", OPEN, 60, None, 1),
+LONG = [DrawnCase("rooms-50-mapf", ROOMS, 50, None, 1), DrawnCase("open-60-mapf", OPEN, 60, None, 1),
          DrawnCase("open-40-40", OPEN, 40, 40, 1), DrawnCase("rooms-25-60-mg", ROOMS, 25, 60, 1, mg=True),
          DrawnCase("rooms-25-50-mg", ROOMS, 25, 50, 1, mg=True),
          DrawnCase("warehouse-100-200", WAREHOUSE, 100, 200, 1)]
@@ -68,7 +68,7 @@ def until_bound_of(plan):
 def prepared(case, a, folder):
     """How a program is told of the case, with a plan to begin with: the one that is kept, or an optimal one."""
     instance = instance_arguments(a.bin / "grove", Maps(a.maps), case, folder)
-    kept = HERE / f"data/hours/{case}.plan.json"
+    kept = HERE / f"data/long/{case}.plan.json"
     if kept.exists():
         return [*instance, *until_bound_of(kept)]
     plan = folder / "start.json"
@@ -121,7 +121,7 @@ def merge(path, rows):
     def key(row):
         return order.index(row["instance"]), int(row.get("ranks", 0))
 
-    order = [str(case) for case in HARD + SHORT + HOURS + WEAK]
+    order = [str(case) for case in HARD + SHORT + LONG + WEAK]
     others = read(path) if path.exists() else []
     new = {key(row) for row in rows}
     write(path, sorted([row for row in others if key(row) not in new] + rows, key=key))
@@ -144,8 +144,8 @@ def simulate(a):
     study(HARD, a.output / "simulated.csv", (), a)
 
 
-def hours(a):
-    study(HOURS, a.output / "hours.csv", NO_LIMIT, a)
+def long(a):
+    study(LONG, a.output / "long.csv", NO_LIMIT, a)
 
 
 def ranks_for(alone, seconds):
@@ -325,10 +325,10 @@ def processor_table(rows):
 def print_tables(a):
     print(simulated_table(read(a.output / "simulated.csv"), read(a.output / "bound.csv")))
     print()
-    print(simulated_table(read(a.output / "hours.csv"), []))
+    print(simulated_table(read(a.output / "long.csv"), []))
     print()
     print(earlier_table(read(a.output / "earlier.csv"),
-                        read(a.output / "simulated.csv") + read(a.output / "hours.csv")))
+                        read(a.output / "simulated.csv") + read(a.output / "long.csv")))
     print()
     print(weak_table(read(a.output / "weak.csv")))
     print()
@@ -347,7 +347,7 @@ def draw(a):
 
     groups = tables.grouped(read(a.output / "simulated.csv"), "instance")
     figure, panels = pyplot.subplots(1, 1 + len(groups), figsize=(15, 4.8), sharey=True)
-    draw_efficiency(panels[0], groups, tables.grouped(read(a.output / "hours.csv"), "instance"),
+    draw_efficiency(panels[0], groups, tables.grouped(read(a.output / "long.csv"), "instance"),
                     tables.grouped(read(a.output / "bound.csv"), "instance"))
     for panel, ((name,), rows) in zip(panels[1:], groups.items()):
         draw_shares(panel, name, rows)
@@ -410,7 +410,7 @@ def whole_numbers(text):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0],
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["simulate", "hours", "weak", "bound", "compare", "processor", "draw",
+    parser.add_argument("what", choices=["simulate", "long", "hours", "weak", "bound", "compare", "processor", "draw",
                                          "tables"])
     parser.add_argument("--ranks", type=whole_numbers,
                         default=RANKS, help="whole numbers with commas; begin with 1")
@@ -425,7 +425,7 @@ def main():
     parser.add_argument("--output", type=Path, default=HERE / "results/scaling")
     add_folders(parser)
     a = parser.parse_args()
-    {"simulate": simulate, "hours": hours, "weak": weak, "bound": bound, "compare": compare,
+    {"simulate": simulate, "long": long, "hours": long, "weak": weak, "bound": bound, "compare": compare,
      "processor": processor, "draw": draw, "tables": print_tables}[a.what](a)
 
 
