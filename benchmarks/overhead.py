@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What a small solve costs from C++, from Python and as a program, in microseconds.
+"""Measures the overhead of a small solve from C++, from Python and as a program, in microseconds.
 
-    overhead.py [BUILD]        (build/release)
+    overhead.py [BUILD]        (default: build/release)
 
-Solves benchmarks/data/random-32x32-20_n5_m10.cts.json, 5 robots and 10 tasks, to the optimum: the
-median of 200 solves, of 30 runs of the program. Needs public_api_benchmark and the Python module.
+Solves benchmarks/data/random-32x32-20_n5_m10.cts.json, 5 robots and 10 tasks, to the optimum. Reports
+the median of 200 solves or 30 runs of the program. Needs public_api_benchmark and the Python module.
 """
 import json
 import statistics
@@ -44,7 +44,7 @@ def main():
     program = [BUILD / "bin/grove", "solve", INSTANCE, "--omega", "0", "--threads", "1", "--quiet",
                "--output", "/dev/null"]
     rows = [
-        ("the search alone, C++", compiled["BM_Inside"]),
+        ("only the search, C++", compiled["BM_Inside"]),
         ("grove::solve()", compiled["BM_PublicApi"]),
         ("grove.solve() of Python", microseconds(lambda: grove.solve(instance), 200)),
         ("with plan.positions()", microseconds(lambda: grove.solve(instance).plan.positions(), 200)),

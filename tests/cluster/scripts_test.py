@@ -169,7 +169,7 @@ wait $!''')
         bad = self.run_script("preempt.sbatch", hard, "--no-such-option", code=2)
         self.assertNotIn("restart", bad)
         bad = self.run_script("preempt.sbatch", "--restarts", hard, code=2)
-        self.assertEqual(bad, f"preempt.sbatch: --restarts '{hard}': expected a whole number\n")
+        self.assertEqual(bad, f"preempt.sbatch: --restarts: found '{hard}'; expected a whole number\n")
 
     def test_an_answer_without_a_rank_that_stood_still_is_one(self):
         for warning in ("did not respond at shutdown", "said nothing when all was to end"):

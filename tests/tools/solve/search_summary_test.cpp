@@ -30,10 +30,10 @@ TEST(SearchSummary, ListsTheCounts) {
                   {"gain_lns", 9}};
   const auto lines = search_summary(stats);
   EXPECT_THAT(lines, Contains("Nodes         expanded 7, generated 15, trees 1"));
-  EXPECT_THAT(lines, Contains("Splits        bar 5, no-rest-by 2; 3 bypasses"));
-  EXPECT_THAT(lines, Contains(EndsWith("8, 75 % of them known")));
-  EXPECT_THAT(lines, Contains(EndsWith("0, 0 % of them known")));  // MDDs: no queries
-  EXPECT_THAT(lines, Contains("Better plans  start 1, neighborhood 4 (cost -9)"));
+  EXPECT_THAT(lines, Contains("Splits        vertex-edge 5, cost 2; 3 bypasses"));
+  EXPECT_THAT(lines, Contains(EndsWith("8 queries, 75 % cache hits")));
+  EXPECT_THAT(lines, Contains(EndsWith("0 queries, 0 % cache hits")));  // MDDs: no queries
+  EXPECT_THAT(lines, Contains("Incumbents    start 1, lns 4 (cost -9)"));
 }
 
 }  // namespace search_summary_test

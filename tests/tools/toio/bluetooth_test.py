@@ -120,7 +120,7 @@ class Bluetooth(unittest.TestCase):
         self.assertIn(text, str(caught.exception))
 
     def test_what_is_refused(self):
-        self.refused("found no cube called 'toio-x'", named=[("a0", "toio-x")])
+        self.refused("found no cube 'toio-x'", named=[("a0", "toio-x")])
         self.refused("the start of a2; expected one", hide=("a2",))
 
     def test_without_bleak(self):

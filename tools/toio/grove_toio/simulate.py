@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Cubes on a simulated mat, each near the centre of the cell where its robot starts."""
+"""Simulation of cubes on a mat, each near the centre of the cell where its robot starts."""
 import asyncio
 import random
 
@@ -7,11 +7,11 @@ from .driver import Driver
 from .simulated import SimulatedCube, Troubles
 from .world import Lift, World
 
-PUT_DOWN = 2.0              # units from the centre, as a hand does
+PUT_DOWN = 2.0              # error of the manual placement, units from the centre
 
 
 def make_world(order, grid, troubles, seed):
-    """The world, and {robot: cube}."""
+    """Returns (world, {robot: cube})."""
     world = World(grid.mat, seed)
     hand = random.Random(f"start {seed}")
     cubes = {}
@@ -23,7 +23,8 @@ def make_world(order, grid, troubles, seed):
 
 
 async def simulate(order, grid, troubles=Troubles(), seed=0, lifts=(), seconds=float("inf"), kind=Driver, **options):
-    """(outcome, world). A lift is (robot, at, seconds) or with a point to be put down at."""
+    """Drives the order; returns (outcome, world). A lift is (robot, at, seconds) or (robot, at, seconds, point), where
+    the point is where the cube is put down."""
     world, cubes = make_world(order, grid, troubles, seed)
     world.lifts = [Lift(cubes[robot], *those) for robot, *those in lifts]
     running = asyncio.create_task(world.run())

@@ -4,7 +4,7 @@ import json
 import unittest
 
 from grove_vda5050.protocol import PROTOCOLS, Topics
-from grove_vda5050.watch import Watch
+from grove_vda5050.monitor import Monitor
 from vehicle_test import order
 
 
@@ -12,10 +12,10 @@ class Watching(unittest.TestCase):
     def setUp(self):
         self.topics = Topics(PROTOCOLS["2.1.0"], "uagv", "m")
         self.said = []
-        self.watch = Watch(self.topics, self.said.append)
+        self.monitor = Monitor(self.topics, self.said.append)
 
     def tell(self, serial, name, message):
-        self.watch.on_message(self.topics.topic(serial, name), message if isinstance(message, bytes)
+        self.monitor.on_message(self.topics.topic(serial, name), message if isinstance(message, bytes)
                               else json.dumps({**message, "serialNumber": serial}).encode())
 
     def state(self, serial, node, order_id="o"):
@@ -30,13 +30,13 @@ class Watching(unittest.TestCase):
         self.tell("a", "state", self.state("a", 2))
         self.tell("b", "order", order(0, 1, 4))
         self.tell("a", "state", self.state("a", 1))     # an old one
-        self.assertEqual((self.said, self.watch.violations), ([], 0))
+        self.assertEqual((self.said, self.monitor.violations), ([], 0))
 
     def test_a_place_that_two_may_be_on(self):
         self.tell("a", "order", order(0, 2, 4))
         self.tell("a", "state", self.state("a", 1))
         self.tell("b", "order", order(0, 1, 4))
-        self.assertEqual(self.said, ["b: order: n1 is released, where a still may be"])
+        self.assertEqual(self.said, ["b: order: n1 is released, but a may still be there"])
 
     def test_a_node_that_was_not_released(self):
         self.tell("a", "order", order(0, 2, 4))
@@ -66,6 +66,7 @@ class Watching(unittest.TestCase):
         other = order(0, 1, 1)
         other["version"] = "1.0.0"
         self.tell("a", "order", other)
-        for text, expected in zip(self.said, ("no JSON", "/nodes/1/released: 'yes' is not of type 'boolean'", "of 1.0.0, a")):
+        for text, expected in zip(self.said, ("invalid JSON", "/nodes/1/released: 'yes' is not of type 'boolean'",
+                                             "header has 1.0.0, a")):
             self.assertIn(expected, text)
-        self.assertEqual(self.watch.violations, 3)
+        self.assertEqual(self.monitor.violations, 3)

@@ -1,23 +1,24 @@
 # SPDX-License-Identifier: MIT
-"""Looks on, knowing nothing but the messages, and says what is wrong with them.
+"""Runtime monitor: checks the messages, without any other input, and reports violations.
 
-1. Every message is as its published schema wants it.
+1. Every message satisfies its published schema.
 2. No vehicle reports a node that was not released to it.
-3. What is released to a vehicle, from the node on that it last reported to have reached, has no place in
-   common with what is released to another. So vehicles that keep to their bases cannot meet, however
-   late they are and whatever they have not heard yet."""
+3. The nodes released to a vehicle, from the last node that it reported to have reached, have no place in common with
+   those released to another vehicle. So vehicles that stay within their bases cannot meet, however late they are and
+   whichever messages they have not received yet.
+"""
 import json
 from collections import Counter
 from pathlib import Path
 
 from .protocol import Topics
 
-MOST_SAID = 50
+MAX_REPORTED = 50
 SCHEMAS = Path(__file__).resolve().parent / "schemas"
 
 
 def load_validators(version):
-    """{topic: validator}; None where there is no python3-jsonschema."""
+    """Returns {topic: validator}. Returns None without the module jsonschema."""
     try:
         import jsonschema
     except ModuleNotFoundError:
@@ -32,17 +33,17 @@ def load_validators(version):
 class _Vehicle:
     def __init__(self):
         self.order = None
-        self.nodes = {}         # sequence: id, of what was released
-        self.reached = 0        # sequence
-        self.known_from = 0     # sequence: what was released before that, nobody saw here
+        self.nodes = {}         # sequence number: id, of the released nodes
+        self.reached = 0        # sequence number
+        self.known_from = 0     # sequence number: earlier releases were not observed
 
 
-class Watch:
+class Monitor:
     def __init__(self, topics: Topics, say=lambda text: None):
         self.topics, self.say = topics, say
         self.validators = load_validators(topics.protocol.version)
         self.vehicles = {}
-        self.claims = {}        # node id: Counter of serials
+        self.claims = {}        # node id: {serial: sequence numbers}
         self.messages = Counter()
         self.finished = {}      # serial: ids of actions
         self.violations = 0
@@ -53,7 +54,7 @@ class Watch:
         try:
             message = json.loads(payload)
         except ValueError as error:
-            self.complain(serial, name, f"no JSON: {error}")
+            self.report(serial, name, f"invalid JSON: {error}")
             return
         if not self._validate(serial, name, message):
             return
@@ -62,25 +63,25 @@ class Watch:
                 self._on_order(serial, message)
             elif name == "state":
                 self._on_state(serial, message)
-        except (KeyError, TypeError) as error:  # without schemas
-            self.complain(serial, name, f"{type(error).__name__}: {error}")
+        except (KeyError, TypeError) as error:  # possible without schemas
+            self.report(serial, name, f"{type(error).__name__}: {error}")
 
-    def complain(self, serial, name, text):
+    def report(self, serial, name, text):
         self.violations += 1
-        if self.violations <= MOST_SAID:
+        if self.violations <= MAX_REPORTED:
             self.say(f"{serial}: {name}: {text}")
 
     def _validate(self, serial, name, message):
         if self.validators is None:
             return isinstance(message, dict)
         if name not in self.validators:
-            return True     # of what is neither sent nor heeded here
+            return True     # topics that grove neither sends nor reads
         error = next(self.validators[name].iter_errors(message), None)
         if error:
             place = "/" + "/".join(map(str, error.absolute_path))
-            self.complain(serial, name, f"{place}: {error.message[:200]}")
+            self.report(serial, name, f"{place}: {error.message[:200]}")
         elif [message["version"], message["serialNumber"]] != [self.topics.protocol.version, serial]:
-            self.complain(serial, name, f"of {message['version']}, {message['serialNumber']}")
+            self.report(serial, name, f"header has {message['version']}, {message['serialNumber']}")
         else:
             return True
         return False
@@ -98,7 +99,7 @@ class Watch:
                 continue
             known = vehicle.nodes.setdefault(sequence, node["nodeId"])
             if known != node["nodeId"]:
-                self.complain(serial, "order", f"node {sequence} was {known} and is {node['nodeId']} now")
+                self.report(serial, "order", f"node {sequence} was {known} and is {node['nodeId']} now")
         self._claim(serial, vehicle, message)
 
     def _claim(self, serial, vehicle, message):
@@ -108,7 +109,7 @@ class Watch:
             holders = self.claims.setdefault(node["nodeId"], {})
             for other in holders:
                 if other != serial:
-                    self.complain(serial, "order", f"{node['nodeId']} is released, where {other} still may be")
+                    self.report(serial, "order", f"{node['nodeId']} is released, but {other} may still be there")
             holders.setdefault(serial, set()).add(node["sequenceId"])
 
     def _give_back(self, serial, node, sequence=None):
@@ -126,9 +127,9 @@ class Watch:
             return
         sequence = message["lastNodeSequenceId"]
         if sequence < max(vehicle.reached, vehicle.known_from):
-            return      # an old message, or of what was before all that was seen
+            return      # an old message, or one about nodes before the first observed order
         if vehicle.nodes.get(sequence) != message["lastNodeId"]:
-            self.complain(serial, "state", f"is on {message['lastNodeId']}, node {sequence}, which was not released")
+            self.report(serial, "state", f"is on {message['lastNodeId']}, node {sequence}, which was not released")
             return
         for passed in [s for s in vehicle.nodes if s < sequence]:
             self._give_back(serial, vehicle.nodes.pop(passed), passed)
