@@ -232,7 +232,7 @@ void JsonLog::checkpoint(const CheckpointReport& report, double seconds) {
             {"took_s", seconds_json(report.seconds)}};
   if (!report.failure.empty()) {
     json["failure"] = report.failure;
-    sink_.warn_the_blind("NO checkpoint was written: " + report.failure);
+    sink_.warn_if_log_hidden("NO checkpoint was written: " + report.failure);
   }
   sink_.line(line_of(json));
 }

@@ -31,7 +31,7 @@ void LogSink::line(std::string_view text) {
   if (file_ && !write(file_.get(), text, "the log file")) file_.reset();
 }
 
-void LogSink::warn_the_blind(std::string_view text) const {
+void LogSink::warn_if_log_hidden(std::string_view text) const {
   if (!screen_) say_on_stderr(fmt::format("grove: warning: {}", text));
 }
 

@@ -19,7 +19,7 @@ class LogSink {
 
   void line(std::string_view text = "");
   // Says it on stderr unless the log can be seen on the screen.
-  void warn_the_blind(std::string_view text) const;
+  void warn_if_log_hidden(std::string_view text) const;
   bool shows_progress() const { return shows_progress_; }
   void progress(std::string_view text);
 

@@ -184,7 +184,7 @@ void TextLog::checkpoint(const CheckpointReport& report, double seconds) {
                                   report.nodes, report.seconds, seconds));
   const std::string text = fmt::format("NO checkpoint was written: {}", report.failure);
   sink_.line("  " + text);
-  sink_.warn_the_blind(text);
+  sink_.warn_if_log_hidden(text);
 }
 
 void TextLog::end(const LogEnd& end) {
