@@ -18,7 +18,7 @@
 #include "io/input_error.h"
 #include "tools/bench/bench_methods.h"
 #include "tools/bench/bench_run.h"
-#include "tools/bench/rehearsal.h"
+#include "tools/bench/method_support.h"
 #include "tools/common/commands.h"
 #include "tools/common/companion.h"
 #include "tools/common/instance_arguments.h"
@@ -209,7 +209,7 @@ void run(const CLI::App& app, BenchArguments& a) {
     if (!a.quiet && display.is_due(state.elapsed_s))
       display.show(state.elapsed_s, progress_text(state));
   };
-  rehearse(instances, methods, options);
+  check_method_support(instances, methods, options);
   if (!a.seeds.empty()) methods = with_seeds(methods, a.seeds);
   const bench::BenchState state = run_bench(instances, methods, options);
   if (!a.quiet) display.finish(progress_text(state));

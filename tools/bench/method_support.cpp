@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/bench/rehearsal.h"
+#include "tools/bench/method_support.h"
 
 #include <fmt/format.h>
 #include <stdlib.h>
@@ -42,8 +42,8 @@ class Scratch {
 
 }  // namespace
 
-void rehearse(const std::vector<BenchInstance>& instances, const std::vector<Method>& methods,
-              const BenchOptions& options) {
+void check_method_support(const std::vector<BenchInstance>& instances,
+                          const std::vector<Method>& methods, const BenchOptions& options) {
   std::map<std::string, const BenchInstance*> first;  // of each kind
   for (const BenchInstance& instance : instances)
     if (instance.error.empty()) first.emplace(instance.kind, &instance);
