@@ -24,8 +24,8 @@
 #include "io/instance_file.h"
 #include "io/plan_file.h"
 #include "tools/bench/child_process.h"
-#include "tools/bench/judge.h"
 #include "tools/bench/root_costs.h"
+#include "tools/bench/run_outcome.h"
 
 namespace grove::detail::bench {
 namespace {
@@ -204,7 +204,7 @@ class Bench {
     row.outcome = is_refusal(end)
                       ? batch::Outcome{.status = batch::kUnsuitable,
                                        .error = refusal(files.said, instances_[index].entry.path)}
-                      : judged(end, limit, loaded.instance, files.plan, files.said);
+                      : outcome_of_run(end, limit, loaded.instance, files.plan, files.said);
     if (!row.outcome.failed()) row.outcome.trace = trace_of_log(files.log);
     if (!row.outcome.trace.empty()) row.outcome.first_plan_s = row.outcome.trace.front().seconds;
     if (fs::exists(files.proof) && !certify(row.outcome, index, loaded, files)) return false;
@@ -246,7 +246,7 @@ class Bench {
       const ChildEnd end =
           run_one(foreign.command(), row, files, foreign.knows_the_limit(), method.memory_gb);
       if (end.kind == ChildEnd::Kind::kCancelled) return false;
-      row.outcome = foreign.judged(end, files.said);
+      row.outcome = foreign.outcome_of_run(end, files.said);
       if (options_.keep_plans) keep(foreign, loaded.instance, files, row);
     } catch (const NotRepresentable& error) {
       row.outcome = {.status = batch::kUnsuitable,

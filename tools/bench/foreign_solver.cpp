@@ -21,7 +21,7 @@
 #include "io/text_file.h"
 #include "model/check.h"
 #include "model/parse_number.h"
-#include "tools/bench/judge.h"
+#include "tools/bench/run_outcome.h"
 
 namespace grove::detail::bench {
 namespace {
@@ -311,7 +311,7 @@ void ForeignRun::finish_without_plan(batch::Outcome& outcome, const ChildEnd& en
   }
 }
 
-batch::Outcome ForeignRun::judged(const ChildEnd& end, const fs::path& said) {
+batch::Outcome ForeignRun::outcome_of_run(const ChildEnd& end, const fs::path& said) {
   batch::Outcome outcome;
   outcome.peak_memory_mb = end.peak_memory_mb;
   outcome.anytime = solver_.adapter.anytime;

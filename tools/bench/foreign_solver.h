@@ -35,7 +35,7 @@ class ForeignRun {
   // Whether it is told of the time limit, and so may end by itself when that strikes.
   bool knows_the_limit() const;
   // The outcome of a run that has ended and was not cancelled; it said what is in the file `said`.
-  batch::Outcome judged(const ChildEnd& end, const std::filesystem::path& said);
+  batch::Outcome outcome_of_run(const ChildEnd& end, const std::filesystem::path& said);
   // The plan that it wrote and that was found to be one.
   const std::optional<Solution>& shown() const { return shown_; }
   // The file in which it wrote one, perhaps.

@@ -11,7 +11,7 @@
 
 #include "io/input_error.h"
 #include "tools/bench/child_process.h"
-#include "tools/bench/judge.h"
+#include "tools/bench/run_outcome.h"
 
 namespace grove::detail::bench {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/bench/judge.h"
+#include "tools/bench/run_outcome.h"
 
 #include <fmt/format.h>
 
@@ -96,8 +96,9 @@ std::vector<batch::TracePoint> trace_of_log(const std::filesystem::path& log) {
   return trace;
 }
 
-batch::Outcome judged(const ChildEnd& end, double time_limit_s, const Instance& instance,
-                      const std::filesystem::path& plan_file, const std::filesystem::path& said) {
+batch::Outcome outcome_of_run(const ChildEnd& end, double time_limit_s, const Instance& instance,
+                              const std::filesystem::path& plan_file,
+                              const std::filesystem::path& said) {
   batch::Outcome outcome;
   outcome.error = why_failed(end, said);
   if (!outcome.error.empty()) return outcome;

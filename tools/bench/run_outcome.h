@@ -18,8 +18,9 @@ namespace grove::detail::bench {
 // what the run did wrong: that is an outcome. Not for runs that were cancelled.
 // A run that took longer than `time_limit_s` is not solved, though it may think so: it looks at the
 // clock now and then, and a process takes some time to begin and to end.
-batch::Outcome judged(const ChildEnd& end, double time_limit_s, const Instance& instance,
-                      const std::filesystem::path& plan_file, const std::filesystem::path& said);
+batch::Outcome outcome_of_run(const ChildEnd& end, double time_limit_s, const Instance& instance,
+                              const std::filesystem::path& plan_file,
+                              const std::filesystem::path& said);
 
 // Has the checker of certificates, which said what is in the file `said`, verified all that the
 // outcome claims? What it says else becomes the outcome's error, if it has none.
