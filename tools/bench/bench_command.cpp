@@ -113,15 +113,16 @@ void share_memory(std::vector<bench::Method>& methods, int jobs) {
 std::vector<bench::Method> solvers_of(const BenchArguments& a) {
   std::vector<bench::Method> methods;
   for (bench::NamedSolver& solver : bench::read_solver_arguments(a.solvers, a.claims))
-    methods.push_back({.settings = {.method = solver.name,
-                                    .options = solver.options,
-                                    .omega = "",
-                                    .seed = a.defaults.seed,
-                                    .time_limit_s = a.defaults.time_limit_s,
-                                    .memory_limit_gb = a.defaults.memory_limit_gb},
-                       .threads = solver.solver.adapter.threads,
-                       .memory_gb = a.defaults.memory_limit_gb,
-                       .solver = std::make_shared<bench::ForeignSolver>(std::move(solver.solver))});
+    methods.push_back(
+        {.settings = {.method = solver.name,
+                      .options = solver.options,
+                      .omega = "",
+                      .seed = a.defaults.seed,
+                      .time_limit_s = a.defaults.time_limit_s,
+                      .memory_limit_gb = a.defaults.memory_limit_gb},
+         .threads = solver.solver.adapter.threads,
+         .memory_gb = a.defaults.memory_limit_gb,
+         .solver = std::make_shared<bench::ExternalSolver>(std::move(solver.solver))});
   return methods;
 }
 

@@ -241,13 +241,13 @@ class Bench {
     const LoadedInstance loaded = load(instances_[index].entry);
     try {
       const Method& method = method_of(run);
-      ForeignRun foreign(*method.solver, instances_[index].entry, loaded, row.run.settings,
-                         files.folder);
+      ExternalRun external(*method.solver, instances_[index].entry, loaded, row.run.settings,
+                           files.folder);
       const ChildEnd end =
-          run_one(foreign.command(), row, files, foreign.knows_the_limit(), method.memory_gb);
+          run_one(external.command(), row, files, external.knows_the_limit(), method.memory_gb);
       if (end.kind == ChildEnd::Kind::kCancelled) return false;
-      row.outcome = foreign.outcome_of_run(end, files.said);
-      if (options_.keep_plans) keep(foreign, loaded.instance, files, row);
+      row.outcome = external.outcome_of_run(end, files.said);
+      if (options_.keep_plans) keep(external, loaded.instance, files, row);
     } catch (const NotRepresentable& error) {
       row.outcome = {.status = batch::kUnsuitable,
                      .error = fmt::format("{}: {}", error.field(), error.what())};
@@ -271,13 +271,13 @@ class Bench {
   }
 
   // Of another solver: as a plan file of Grove's; what is none as it is.
-  void keep(const ForeignRun& foreign, const Instance& instance, const Files& files,
+  void keep(const ExternalRun& external, const Instance& instance, const Files& files,
             batch::Row& row) const {
-    if (foreign.shown()) {
-      write_solution(files.plan, instance, *foreign.shown());
+    if (external.shown()) {
+      write_solution(files.plan, instance, *external.shown());
       keep(files.plan, plan_name(row), row);
     } else if (row.outcome.status == batch::kWrongPlan) {
-      keep(foreign.plan(), plan_name(row) + ".wrong", row);
+      keep(external.plan(), plan_name(row) + ".wrong", row);
     }
   }
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tools/bench/bench_instances.h"
-#include "tools/bench/foreign_solver.h"
+#include "tools/bench/external_solver.h"
 #include "tools/bench/progress_text.h"
 
 namespace grove::detail::bench {
@@ -25,7 +25,7 @@ struct Method {
   // Of a program of someone else: of data; it gets no more.
   std::optional<double> memory_gb = {};
   // A program of someone else; null: Grove's own.
-  std::shared_ptr<const ForeignSolver> solver = {};
+  std::shared_ptr<const ExternalSolver> solver = {};
 };
 
 struct BenchOptions {

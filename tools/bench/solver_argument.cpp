@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "io/input_error.h"
-#include "tools/bench/foreign_solver.h"
+#include "tools/bench/external_solver.h"
 
 namespace grove::detail::bench {
 namespace {
@@ -79,9 +79,9 @@ bool is_whole_command(const std::vector<std::string>& words) {
   return names(words, "instance") || names(words, "map") || names(words, "scenario");
 }
 
-ForeignSolver solver_of_command(const std::string& name, std::vector<std::string> words,
-                                const std::string& text) {
-  ForeignSolver solver{.adapter = {.name = name}, .program = path_of_program(words[0], text)};
+ExternalSolver solver_of_command(const std::string& name, std::vector<std::string> words,
+                                 const std::string& text) {
+  ExternalSolver solver{.adapter = {.name = name}, .program = path_of_program(words[0], text)};
   words[0] = "{program}";
   SolverAdapter& adapter = solver.adapter;
   adapter.input = names(words, "instance") ? SolverInput::kGrove : SolverInput::kMovingAi;
@@ -102,11 +102,11 @@ void drop_option(std::vector<std::string>& command, const std::string& option) {
 }
 
 // "eecbs=/opt/eecbs", or another adapter before the first colon.
-ForeignSolver solver_of_adapter(const std::string& name, const std::vector<std::string>& words,
-                                const std::string& text) {
+ExternalSolver solver_of_adapter(const std::string& name, const std::vector<std::string>& words,
+                                 const std::string& text) {
   const std::size_t colon = words[0].find(':');
   const bool is_named = colon != std::string::npos;
-  ForeignSolver solver{
+  ExternalSolver solver{
       .adapter = adapter_called(is_named ? words[0].substr(0, colon) : name, text),
       .program = path_of_program(is_named ? words[0].substr(colon + 1) : words[0], text)};
   for (std::size_t i = 1; i < words.size(); ++i) drop_option(solver.adapter.command, words[i]);

@@ -22,7 +22,7 @@ ANYTIME = {"name": "fake-anytime", "anytime": True,
 WIDTH = 8
 
 
-class Foreign(Program):
+class ExternalSolverTests(Program):
     def setUp(self):
         super().setUp()
         for adapter in (ADAPTER, ANYTIME):
@@ -69,7 +69,7 @@ class Foreign(Program):
         return {row[0]: dict(zip(header, row)) for row in cells}
 
 
-class Solvers(Foreign):
+class Solvers(ExternalSolverTests):
     def test_an_honest_one(self):
         row = self.row_of("honest", "--keep-plans")
         self.assertEqual((row["status"], row["solved"], row["cost"], row["error"]), ("feasible", True, 14, None))
@@ -198,7 +198,7 @@ class Solvers(Foreign):
         self.assertGreaterEqual(row["first_plan_s"], 0)
 
 
-class Commands(Foreign):
+class Commands(ExternalSolverTests):
     def test_a_command_with_places(self):
         """Grove as a program of someone else: it is given instances, and its proofs are claims."""
         self.add_scenario("open-random-1", 3)
@@ -302,7 +302,7 @@ class Commands(Foreign):
         self.assertFalse((self.folder / "out").exists())
 
 
-class Sweeps(Foreign):
+class Sweeps(ExternalSolverTests):
     def test_scenarios_agents_and_seeds(self):
         for name in ("open-random-1", "open-random-2", "open-even-1"):
             self.add_scenario(name, 4)

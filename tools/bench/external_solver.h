@@ -17,19 +17,19 @@
 
 namespace grove::detail::bench {
 
-struct ForeignSolver {
+struct ExternalSolver {
   SolverAdapter adapter;
   std::string program;  // {program}
 };
 
 // One run of it.
-class ForeignRun {
+class ExternalRun {
  public:
   // Writes what the solver reads into `folder`, which is its own and made anew. Throws
   // NotRepresentable where it cannot be given this instance, InputError where files cannot be
   // written. `loaded` is the instance of `entry`; all must outlive this.
-  ForeignRun(const ForeignSolver& solver, const batch::Entry& entry, const LoadedInstance& loaded,
-             const batch::Settings& settings, std::filesystem::path folder);
+  ExternalRun(const ExternalSolver& solver, const batch::Entry& entry, const LoadedInstance& loaded,
+              const batch::Settings& settings, std::filesystem::path folder);
 
   std::vector<std::string> command() const;
   // Whether it is told of the time limit, and so may end by itself when that strikes.
@@ -58,7 +58,7 @@ class ForeignRun {
   std::optional<double> number_of(const std::optional<LinePattern>& pattern,
                                   const std::filesystem::path& said) const;
 
-  const ForeignSolver& solver_;
+  const ExternalSolver& solver_;
   const LoadedInstance& loaded_;
   const Instance told_;
   const batch::Settings& settings_;
@@ -72,7 +72,7 @@ class ForeignRun {
 struct NamedSolver {
   std::string name;
   std::string options;  // for the table: without where programs lie
-  ForeignSolver solver;
+  ExternalSolver solver;
 };
 
 // Reads "NAME=COMMAND" of the command line:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/bench/foreign_solver.h"
+#include "tools/bench/external_solver.h"
 
 #include <fmt/format.h>
 
@@ -128,9 +128,9 @@ std::vector<batch::TracePoint> borne_out(std::vector<batch::TracePoint> trace, C
 
 }  // namespace
 
-ForeignRun::ForeignRun(const ForeignSolver& solver, const batch::Entry& entry,
-                       const LoadedInstance& loaded, const batch::Settings& settings,
-                       fs::path folder)
+ExternalRun::ExternalRun(const ExternalSolver& solver, const batch::Entry& entry,
+                         const LoadedInstance& loaded, const batch::Settings& settings,
+                         fs::path folder)
     : solver_(solver),
       loaded_(loaded),
       told_(as_told(loaded.instance, solver.adapter.input)),
@@ -141,7 +141,7 @@ ForeignRun::ForeignRun(const ForeignSolver& solver, const batch::Entry& entry,
   write_input(entry);
 }
 
-void ForeignRun::write_input(const batch::Entry& entry) {
+void ExternalRun::write_input(const batch::Entry& entry) {
   instance_ = entry.path;
   switch (solver_.adapter.input) {
     case SolverInput::kMovingAi:
@@ -161,14 +161,14 @@ void ForeignRun::write_input(const batch::Entry& entry) {
 
 // Not the files as they are: programs differ in which letters of a map they hold for free, and in
 // what they do with further rows.
-void ForeignRun::write_moving_ai() {
+void ExternalRun::write_moving_ai() {
   map_ = folder_ / "map.map";
   scenario_ = folder_ / "map.scen";
   write_scenario_instance(scenario_, told_, "map.map");
   write_map(map_, told_.grid());
 }
 
-std::string ForeignRun::value_of(std::string_view placeholder) const {
+std::string ExternalRun::value_of(std::string_view placeholder) const {
   const double limit = settings_.time_limit_s;
   if (placeholder == "program") return solver_.program;
   if (placeholder == "map") return map_.string();
@@ -183,29 +183,29 @@ std::string ForeignRun::value_of(std::string_view placeholder) const {
   return folder_.string();
 }
 
-std::string ForeignRun::told(const std::string& text) const {
+std::string ExternalRun::told(const std::string& text) const {
   return filled(text, [this](std::string_view name) { return value_of(name); });
 }
 
-std::vector<std::string> ForeignRun::command() const {
+std::vector<std::string> ExternalRun::command() const {
   std::vector<std::string> words = solver_.adapter.command;
   for (std::string& word : words) word = told(word);
   return words;
 }
 
-bool ForeignRun::knows_the_limit() const {
+bool ExternalRun::knows_the_limit() const {
   return std::ranges::any_of(kTimeLimits, [this](std::string_view place) {
     return names(solver_.adapter.command, place);
   });
 }
 
-fs::path ForeignRun::plan() const {
+fs::path ExternalRun::plan() const {
   return solver_.adapter.plan.empty() ? fs::path() : fs::path(told(solver_.adapter.plan));
 }
 
 // Group 1 of the last line in which the pattern is found; the whole match if it has none.
-std::optional<std::string> ForeignRun::last_match(const LinePattern& pattern,
-                                                  const fs::path& said) const {
+std::optional<std::string> ExternalRun::last_match(const LinePattern& pattern,
+                                                   const fs::path& said) const {
   const std::regex regex(pattern.regex);
   const std::string text = text_of(pattern.file.empty() ? said : fs::path(told(pattern.file)));
   std::optional<std::string> found;
@@ -218,15 +218,15 @@ std::optional<std::string> ForeignRun::last_match(const LinePattern& pattern,
   return found;
 }
 
-std::optional<double> ForeignRun::number_of(const std::optional<LinePattern>& pattern,
-                                            const fs::path& said) const {
+std::optional<double> ExternalRun::number_of(const std::optional<LinePattern>& pattern,
+                                             const fs::path& said) const {
   if (!pattern) return std::nullopt;
   const auto text = last_match(*pattern, said);
   const auto number = text ? number_in(*text) : std::nullopt;
   return number && *number >= 0 ? std::optional(*number * pattern->scale) : std::nullopt;
 }
 
-void ForeignRun::read_claims(batch::Outcome& outcome, const fs::path& said) const {
+void ExternalRun::read_claims(batch::Outcome& outcome, const fs::path& said) const {
   const SolverAdapter& adapter = solver_.adapter;
   outcome.claimed_cost = cost_in(number_of(adapter.cost, said));
   outcome.claimed_lower_bound = cost_in(number_of(adapter.lower_bound, said));
@@ -234,7 +234,7 @@ void ForeignRun::read_claims(batch::Outcome& outcome, const fs::path& said) cons
   outcome.first_plan_s = number_of(adapter.first_plan, said);
 }
 
-void ForeignRun::read_trace(batch::Outcome& outcome, const fs::path& said) const {
+void ExternalRun::read_trace(batch::Outcome& outcome, const fs::path& said) const {
   for (const TracePattern& pattern : solver_.adapter.trace) {
     const std::regex regex(pattern.line.regex);
     const std::string text =
@@ -250,7 +250,7 @@ void ForeignRun::read_trace(batch::Outcome& outcome, const fs::path& said) const
   outcome.trace = better_and_better(std::move(outcome.trace));
 }
 
-void ForeignRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
+void ExternalRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
   const fs::path file = plan();
   std::error_code error;
   if (file.empty() || !fs::is_regular_file(file, error)) return;
@@ -276,8 +276,8 @@ void ForeignRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
 
 // What is still solved although a limit struck: whatever goes on until it does, if it had a plan in
 // time. When it had one only it says itself; one that ends much later is not believed.
-void ForeignRun::finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
-                                  const fs::path& said) const {
+void ExternalRun::finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
+                                   const fs::path& said) const {
   const double limit = settings_.time_limit_s;
   if (!outcome.first_plan_s)
     outcome.first_plan_s = outcome.trace.empty() ? end.wall_s : outcome.trace.front().seconds;
@@ -294,8 +294,8 @@ void ForeignRun::finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
   outcome.solved = outcome.error.empty();
 }
 
-void ForeignRun::finish_without_plan(batch::Outcome& outcome, const ChildEnd& end,
-                                     const fs::path& said) const {
+void ExternalRun::finish_without_plan(batch::Outcome& outcome, const ChildEnd& end,
+                                      const fs::path& said) const {
   outcome.trace.clear();
   outcome.first_plan_s.reset();
   outcome.error = what_went_wrong(end, settings_.time_limit_s, said);
@@ -311,7 +311,7 @@ void ForeignRun::finish_without_plan(batch::Outcome& outcome, const ChildEnd& en
   }
 }
 
-batch::Outcome ForeignRun::outcome_of_run(const ChildEnd& end, const fs::path& said) {
+batch::Outcome ExternalRun::outcome_of_run(const ChildEnd& end, const fs::path& said) {
   batch::Outcome outcome;
   outcome.peak_memory_mb = end.peak_memory_mb;
   outcome.anytime = solver_.adapter.anytime;
