@@ -10,7 +10,7 @@
 
 #include "tools/common/machine.h"
 #include "tools/common/version.h"
-#include "tools/solve/demand_text.h"
+#include "tools/solve/constraint_text.h"
 
 namespace grove::detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/solve/demand_text.h"
+#include "tools/solve/constraint_text.h"
 
 #include <fmt/format.h>
 
@@ -35,10 +35,10 @@ std::string text_of(const Conflict& conflict, const Instance& instance) {
                      name_of(instance, conflict.from), place, conflict.time);
 }
 
-std::string text_of(const AgentConstraint& demand, const Instance& instance) {
-  if (demand.agent < 0) return "";
-  const Constraint& c = demand.constraint;
-  const std::string& agent = instance.agent(demand.agent).id;
+std::string text_of(const AgentConstraint& constraint, const Instance& instance) {
+  if (constraint.agent < 0) return "";
+  const Constraint& c = constraint.constraint;
+  const std::string& agent = instance.agent(constraint.agent).id;
   const std::string place = name_of(instance, c.cell);
   switch (c.kind) {
     case ConstraintKind::kVertexOrEdge:

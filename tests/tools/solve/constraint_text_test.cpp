@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "tools/solve/demand_text.h"
+#include "tools/solve/constraint_text.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/instances.h"
 
 namespace grove::detail {
-namespace demand_text_test {
+namespace constraint_text_test {
 
 using testing::grid_of;
 
@@ -22,14 +22,14 @@ std::string said_of_red(const Constraint& c) {
   return text_of(AgentConstraint{0, c}, corridor());
 }
 
-TEST(DemandText, SaysWhereAndWhenTheyMeet) {
+TEST(ConstraintText, SaysWhereAndWhenTheyMeet) {
   EXPECT_EQ(text_of(Conflict{.first = 0, .second = 1, .cell = 1, .time = 7}, corridor()),
             "red and blue on [1, 0] at 7");
   EXPECT_EQ(text_of(Conflict{.first = 0, .second = 1, .cell = 2, .from = 1, .time = 7}, corridor()),
             "red and blue swap [1, 0] and [2, 0] at 7");
 }
 
-TEST(DemandText, SaysWhatIsBarred) {
+TEST(ConstraintText, SaysWhatIsBarred) {
   EXPECT_EQ(said_of_red({.cell = 1, .begin = 7, .end = 7}), "red not on [1, 0] at 7");
   EXPECT_EQ(said_of_red({.cell = 1, .begin = 7, .end = 9}), "red not on [1, 0] from 7 to 9");
   EXPECT_EQ(said_of_red({.cell = 1, .begin = 7, .end = kNever}), "red not on [1, 0] from 7 on");
@@ -37,7 +37,7 @@ TEST(DemandText, SaysWhatIsBarred) {
             "red not from [1, 0] to [2, 0], arriving at 7");
 }
 
-TEST(DemandText, SaysWhatElseIsDemanded) {
+TEST(ConstraintText, SaysWhatElseIsDemanded) {
   EXPECT_EQ(said_of_red({.cell = 3, .end = 7, .kind = ConstraintKind::kNoRestBy}),
             "red not at rest on [3, 0] by 7");
   EXPECT_EQ(said_of_red({.cell = 3, .end = 7, .kind = ConstraintKind::kRestBy}),
@@ -52,5 +52,5 @@ TEST(DemandText, SaysWhatElseIsDemanded) {
   EXPECT_EQ(text_of(AgentConstraint{}, corridor()), "");
 }
 
-}  // namespace demand_text_test
+}  // namespace constraint_text_test
 }  // namespace grove::detail
