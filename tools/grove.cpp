@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tools/common/commands.h"
-#include "tools/common/companion.h"
+#include "tools/common/helper_program.h"
 #include "tools/common/program.h"
 #include "tools/common/signals.h"
 #include "tools/view/view_command.h"
@@ -39,12 +39,13 @@ int main(int argc, char** argv) {
   add_replan_command(app);
   const std::vector<std::string> words(argv + 1, argv + argc);
   add_view_command(
-      app, {.hand_over = [&] { become("grove-picture", words, "grove-pictures"); }, .draw = {}});
+      app,
+      {.hand_over = [&] { exec_program("grove-picture", words, "grove-pictures"); }, .draw = {}});
   add_proof_command(app);
   add_generate_command(app);
   add_convert_command(app);
   add_bench_command(app);
-  add_companion_commands(app);
+  add_helper_commands(app);
   return run_only_process(app, argc, argv);
 }
 

@@ -20,7 +20,7 @@
 #include "tools/bench/bench_run.h"
 #include "tools/bench/method_support.h"
 #include "tools/common/commands.h"
-#include "tools/common/companion.h"
+#include "tools/common/helper_program.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/common/machine.h"
 #include "tools/common/options.h"

@@ -27,8 +27,8 @@ constexpr int kLookInterval_ms = 100;
 }
 
 // Between fork() and exec(), where only what is safe in a signal handler may be called.
-[[noreturn]] void become(char* const* arguments, pid_t parent, int input, int output,
-                         const rlimit* memory) {
+[[noreturn]] void exec_child(char* const* arguments, pid_t parent, int input, int output,
+                             const rlimit* memory) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   ::setpgid(0, 0);
   const bool orphaned = ::getppid() != parent;  // before the line above could help
@@ -80,8 +80,8 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
   const pid_t pid = ::fork();
   if (pid < 0) fail("fork");
   if (pid == 0)
-    become(arguments.data(), parent, input.get(), output.get(),
-           limits.memory_gb ? &memory : nullptr);
+    exec_child(arguments.data(), parent, input.get(), output.get(),
+               limits.memory_gb ? &memory : nullptr);
 
   // glibc 2.36 declares pidfd_open() for C alone.
   const FileDescriptor process(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));

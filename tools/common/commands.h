@@ -30,7 +30,7 @@ void add_check_command(CLI::App& app);
 void add_execute_command(CLI::App& app);
 void add_generate_command(CLI::App& app);
 void add_replan_command(CLI::App& app);
-void add_companion_commands(CLI::App& app);
+void add_helper_commands(CLI::App& app);
 void add_convert_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
 void add_proof_command(CLI::App& app);

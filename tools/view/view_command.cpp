@@ -20,7 +20,7 @@
 #include "model/check.h"
 #include "proof/certificate_text.h"
 #include "tools/common/commands.h"
-#include "tools/common/companion.h"
+#include "tools/common/helper_program.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/common/options.h"
 #include "tools/common/own_files.h"
@@ -135,10 +135,10 @@ void write_pictures(const PictureMaker& maker, PictureOrder order, const Instanc
 // What is to be shown, with the log as it grows, goes on as standard input.
 [[noreturn]] void follow(const ViewArguments& arguments, const std::string& log,
                          std::string_view page) {
-  become_standard_input(page);
+  replace_standard_input(page);
   std::vector<std::string> words{log, "--port", std::to_string(arguments.port)};
   if (arguments.open) words.emplace_back("--open");
-  become("grove-follow", words);
+  exec_program("grove-follow", words);
 }
 
 // The page of a log: called like it, unless somebody says otherwise.

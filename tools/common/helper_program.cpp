@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/common/companion.h"
+#include "tools/common/helper_program.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -22,9 +22,9 @@ fs::path own_folder() {
 }
 
 // In a build folder all lie beside each other; where Grove is installed, apart.
-fs::path place_of(const std::string& companion) {
-  const fs::path installed = own_folder().parent_path() / "libexec/grove" / companion;
-  return fs::exists(installed) ? installed : own_folder() / companion;
+fs::path place_of(const std::string& program) {
+  const fs::path installed = own_folder().parent_path() / "libexec/grove" / program;
+  return fs::exists(installed) ? installed : own_folder() / program;
 }
 
 // Only if it fails does it return.
@@ -37,7 +37,7 @@ void replace_process(const std::string& program, std::vector<std::string> argume
 
 }  // namespace
 
-void become_standard_input(std::string_view text) {
+void replace_standard_input(std::string_view text) {
   // A file without a name: nothing is left behind, however this ends.
   std::FILE* file = std::tmpfile();
   const bool is_written = file != nullptr &&
@@ -56,9 +56,9 @@ std::string program_beside(const std::string& name) {
   return program.string();
 }
 
-void become(const std::string& companion, const std::vector<std::string>& arguments,
-            const std::string& package) {
-  const std::string program = place_of(companion).string();
+void exec_program(const std::string& name, const std::vector<std::string>& arguments,
+                  const std::string& package) {
+  const std::string program = place_of(name).string();
   if (!fs::exists(program))
     throw InputError(
         program, "",

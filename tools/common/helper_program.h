@@ -11,14 +11,14 @@ namespace grove::detail {
 
 // What standard input then holds, in this program and in the one that it becomes. Throws
 // InputError.
-void become_standard_input(std::string_view text);
+void replace_standard_input(std::string_view text);
 
 // A program of users that is built and installed beside this one. Throws InputError if it is not.
 std::string program_beside(const std::string& name);
 
 // Becomes that program; does not return. Throws InputError if it is not there or cannot be run.
 // `package`: the Debian package that holds it.
-[[noreturn]] void become(const std::string& companion, const std::vector<std::string>& arguments,
-                         const std::string& package = "grove");
+[[noreturn]] void exec_program(const std::string& name, const std::vector<std::string>& arguments,
+                               const std::string& package = "grove");
 
 }  // namespace grove::detail
