@@ -35,8 +35,8 @@
 #include "tools/common/standard_error.h"
 #include "tools/common/version.h"
 #include "tools/mpi/collective.h"
-#include "tools/mpi/crew.h"
 #include "tools/mpi/mpi_commands.h"
+#include "tools/mpi/rank_layout.h"
 #include "tools/solve/solve_arguments.h"
 #include "tools/solve/solve_run.h"
 

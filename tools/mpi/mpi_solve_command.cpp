@@ -22,8 +22,8 @@
 #include "tools/common/program.h"
 #include "tools/common/version.h"
 #include "tools/mpi/collective.h"
-#include "tools/mpi/crew.h"
 #include "tools/mpi/mpi_commands.h"
+#include "tools/mpi/rank_layout.h"
 #include "tools/solve/incumbent_files.h"
 #include "tools/solve/proof_output.h"
 #include "tools/solve/solve_arguments.h"
@@ -99,10 +99,10 @@ class Run {
   void share_memory() {
     const auto [bytes, zero_bytes] = SharedProblem::need(loaded_->instance);
     memory_ = session_.share(bytes, zero_bytes);
-    const Crew crew = gather_crew(session_, a_.threads, *memory_);
+    const RankLayout layout = gather_rank_layout(session_, a_.threads, *memory_);
     if (!is_first()) return;
-    log_->head(head_of(app_, a_, *loaded_, workers_text(crew)));
-    for (const std::string& warning : warnings(crew)) log_->warning(warning);
+    log_->head(head_of(app_, a_, *loaded_, workers_text(layout)));
+    for (const std::string& warning : warnings(layout)) log_->warning(warning);
     if (checkpoints_.resumed) log_->resumed(checkpoints_.resumed->header());
   }
 

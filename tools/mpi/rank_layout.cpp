@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/mpi/crew.h"
+#include "tools/mpi/rank_layout.h"
 
 #include <fmt/format.h>
 
@@ -36,7 +36,8 @@ void share_machine(const CLI::App& app, SolveArguments& arguments, const MpiSess
   if (app.count("--memory-limit") == 0) arguments.memory_limit_gb /= on_host;
 }
 
-Crew gather_crew(const MpiSession& session, std::int64_t threads, const SharedMemory& memory) {
+RankLayout gather_rank_layout(const MpiSession& session, std::int64_t threads,
+                              const SharedMemory& memory) {
   return {session.gather(host_name()),
           gather_numbers(session, static_cast<int>(threads)),
           gather_numbers(session, usable_cores()),
@@ -45,32 +46,33 @@ Crew gather_crew(const MpiSession& session, std::int64_t threads, const SharedMe
           memory.bytes().size()};
 }
 
-std::string workers_text(const Crew& crew) {
-  const bool same = std::set(crew.threads.begin(), crew.threads.end()).size() == 1;
-  const auto hosts = std::set(crew.hosts.begin(), crew.hosts.end()).size();
-  return fmt::format(
-      "{}{} on {} rank{}, {} host{}{}",
-      same ? fmt::format("{}", crew.threads.front())
-           : fmt::format("{}", fmt::join(crew.threads, ", ")),
-      crew.threads.size() > 1 && same ? " each" : "", crew.threads.size(),
-      crew.threads.size() == 1 ? "" : "s", hosts, hosts == 1 ? "" : "s",
-      crew.shared_bytes == 0 ? "" : fmt::format(", {} MB shared", crew.shared_bytes / 1'000'000));
+std::string workers_text(const RankLayout& layout) {
+  const bool same = std::set(layout.threads.begin(), layout.threads.end()).size() == 1;
+  const auto hosts = std::set(layout.hosts.begin(), layout.hosts.end()).size();
+  return fmt::format("{}{} on {} rank{}, {} host{}{}",
+                     same ? fmt::format("{}", layout.threads.front())
+                          : fmt::format("{}", fmt::join(layout.threads, ", ")),
+                     layout.threads.size() > 1 && same ? " each" : "", layout.threads.size(),
+                     layout.threads.size() == 1 ? "" : "s", hosts, hosts == 1 ? "" : "s",
+                     layout.shared_bytes == 0
+                         ? ""
+                         : fmt::format(", {} MB shared", layout.shared_bytes / 1'000'000));
 }
 
-std::vector<std::string> warnings(const Crew& crew) {
+std::vector<std::string> warnings(const RankLayout& layout) {
   std::vector<std::string> found;
   std::map<std::string, std::pair<int, int>> by_host;  // threads, cores
   std::map<std::string, std::string> unshared;         // by host: why
-  for (std::size_t rank = 0; rank < crew.hosts.size(); ++rank) {
-    auto& [threads, cores] = by_host[crew.hosts[rank]];
-    threads += crew.threads[rank];
-    cores = crew.machines[rank];
-    if (!crew.unshared[rank].empty()) unshared[crew.hosts[rank]] = crew.unshared[rank];
-    if (crew.threads[rank] > crew.cores[rank] && crew.cores[rank] < crew.machines[rank])
+  for (std::size_t rank = 0; rank < layout.hosts.size(); ++rank) {
+    auto& [threads, cores] = by_host[layout.hosts[rank]];
+    threads += layout.threads[rank];
+    cores = layout.host_cores[rank];
+    if (!layout.unshared[rank].empty()) unshared[layout.hosts[rank]] = layout.unshared[rank];
+    if (layout.threads[rank] > layout.cores[rank] && layout.cores[rank] < layout.host_cores[rank])
       found.push_back(fmt::format(
           "rank {} has {} threads and may use {} of {} cores; see mpirun's --bind-to none, or "
           "srun's --cpus-per-task",
-          rank, crew.threads[rank], crew.cores[rank], crew.machines[rank]));
+          rank, layout.threads[rank], layout.cores[rank], layout.host_cores[rank]));
   }
   for (const auto& [name, counts] : by_host) {
     const auto [threads, cores] = counts;

@@ -13,11 +13,11 @@
 namespace grove::detail {
 
 // What each rank says of itself, by rank.
-struct Crew {
+struct RankLayout {
   std::vector<std::string> hosts;
   std::vector<int> threads;
   std::vector<int> cores;             // that it may use
-  std::vector<int> machines;          // all cores of its host
+  std::vector<int> host_cores;        // all cores of its host
   std::vector<std::string> unshared;  // why its host has no memory for all its ranks; empty: it has
   std::size_t shared_bytes = 0;       // that it has of such memory, on the host of this rank
 };
@@ -27,12 +27,13 @@ struct Crew {
 void share_machine(const CLI::App& app, SolveArguments& arguments, const MpiSession& session);
 
 // All ranks: what there is, this rank with so many threads and this part in a host's memory.
-Crew gather_crew(const MpiSession& session, std::int64_t threads, const SharedMemory& memory);
+RankLayout gather_rank_layout(const MpiSession& session, std::int64_t threads,
+                              const SharedMemory& memory);
 
 // "2 each on 4 ranks, 2 hosts", and "912 MB shared" where there are any
-std::string workers_text(const Crew& crew);
+std::string workers_text(const RankLayout& layout);
 // More threads than cores slow each other down, and cores may be left idle without intent. Nor is
 // it meant that each rank holds all for itself.
-std::vector<std::string> warnings(const Crew& crew);
+std::vector<std::string> warnings(const RankLayout& layout);
 
 }  // namespace grove::detail
