@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A worker is a thread that runs one child after the other, judges each and writes its row: as many
-// workers as children may run, so that judging takes no core from them. One mutex guards the table
-// and the counts; children run, and plans are checked, outside of it.
+// A worker thread runs one child process after another, evaluates the outcome and writes its row.
+// There are as many workers as children may run, so evaluation takes no core from them. One mutex
+// guards the table and the counts; it is not held while children run or plans are checked.
 //
-// A row is written only when the run has ended and was judged; a plan that is kept is in its place
-// before. Whatever ends this process therefore leaves no row of what was under way, and its
-// children die with it.
+// A row is written only after the run has ended and was evaluated, and after its plan, if kept, is
+// in place. So if this process ends, for whatever reason, there is no row of a run in progress; its
+// children are killed with it.
 #include "tools/bench/bench_run.h"
 
 #include <fmt/format.h>
@@ -33,9 +33,8 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kCsvInterval_s = 30;  // the whole file is written each time
-// The disk takes longer than a quick run. What a crash of the machine loses is run again.
-constexpr double kFlushInterval_s = 1;
+constexpr double kCsvInterval_s = 30;  // each time the whole file is written
+// A flush takes longer than a short run. Rows lost in a crash of the machine are run again.
 constexpr auto kWatchInterval = std::chrono::milliseconds(100);
 constexpr double kLongestCheck_s = 3600;
 
@@ -56,7 +55,7 @@ class Bench {
   }
 
   BenchState run() {
-    fs::remove_all(scratch());  // of a bench that was killed
+    fs::remove_all(scratch());  // left by a benchmark that was killed
     batch::make_folder(scratch());
     std::vector<std::jthread> threads;
     for (std::size_t worker = 0; worker < workers(); ++worker)
@@ -80,7 +79,7 @@ class Bench {
     Clock::time_point since;
   };
 
-  // --- which runs there are ---
+  // --- runs ---
 
   std::vector<batch::Run> runs() const {
     std::vector<batch::Run> runs;
@@ -120,7 +119,7 @@ class Bench {
     } catch (...) {
       const std::lock_guard lock(mutex_);
       if (!failure_) failure_ = std::current_exception();
-      failed_ = true;  // the others need not go on
+      failed_ = true;  // stops the other workers
     }
     --working_;
   }
@@ -135,14 +134,14 @@ class Bench {
 
   bool must_stop() const { return failed_ || options_.stopped(); }
 
-  // What a run writes, of each worker.
+  // Files of a run, per worker.
   struct Files {
     fs::path plan;
     fs::path said;
     fs::path log;
-    fs::path folder;  // of another solver
+    fs::path folder;  // of an external solver
     fs::path proof;
-    fs::path instance;  // for the checker, where it is a scenario
+    fs::path instance;  // for the certificate checker if the entry is a scenario
   };
   Files files_of(std::size_t worker) const {
     const auto named = [&](const char* end) {
@@ -168,7 +167,7 @@ class Bench {
     } catch (const InputError& error) {
       row.outcome = {.error = error.what()};
     }
-    if (row.outcome.interrupted() && must_stop()) return;  // the signal was for us all
+    if (row.outcome.interrupted() && must_stop()) return;  // the signal went to all processes
     row.ended_at = batch::machine_clock().utc();
     if (row.outcome.version.empty()) row.outcome.version = options_.version;
     record(row);
@@ -186,8 +185,8 @@ class Bench {
     return end;
   }
 
-  // False: it was cancelled. Reads the instance anew when it has ended: what is re-checked depends
-  // on the files alone.
+  // Returns false if the run was cancelled. Reads the instance again after the run, so that the
+  // check depends only on the files.
   bool solve(batch::Row& row, std::size_t run, const Files& files) {
     const std::size_t index = instance_index(run);
     const double limit = row.run.settings.time_limit_s;
@@ -213,7 +212,7 @@ class Bench {
     return true;
   }
 
-  // False: it was cancelled.
+  // Returns false if the check was cancelled.
   bool certify(batch::Outcome& outcome, std::size_t index, const LoadedInstance& loaded,
                const Files& files) const {
     const batch::Entry& entry = instances_[index].entry;
@@ -270,7 +269,7 @@ class Bench {
     fs::rename(file, kept);
   }
 
-  // Of another solver: as a plan file of Grove's; what is none as it is.
+  // For external solvers: keeps a valid plan as a plan file of Grove, and an invalid one unchanged.
   void keep(const ExternalRun& external, const Instance& instance, const Files& files,
             batch::Row& row) const {
     if (external.shown()) {
@@ -294,7 +293,7 @@ class Bench {
     next_csv_s_ = seconds() + kCsvInterval_s;
   }
 
-  // --- what one sees of it ---
+  // --- progress ---
 
   BenchState state() {
     const std::lock_guard lock(mutex_);
@@ -319,7 +318,7 @@ class Bench {
   const std::vector<std::size_t> todo_;  // of runs_
   RootCosts root_costs_;
 
-  std::mutex mutex_;  // guards the table and all below
+  std::mutex mutex_;  // guards table_ and all members below, except for the atomics
   std::size_t next_ = 0;
   BenchState state_;
   std::vector<UnderWay> under_way_;  // by worker

@@ -26,12 +26,12 @@ constexpr int kLookInterval_ms = 100;
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-// Between fork() and exec(), where only what is safe in a signal handler may be called.
+// Runs between fork() and exec(), so it calls only async-signal-safe functions.
 [[noreturn]] void exec_child(char* const* arguments, pid_t parent, int input, int output,
                              const rlimit* memory) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   ::setpgid(0, 0);
-  const bool orphaned = ::getppid() != parent;  // before the line above could help
+  const bool orphaned = ::getppid() != parent;  // the parent ended before prctl()
   if (memory != nullptr) ::setrlimit(RLIMIT_DATA, memory);
   if (!orphaned && ::dup2(input, STDIN_FILENO) >= 0 && ::dup2(output, STDOUT_FILENO) >= 0 &&
       ::dup2(output, STDERR_FILENO) >= 0)
@@ -50,7 +50,7 @@ ChildEnd ended(pid_t pid) {
   return end;
 }
 
-// A child that is not waited for yet, and its group, which it may not have made yet.
+// Kills a child that was not waited for yet, and its process group, which may not exist yet.
 void kill_all(pid_t pid) {
   ::kill(-pid, SIGKILL);
   ::kill(pid, SIGKILL);
@@ -83,7 +83,7 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
     exec_child(arguments.data(), parent, input.get(), output.get(),
                limits.memory_gb ? &memory : nullptr);
 
-  // glibc 2.36 declares pidfd_open() for C alone.
+  // glibc 2.36 declares pidfd_open() only for C.
   const FileDescriptor process(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
   if (!process.is_open()) {
     const int error = errno;
@@ -92,7 +92,7 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
     errno = error;
     fail("pidfd_open");
   }
-  auto killed = ChildEnd::Kind::kExited;  // that is: not
+  auto killed = ChildEnd::Kind::kExited;  // kExited: not killed
   for (;;) {
     pollfd wait{process.get(), POLLIN, 0};
     if (::poll(&wait, 1, kLookInterval_ms) > 0) break;
@@ -101,7 +101,7 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
     if (seconds() - start > limits.seconds) killed = ChildEnd::Kind::kTooLong;
     if (killed != ChildEnd::Kind::kExited) kill_all(pid);
   }
-  kill_all(pid);  // what it left behind
+  kill_all(pid);  // remaining processes of its group
   const double wall_s = seconds() - start;
   ChildEnd end = ended(pid);
   end.wall_s = wall_s;

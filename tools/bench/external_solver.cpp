@@ -28,13 +28,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// So much later than its limit an anytime solver may end: in seconds, or as a part of the limit.
+// How much later than its time limit an anytime solver may end: the maximum of kGrace_s seconds and
+// kGrace times the limit.
 constexpr double kGrace_s = 1;
 constexpr double kGrace = 0.1;
 constexpr std::array<std::string_view, 3> kTimeLimits{"time_limit", "time_limit_ms",
                                                       "time_limit_whole"};
 
-// Of a file that may not be there.
+// Returns "" if there is no such file.
 std::string text_of(const fs::path& path) {
   std::error_code error;
   return fs::is_regular_file(path, error) ? read_text(path) : std::string();
@@ -53,7 +54,7 @@ std::optional<Cost> cost_in(std::optional<double> number) {
   return static_cast<Cost>(std::llround(*number));
 }
 
-// A point of a trace, if the line says one.
+// Returns the point of a trace in this line; nullopt without a time or a cost.
 std::optional<batch::TracePoint> point_in(const TracePattern& pattern, const std::smatch& match,
                                           double time_limit_s) {
   batch::TracePoint point;
@@ -81,7 +82,7 @@ std::optional<batch::TracePoint> point_in(const TracePattern& pattern, const std
   return point.seconds >= 0 ? std::optional(point) : std::nullopt;
 }
 
-// By time, costs falling: what is no better is no news.
+// Sorts by time and keeps only points that improve the cost.
 std::vector<batch::TracePoint> better_and_better(std::vector<batch::TracePoint> trace) {
   std::ranges::stable_sort(trace, {}, &batch::TracePoint::seconds);
   std::vector<batch::TracePoint> better;
@@ -91,14 +92,14 @@ std::vector<batch::TracePoint> better_and_better(std::vector<batch::TracePoint> 
   return better;
 }
 
-// Without the names that its format has no place for, or that it may forget.
+// Replaces names that the solver's format cannot express, or that the solver may lose, by defaults.
 Instance as_told(const Instance& instance, SolverInput input) {
   if (input == SolverInput::kGrove) return instance;
   Instance told = with_default_agent_ids(instance);
   return input == SolverInput::kMgcbs ? with_default_task_ids(told) : told;
 }
 
-// A valid plan of the same agents, whose tasks may have other names and numbers here.
+// Converts a valid plan to the names and task numbers of `instance`, which has the same agents.
 Solution in_terms_of(const Instance& instance, Solution solution) {
   std::vector<Path> paths;
   for (AgentPlan& agent : solution.plan->agents) paths.push_back(std::move(agent.path));
@@ -106,7 +107,7 @@ Solution in_terms_of(const Instance& instance, Solution solution) {
   return solution;
 }
 
-// Empty: as it should, and in time.
+// Returns "" if the run exited with 0 within its time limit.
 std::string what_went_wrong(const ChildEnd& end, double time_limit_s, const fs::path& said) {
   if (end.wall_s > time_limit_s) return kTimeLimit;
   if (end.kind == ChildEnd::Kind::kSignalled)
@@ -115,9 +116,9 @@ std::string what_went_wrong(const ChildEnd& end, double time_limit_s, const fs::
   return "";
 }
 
-// What is said of plans on the way, as far as the plan that was re-checked bears it out: what an
-// anytime solver finds last is its best, so that none before can have cost less (some count another
-// cost), and with that one the trace ends.
+// Corrects the claimed trace by the re-checked plan of cost `cost`. The last plan of an anytime
+// solver is its best, so no earlier plan cost less (some solvers report another cost); the trace
+// ends with that plan.
 std::vector<batch::TracePoint> borne_out(std::vector<batch::TracePoint> trace, Cost cost,
                                          double wall_s) {
   std::erase_if(trace, [&](const batch::TracePoint& point) { return point.seconds > wall_s; });
@@ -159,8 +160,8 @@ void ExternalRun::write_input(const batch::Entry& entry) {
   }
 }
 
-// Not the files as they are: programs differ in which letters of a map they hold for free, and in
-// what they do with further rows.
+// Does not pass the original files: solvers differ in which map letters are passable, and in the
+// use of further rows of a scenario.
 void ExternalRun::write_moving_ai() {
   map_ = folder_ / "map.map";
   scenario_ = folder_ / "map.scen";
@@ -266,7 +267,7 @@ void ExternalRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
     const bool same = solver_.adapter.input == SolverInput::kGrove;
     shown_ = same ? told.solution : in_terms_of(loaded_.instance, told.solution);
   } catch (const InputError& broken) {
-    if (end.kind != ChildEnd::Kind::kExited || end.code != 0) return;  // while it wrote, perhaps
+    if (end.kind != ChildEnd::Kind::kExited || end.code != 0) return;  // maybe killed while writing
     outcome.status = batch::kWrongPlan;
     std::string text = broken.what();
     if (text.starts_with(folder_.string())) text.erase(0, folder_.string().size() + 1);
@@ -274,8 +275,8 @@ void ExternalRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
   }
 }
 
-// What is still solved although a limit struck: whatever goes on until it does, if it had a plan in
-// time. When it had one only it says itself; one that ends much later is not believed.
+// An anytime solver that ran until its limit counts as solved if it had a plan in time. Only its
+// own claim says when it had the plan, so a run that ends much later than its limit does not count.
 void ExternalRun::finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
                                    const fs::path& said) const {
   const double limit = settings_.time_limit_s;
@@ -285,11 +286,12 @@ void ExternalRun::finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
   outcome.error = what_went_wrong(end, limit, said);
   if (outcome.anytime && outcome.error == kTimeLimit && *outcome.first_plan_s <= limit) {
     const bool in_time = end.wall_s <= limit + std::max(kGrace_s, kGrace * limit);
-    outcome.error = in_time ? ""
-                            : fmt::format(
-                                  "{:.1f} s after the time limit it went on; when it "
-                                  "had a plan only it says",
-                                  end.wall_s - limit);
+    outcome.error =
+        in_time
+            ? ""
+            : fmt::format(
+                  "ended {:.1f} s after the time limit; only its own claim says when it had a plan",
+                  end.wall_s - limit);
   }
   outcome.solved = outcome.error.empty();
 }
@@ -303,7 +305,7 @@ void ExternalRun::finish_without_plan(batch::Outcome& outcome, const ChildEnd& e
       (solver_.adapter.solved && last_match(*solver_.adapter.solved, said))) {
     outcome.status = batch::kClaimed;
     outcome.error =
-        "claims a plan and shows none" + (outcome.error.empty() ? "" : "; " + outcome.error);
+        "claims a plan but wrote none" + (outcome.error.empty() ? "" : "; " + outcome.error);
   } else if (outcome.error.empty()) {
     outcome.error = "ended without a plan" + last_words(said);
   } else if (outcome.error != kTimeLimit) {

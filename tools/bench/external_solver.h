@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A program of someone else on the bench: what it is called with, and what is made of what it
-// leaves behind. Nothing that it says is believed: plans are re-checked and their costs counted
-// anew; the rest is kept as claims.
+// Runs of external solvers: their input files, command lines and output files. Nothing that a
+// solver reports is trusted: plans are re-checked and their costs recomputed; all other statements
+// are stored as claims.
 #pragma once
 
 #include <filesystem>
@@ -22,23 +22,24 @@ struct ExternalSolver {
   std::string program;  // {program}
 };
 
-// One run of it.
+// One run of an external solver.
 class ExternalRun {
  public:
-  // Writes what the solver reads into `folder`, which is its own and made anew. Throws
-  // NotRepresentable where it cannot be given this instance, InputError where files cannot be
-  // written. `loaded` is the instance of `entry`; all must outlive this.
+  // Writes the input files of the solver into `folder`, which belongs to this run and is emptied
+  // first. Throws NotRepresentable if the solver's format cannot express this instance, and
+  // InputError if files cannot be written. `loaded` is the instance of `entry`; all arguments must
+  // outlive this object.
   ExternalRun(const ExternalSolver& solver, const batch::Entry& entry, const LoadedInstance& loaded,
               const batch::Settings& settings, std::filesystem::path folder);
 
   std::vector<std::string> command() const;
-  // Whether it is told of the time limit, and so may end by itself when that strikes.
+  // Whether the command line contains the time limit, so that the solver may end by itself then.
   bool knows_the_limit() const;
-  // The outcome of a run that has ended and was not cancelled; it said what is in the file `said`.
+  // Returns the outcome of a run that ended and was not cancelled. `said`: its output.
   batch::Outcome outcome_of_run(const ChildEnd& end, const std::filesystem::path& said);
-  // The plan that it wrote and that was found to be one.
+  // The plan that it wrote, if it passed the check.
   const std::optional<Solution>& shown() const { return shown_; }
-  // The file in which it wrote one, perhaps.
+  // The file for the plan, which may not exist.
   std::filesystem::path plan() const;
 
  private:
@@ -71,21 +72,21 @@ class ExternalRun {
 
 struct NamedSolver {
   std::string name;
-  std::string options;  // for the table: without where programs lie
+  std::string options;  // for the table: without paths of programs
   ExternalSolver solver;
 };
 
-// Reads "NAME=COMMAND" of the command line:
-//   eecbs=/opt/eecbs --suboptimality 1.1       the adapter of that name, its program, more words
+// Parses the values "NAME=COMMAND" of --solver:
+//   eecbs=/opt/eecbs --suboptimality 1.1       the adapter NAME, its program, further options
 //   fast=eecbs:/opt/eecbs --suboptimality 2    an adapter under another name
-//   mine=my.json:/opt/mine                     one of one's own
-//   mine=/opt/mine {instance} {output}         a command with places for what it is given
+//   mine=my.json:/opt/mine                     an adapter of the user
+//   mine=/opt/mine {instance} {output}         a command with placeholders
 // `claims` are "NAME=REGEX": where such a solver prints its cost. Throws CLI::ValidationError, and
-// InputError where an adapter's file is wrong.
+// InputError if the file of an adapter is wrong.
 std::vector<NamedSolver> read_solver_arguments(const std::vector<std::string>& solvers,
                                                const std::vector<std::string>& claims);
 
-// The names of the adapters that Grove brings.
+// Returns the names of the adapters that Grove ships.
 std::vector<std::string> known_adapters();
 
 }  // namespace grove::detail::bench

@@ -18,14 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kPatience_s = 60;  // to read an instance
+constexpr double kPatience_s = 60;  // time limit of a dry run; it only reads the instance
 
 class Scratch {
  public:
   Scratch() {
     std::string name = (fs::temp_directory_path() / "grove-bench-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr)
-      throw InputError(name, "", "cannot be made: " + std::generic_category().message(errno));
+      throw InputError(name, "", "cannot be created: " + std::generic_category().message(errno));
     folder_ = name;
   }
   ~Scratch() {
@@ -67,7 +67,8 @@ void check_method_support(const std::vector<BenchInstance>& instances,
     }
     if (refused != nullptr)
       throw InputError(refused->entry.path, "",
-                       fmt::format("is not for the run '{}': {}", method.settings.method, why));
+                       fmt::format("the method of run '{}' does not accept it: {}",
+                                   method.settings.method, why));
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finding out before a bench whether its methods take its instances at all.
+// Checks before a benchmark starts that its methods accept its instances.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,10 @@
 
 namespace grove::detail::bench {
 
-// Starts every method on one instance of each kind, with a time limit of 0. Throws InputError if it
-// refuses all of them (exit code 2): then an option is wrong, or the method suits no instance. Any
-// other failure, and solvers of others, are left to the rows. Leaves nothing behind.
+// Starts every method of Grove on one instance of each kind, with a time limit of 0. Throws
+// InputError if a method refuses all of them (exit code 2), because then an option is wrong or no
+// instance suits the method. Other failures are left to the rows of the runs. Deletes all files
+// that it made.
 void check_method_support(const std::vector<BenchInstance>& instances,
                           const std::vector<Method>& methods, const BenchOptions& options);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What to make of a run that has ended.
+// Outcomes of finished runs of grove.
 #pragma once
 
 #include <cstddef>
@@ -13,34 +13,34 @@
 
 namespace grove::detail::bench {
 
-// The outcome of a solve of `instance` that was to write `plan_file` and said what is in the file
-// `said`: believes the plan file nothing that the checker can work out itself. Never throws for
-// what the run did wrong: that is an outcome. Not for runs that were cancelled.
-// A run that took longer than `time_limit_s` is not solved, though it may think so: it looks at the
-// clock now and then, and a process takes some time to begin and to end.
+// Returns the outcome of a run that solved `instance`, with plan file `plan_file` and output
+// `said`. From the plan file it accepts only what the checker confirms or cannot compute itself.
+// Never throws because of a failure of the run; that is an outcome. Not for cancelled runs. A run
+// that took longer than `time_limit_s` is not solved, even if its plan file says so: a solver reads
+// the clock only at intervals, and a process takes time to start and to end.
 batch::Outcome outcome_of_run(const ChildEnd& end, double time_limit_s, const Instance& instance,
                               const std::filesystem::path& plan_file,
                               const std::filesystem::path& said);
 
-// Has the checker of certificates, which said what is in the file `said`, verified all that the
-// outcome claims? What it says else becomes the outcome's error, if it has none.
+// Returns whether the certificate checker, with output `said`, verified all that the outcome
+// claims. Otherwise its message becomes the outcome's error, unless there is one.
 bool is_verified(batch::Outcome& outcome, const ChildEnd& end, const std::filesystem::path& said);
 
-inline constexpr const char* kTimeLimit = "time limit";  // as an error
+inline constexpr const char* kTimeLimit = "time limit";  // as text of an error
 
-// So many are kept.
+// Maximum number of points of a trace.
 inline constexpr std::size_t kMostTracePoints = 200;
 
-// The plans that a run had on the way, from its log for programs (--log-format jsonl). A log that
-// is not there, or cut off, tells what it tells.
+// Returns the incumbents of a run, read from its JSON log (--log-format jsonl); from a truncated
+// log as many as it has, without a log none.
 std::vector<batch::TracePoint> trace_of_log(const std::filesystem::path& log);
 
 // Whether grove refused its instance or its options.
 bool is_refusal(const ChildEnd& end);
-// Why, without the name of the instance, which the reader knows.
+// Returns why, without the name of the instance.
 std::string refusal(const std::filesystem::path& said, const std::string& instance);
 
-// The last line that grove said, after a colon and a blank; empty if it said nothing.
+// Returns ": " and the last line of the output of grove; "" if there is no output.
 std::string last_words(const std::filesystem::path& said);
 
 }  // namespace grove::detail::bench

@@ -220,7 +220,7 @@ TEST_F(Benches, AreRehearsedOnEveryKind) {
   EXPECT_NO_THROW(check_method_support(instances_, methods_, options_));
   solver("echo 'grove: error: not for me'; exit 2");
   EXPECT_EQ(refusal([&] { check_method_support(instances_, methods_, options_); }).substr(2),
-            ".cts.json: is not for the run 'm0': not for me");
+            ".cts.json: the method of run 'm0' does not accept it: not for me");
   EXPECT_FALSE(fs::exists(options_.folder));
 }
 

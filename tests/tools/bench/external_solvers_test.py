@@ -95,7 +95,7 @@ class Solvers(ExternalSolverTests):
         self.assertEqual(row["claimed_cost"], 14)
         self.assertEqual(self.summary()["collides"]["wrong"], "1")
         self.assertEqual(self.summary()["grove"]["wrong"], "0")
-        self.assertIn("wrong: a plan that is none", self.said)
+        self.assertIn("wrong: invalid plans", self.said)
         self.assertIn("Agent 0:", (self.folder / "out" / row["plan_file"]).read_text())
 
     def test_one_that_claims_without_a_plan(self):
@@ -156,7 +156,7 @@ class Solvers(ExternalSolverTests):
         running.send_signal(signal.SIGINT)
         _, err = running.communicate(timeout=HANG_S)
         self.assertEqual((running.returncode, err),
-                         (130, "grove: stopped with 1 run left; the same command goes on\n"))
+                         (130, "grove: stopped with 1 run left; repeat the command to resume\n"))
         self.assertEqual(self.lines(), [])
         wait_until("it is gone", lambda: not self.lives(child))
 
@@ -189,7 +189,7 @@ class Solvers(ExternalSolverTests):
         (self.folder / "fake-late.json").write_text(json.dumps(adapter))
         row = self.row_of("late", limit=1, adapter="fake-late.json")
         self.assertEqual((row["solved"], row["cost"]), (False, 14), row)
-        self.assertRegex(row["error"], r"after the time limit it went on; when it had a plan only it says")
+        self.assertRegex(row["error"], r"after the time limit; only its own claim says when it had a plan")
 
     def test_groves_own_trace_ends_with_its_plan(self):
         self.row_of("honest")
@@ -285,10 +285,10 @@ class Commands(ExternalSolverTests):
                                ("x=/bin/true", "no adapter is called 'x'", "eecbs, ita-cbs2, lacam3"),
                                ("eecbs=/nowhere/eecbs", "there is no program /nowhere/eecbs"),
                                ("eecbs=nowhere", "there is no program nowhere in the folders of PATH"),
-                               ("eecbs=./text", "may not be run"),
+                               ("eecbs=./text", "is not executable"),
                                (f"x={fake} {{maps}}", "found {maps}; expected one of {program}"),
                                (f"x={fake} {{map}} {{output}}", "expected {map} and {scenario}"),
-                               (f"x={fake} {{map}} {{scenario}}", "writes no plan to {output}"),
+                               (f"x={fake} {{map}} {{scenario}}", "has no {output} for a plan"),
                                (f"x={fake} {{instance}} {{map}} {{output}}", "and not both"),
                                (f"x=broken.json:{fake}", "broken.json: /", "command"),
                                (f"x=missing.json:{fake}", "missing.json")):
@@ -351,8 +351,8 @@ class Sweeps(ExternalSolverTests):
         self.add_scenario("open-random-2", 2)
         running = self.start(*self.sweep(agents="2,3"))
         _, err = running.communicate(timeout=HANG_S)
-        self.assertEqual(err, "grove: warning: 1 scenario has fewer rows than the most of --agents; what there is "
-                              "not is left out\n")
+        self.assertEqual(err, "grove: warning: 1 scenario has fewer rows than the maximum of --agents; "
+                              "instances with more agents than rows are left out\n")
         self.assertEqual(len(self.rows()), 3)
 
     def test_refusals(self):
