@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Programs that lie beside this one and do what few runs need: what they take to start costs no
-// other command.
+// Programs beside this one with functions that few commands need, so that other commands start
+// without their libraries.
 #pragma once
 
 #include <string>
@@ -9,15 +9,16 @@
 
 namespace grove::detail {
 
-// What standard input then holds, in this program and in the one that it becomes. Throws
-// InputError.
+// Makes `text` the standard input of this program, and of a program that exec_program() starts.
+// Throws InputError.
 void replace_standard_input(std::string_view text);
 
-// A program of users that is built and installed beside this one. Throws InputError if it is not.
+// Returns the path of a program that is built and installed beside this one. Throws InputError if
+// there is none.
 std::string program_beside(const std::string& name);
 
-// Becomes that program; does not return. Throws InputError if it is not there or cannot be run.
-// `package`: the Debian package that holds it.
+// Replaces this process by that program (exec); does not return. Throws InputError if it does not
+// exist or cannot be run. `package`: the Debian package that contains it.
 [[noreturn]] void exec_program(const std::string& name, const std::vector<std::string>& arguments,
                                const std::string& package = "grove");
 

@@ -19,7 +19,7 @@ extern "C" void on_signal(int signal) {
 
 namespace {
 
-// One that was blocked when the program was started, and came, comes now.
+// Unblocks signals. A signal that is already pending is delivered now.
 void unblock(std::initializer_list<int> signals) {
   sigset_t set;
   ::sigemptyset(&set);

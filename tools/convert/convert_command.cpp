@@ -97,7 +97,7 @@ constexpr double kMostScale = 1e6;
 
 // Options that do nothing are mistakes.
 void require_use(bool given, bool used, const std::string& option, const std::string& when) {
-  if (given && !used) throw CLI::ValidationError(option, "expected only with " + when);
+  if (given && !used) throw CLI::ValidationError(option, "allowed only with " + when);
 }
 
 void require_known_drops(const std::string& drop) {

@@ -130,7 +130,7 @@ void convert_map(const ConvertArguments& arguments) {
   const std::string format = map_source_format(arguments);
   if (format == "ros") return convert_occupancy(arguments);
   if (arguments.frame.given() || arguments.robot_radius > 0)
-    throw CLI::ValidationError("--cell-size, --robot-radius", "expected only with a map of ROS");
+    throw CLI::ValidationError("--cell-size, --robot-radius", "allowed only with a map of ROS");
   if (format != "ascii")
     throw CLI::ValidationError(
         "--from", fmt::format("{}; expected ros or ascii, for OUT is a map",

@@ -161,7 +161,7 @@ void convert_roadmap(const ConvertArguments& arguments) {
   require_roadmap_target(arguments, format);
   if (format != "lif" && (!arguments.layout.empty() || !arguments.vehicle_type.empty()))
     throw CLI::ValidationError(arguments.layout.empty() ? "--vehicle-type" : "--layout",
-                               "expected only with LIF");
+                               "allowed only with LIF");
   const StepScale scale = require_scale(arguments);
   const RoadNetwork network = read_network(arguments, format);
   const SteppedRoads stepped = in_steps(network, scale, arguments.rules());

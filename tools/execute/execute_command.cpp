@@ -273,9 +273,9 @@ void add_execute_command(CLI::App& app) {
       ->type_name("FILE.html");
   command->callback([command, arguments] {
     if (arguments->frame.given() && arguments->order.empty())
-      throw CLI::ValidationError("--cell-size, --origin", "expected only with --order");
+      throw CLI::ValidationError("--cell-size, --origin", "allowed only with --order");
     if (command->count("--delay-steps") > 0 && command->count("--delays") == 0)
-      throw CLI::ValidationError("--delay-steps", "expected only with --delays");
+      throw CLI::ValidationError("--delay-steps", "allowed only with --delays");
     Execution(*command, *arguments).run();
   });
 }

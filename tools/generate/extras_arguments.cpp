@@ -50,10 +50,10 @@ void ExtrasArguments::add_to(CLI::App& command) {
 Extras ExtrasArguments::extras(bool with_goals) const {
   for (const char* option : {"--turn-steps", "--goal-headings"})
     if (!turning_ && command_->count(option) > 0)
-      throw CLI::ValidationError(option, "expected only with --turning");
+      throw CLI::ValidationError(option, "allowed only with --turning");
   if (goal_headings_ && !with_goals)
     throw CLI::ValidationError("--goal-headings",
-                               "expected only where some agents have destinations");
+                               "allowed only where some agents have destinations");
   return {.turn_steps = turning_ ? static_cast<Time>(turn_steps_) : 0,
           .goal_headings = goal_headings_,
           .durations = durations_};

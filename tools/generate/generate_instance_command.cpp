@@ -71,7 +71,7 @@ void require_fitting(const CLI::App& command) {
     throw CLI::RequiredError("--map or --roadmap");
   const auto require_only = [&](const std::string& option, const std::string& where) {
     if (command.count(option) > 0)
-      throw CLI::ValidationError(option, fmt::format("expected only {}", where));
+      throw CLI::ValidationError(option, fmt::format("allowed only {}", where));
   };
   if (command.count("--roadmap") > 0) {
     require_only("--map", "without --roadmap");

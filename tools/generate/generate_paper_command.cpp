@@ -142,7 +142,7 @@ void run(const CLI::App& app, const PaperArguments& arguments) {
   const Extras extras = arguments.extras.extras(arguments.problem != "mg");
   const bool draws = arguments.movingai.empty();
   if (draws && app.count("--maps") > 0)
-    throw CLI::ValidationError("--maps", "expected only with --movingai");
+    throw CLI::ValidationError("--maps", "allowed only with --movingai");
   const std::vector<MapSet> maps = draws ? draw_map_sets(arguments) : load_map_sets(arguments);
   const SetSizes sizes{arguments.agents, arguments.tasks, kProblems.at(arguments.problem), extras};
   require_fitting(maps, sizes);

@@ -73,7 +73,7 @@ Roadmap draw_warehouse(const RoadmapArguments& arguments) {
 void require_options_of_kind(const CLI::App& command, bool planar) {
   for (const CLI::Option* option : command.get_options())
     if (option->count() > 0 && option->get_group() == (planar ? kOnlyWarehouse : kOnlyPlanar))
-      throw CLI::ValidationError(option->get_name(), fmt::format("expected only with --kind {}",
+      throw CLI::ValidationError(option->get_name(), fmt::format("allowed only with --kind {}",
                                                                  planar ? "warehouse" : "planar"));
 }
 

@@ -357,7 +357,7 @@ class Sweeps(ExternalSolverTests):
 
     def test_refusals(self):
         self.add_scenario("open-random-1", 3)
-        for agents, text in (("3:1", "the smaller number first"), ("0:3", "from 1 to"), ("2,2", "rising"),
+        for agents, text in (("3:1", "the smaller number first"), ("0:3", "from 1 to"), ("2,2", "increasing"),
                              ("1:2:3:4", "FIRST:LAST:STEP"), ("1:9:0", "from 1 to"), ("x", "'x'"), ("9", "9 rows")):
             self.refuses(self.sweep(agents=agents), text)
         self.refuses(self.sweep("--scenarios", "closed*"), "holds no scenario 'closed*.scen'")

@@ -69,7 +69,7 @@ TEST(Usage, WrongUsageGetsOneLineAndAHint) {
   EXPECT_EQ(said({"check", "a.scen", "b", "--map", "m"}),
             "--agents: required with a .scen file (see 'grove check --help')");
   EXPECT_EQ(said({"check", "a.json", "b", "--map", "m"}),
-            "--map, --agents: expected only with a .scen file (see 'grove check --help')");
+            "--map, --agents: allowed only with a .scen file (see 'grove check --help')");
   EXPECT_EQ(said({"generate", "map", "empty"}),
             "--output is required (see 'grove generate map empty --help')");
   EXPECT_EQ(said({"generate", "map", "empty", "-o", "x", "a\nb"}),

@@ -226,18 +226,21 @@ TEST_F(ConvertCommand, OverwritesNoneOfItsInputs) {
 
 TEST_F(ConvertCommand, FormatsAreGuessedOnlyWhereTheNameTells) {
   directory_.write("x.json", kTasks);
-  EXPECT_EQ(refused({"x.json", "o.yaml"}),
-            "--from: required, for the name 'x.json' does not tell the format; expected one of "
-            "grove, libmrp, mgcbs, mapfw, scen" +
-                kHint);
+  EXPECT_EQ(
+      refused({"x.json", "o.yaml"}),
+      "--from: required, because the suffix of 'x.json' is not that of a format; expected one of "
+      "grove, libmrp, mgcbs, mapfw, scen" +
+          kHint);
   EXPECT_EQ(refused({"plain.yaml", "o.txt"}),
-            "--to: required, for the name 'o.txt' does not tell the format; expected one of grove, "
+            "--to: required, because the suffix of 'o.txt' is not that of a format; expected one "
+            "of grove, "
             "libmrp, mgcbs, mapfw, scen" +
                 kHint);
-  EXPECT_EQ(refused({"--plan", "p.json", "plain.yaml", "o.txt"}),
-            "--to: required, for the name 'o.txt' does not tell the format; expected one of "
-            "libmrp, mapf-visualizer, eecbs, tracker, tracker-csv, waypoints, nav-path, planviz" +
-                kHint);
+  EXPECT_EQ(
+      refused({"--plan", "p.json", "plain.yaml", "o.txt"}),
+      "--to: required, because the suffix of 'o.txt' is not that of a format; expected one of "
+      "libmrp, mapf-visualizer, eecbs, tracker, tracker-csv, waypoints, nav-path, planviz" +
+          kHint);
   EXPECT_EQ(refused({"--from", "grv", "x.json", "o.yaml"}),
             "--from: found 'grv'; expected one of grove, libmrp, mgcbs, mapfw, scen" + kHint);
   EXPECT_EQ(converted({"--from", "grove", "x.json", "--to", "mapfw", "o.txt"}),
@@ -251,17 +254,17 @@ TEST_F(ConvertCommand, OptionsThatDoNothingAreMistakes) {
   };
   EXPECT_EQ(said({"plain.scen", "o.yaml"}), "--map: required with a .scen INSTANCE");
   EXPECT_EQ(said({"plain.yaml", "o.cts.json", "--agents", "1"}),
-            "--agents: expected only with a .scen INSTANCE");
+            "--agents: allowed only with a .scen INSTANCE");
   EXPECT_EQ(said({"plain.yaml", "o.mapfw.json", "--map", "m.map"}),
-            "--map: expected only with a .scen INSTANCE, or an OUT with a map");
+            "--map: allowed only with a .scen INSTANCE, or an OUT with a map");
   EXPECT_EQ(said({"plain.yaml", "o.cts.json", "--scenario", "even-1"}),
-            "--scenario: expected only with --plan and --to tracker");
+            "--scenario: allowed only with --plan and --to tracker");
   EXPECT_EQ(said({"plain.yaml", "o.cts.json", "--flip-up-down"}),
-            "--flip-up-down: expected only with --plan and --to tracker");
+            "--flip-up-down: allowed only with --plan and --to tracker");
   EXPECT_EQ(said({"--plan", "p.json", "plain.yaml", "o.yaml", "--drop", "ids"}),
-            "--drop: expected only with instances, not with --plan");
+            "--drop: allowed only with instances, not with --plan");
   EXPECT_EQ(said({"--plan", "p.json", "plain.yaml", "o.yaml", "--map", "m.map"}),
-            "--map: expected only with a .scen INSTANCE");
+            "--map: allowed only with a .scen INSTANCE");
   EXPECT_EQ(said({"plain.yaml", "o.cts.json", "--drop", "agents"}),
             "--drop: found 'agents'; expected ids, tasks or ids,tasks");
   EXPECT_EQ(said({"--plan", "p.json", "plain.yaml", "o.csv", "--scenario", "even-1"}),

@@ -207,15 +207,16 @@ TEST_F(ConvertRoadmap, OptionsThatDoNotFitAreRefused) {
             "--to: found 'libmrp'; graphml holds roads: expected roadmap, or a file "
             "*.roadmap.json" +
                 kHint);
-  EXPECT_EQ(refused({"plant.json", "o.roadmap.json"}),
-            "--from: required, for the name 'plant.json' does not tell the format; expected "
-            "graphml or lif, for OUT is a roadmap" +
-                kHint);
+  EXPECT_EQ(
+      refused({"plant.json", "o.roadmap.json"}),
+      "--from: required, because the suffix of 'plant.json' is not that of a format; expected "
+      "graphml or lif, for OUT is a roadmap" +
+          kHint);
   EXPECT_EQ(refused({"i.cts.json", "o.roadmap.json", "--from", "grove"}),
             "--from: found 'grove'; expected graphml or lif, for OUT is a roadmap" + kHint);
-  EXPECT_EQ(with({"--layout", "x"}), "--layout: expected only with LIF" + kHint);
-  EXPECT_EQ(with({"--vehicle-type", "x"}), "--vehicle-type: expected only with LIF" + kHint);
-  const std::string only = ": expected only with instances and plans" + kHint;
+  EXPECT_EQ(with({"--layout", "x"}), "--layout: allowed only with LIF" + kHint);
+  EXPECT_EQ(with({"--vehicle-type", "x"}), "--vehicle-type: allowed only with LIF" + kHint);
+  const std::string only = ": allowed only with instances and plans" + kHint;
   EXPECT_EQ(with({"--plan", "p"}), "--plan" + only);
   EXPECT_EQ(with({"--map", "m"}), "--map" + only);
   EXPECT_EQ(with({"--agents", "3"}), "--agents" + only);
@@ -223,7 +224,7 @@ TEST_F(ConvertRoadmap, OptionsThatDoNotFitAreRefused) {
   EXPECT_EQ(with({"--scenario", "even-1"}), "--scenario" + only);
   EXPECT_EQ(with({"--flip-up-down"}), "--flip-up-down" + only);
   const std::string roads =
-      ": expected only with roads: a *.graphml or *.lif.json INSTANCE, or --from graphml or lif";
+      ": allowed only with roads: a *.graphml or *.lif.json INSTANCE, or --from graphml or lif";
   for (const Arguments& option : {Arguments{"--metres-per-step", "1"},
                                   {"--layout", "l"},
                                   {"--vehicle-type", "t"},

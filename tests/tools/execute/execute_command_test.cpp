@@ -163,7 +163,7 @@ TEST_F(ExecuteCommand, RefusesWhatCannotBe) {
   EXPECT_THAT(complaint(execute({"--stop", "a1@x=3"})), HasSubstr("--stop"));
   EXPECT_THAT(complaint(execute({"--dies", "a1"})), HasSubstr("ROBOT@TIME"));
   EXPECT_THAT(complaint(execute({"--delays", "2"})), HasSubstr("--delays"));
-  EXPECT_THAT(complaint(execute({"--delay-steps", "2"})), HasSubstr("expected only with --delays"));
+  EXPECT_THAT(complaint(execute({"--delay-steps", "2"})), HasSubstr("allowed only with --delays"));
   json plan = json::parse(std::ifstream(plan_));
   plan["agents"][0]["path"][1] = {0, 0};
   std::ofstream(directory_ / "bad.json") << plan;

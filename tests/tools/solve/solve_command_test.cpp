@@ -93,7 +93,7 @@ TEST_F(SolveCommand, TakesTheMapThatLiesBesideAScenario) {
   EXPECT_THAT(solved.out, HasSubstr("empty-32x32.map: 32 x 32"));
   std::filesystem::copy(data("empty-32x32.scen"), directory_.path());
   EXPECT_THAT(complaint(solve({"empty-32x32.scen", "--agents", "3"})),
-              HasSubstr("does not lie beside the map that it names"));
+              HasSubstr("is not beside the map that it names"));
 }
 
 TEST_F(SolveCommand, ReadsAnInstanceFromStandardInput) {
