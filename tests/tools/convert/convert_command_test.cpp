@@ -131,8 +131,7 @@ TEST_F(ConvertCommand, NoMapIsOverwritten) {
   const std::string other = replaced(kMap, ".@...", "..@..");
   directory_.write("o.map", other);
   EXPECT_EQ(refused({"plain.yaml", "o.cts.json"}),
-            "o.map: is another map than that of 'plain.yaml'; expected the same 5 x 3 cells, "
-            "passable and blocked alike");
+            "o.map: is not the map of 'plain.yaml'; expected the same 5 x 3 cells");
   EXPECT_EQ(content("o.map"), other);
   EXPECT_EQ(refused({"plain.yaml", "x.cts.json", "--map", "o.map"}).substr(0, 21),
             "o.map: is another map");
@@ -149,7 +148,7 @@ TEST_F(ConvertCommand, TerrainIsTakenAsTheSolverTakesIt) {
 TEST_F(ConvertCommand, TasksAreNotLostUnasked) {
   const std::string problem =
       "tasks.cts.json: /tasks/0: task 't0' cannot be said in a .scen file; expected no tasks "
-      "(--drop tasks gives the tasks up)";
+      "(--drop tasks leaves the tasks out)";
   EXPECT_EQ(refused({"tasks.cts.json", "o.scen"}), problem);
   EXPECT_EQ(refused({"tasks.cts.json", "o.scen", "--drop", "ids"}), problem);
   EXPECT_EQ(converted({"tasks.cts.json", "o.scen", "--drop", "tasks"}),
@@ -166,7 +165,7 @@ TEST_F(ConvertCommand, IdsAreNotLostUnasked) {
   directory_.write("red.cts.json", replaced(kPlain, "a1", "red"));
   EXPECT_EQ(refused({"red.cts.json", "o.scen"}),
             "red.cts.json: /agents/1: a .scen file has no ids: read back, agent 'red' would be "
-            "'a1'; expected that id (--drop ids gives the ids up)");
+            "'a1'; expected that id (--drop ids leaves the ids out)");
   converted({"red.cts.json", "o.scen", "--drop", "ids"});
   EXPECT_EQ(content("o.scen"), kScen);
   converted({"red.cts.json", "o.yaml", "--drop", "ids"});
@@ -174,7 +173,7 @@ TEST_F(ConvertCommand, IdsAreNotLostUnasked) {
   directory_.write("shelf.cts.json", replaced(kMg, "t0", "shelf"));
   EXPECT_EQ(refused({"shelf.cts.json", "o.yaml", "--to", "mgcbs"}),
             "shelf.cts.json: /tasks/0: MGCBS's YAML has no ids of tasks: read back, task 'shelf' "
-            "(number 0) would be 't0' (number 0); expected that (--drop ids gives the ids up)");
+            "(number 0) would be 't0' (number 0); expected that (--drop ids leaves the ids out)");
   converted({"shelf.cts.json", "o.yaml", "--to", "mgcbs", "--drop", "ids"});
   EXPECT_NE(content("o.yaml").find("name: red"), std::string::npos);
 }

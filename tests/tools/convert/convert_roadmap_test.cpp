@@ -120,7 +120,7 @@ TEST_F(ConvertRoadmap, WithoutRoundingItSaysSo) {
 
 const std::string kLanes =
     "grove: warning: p.lif.json: 3 pairs of opposite edges are two lanes each, on which robots "
-    "pass one another; where robots share one lane: --merge-lanes\n";
+    "pass one another; use --merge-lanes if robots share one lane\n";
 
 TEST_F(ConvertRoadmap, LifBecomesARoadmapOfTwoLanesOrOne) {
   const Arguments convert = {"p.lif.json", "o.roadmap.json",     "--metres-per-step",
@@ -137,7 +137,7 @@ TEST_F(ConvertRoadmap, LifBecomesARoadmapOfTwoLanesOrOne) {
   merge.emplace_back("--merge-lanes");
   EXPECT_EQ(converted(merge,
                       "grove: warning: p.lif.json: 1 pairs of opposite edges take different "
-                      "numbers of steps and stay two lanes each\n")
+                      "numbers of steps and remain two lanes each\n")
                 .substr(0, 72),
             "wrote o.roadmap.json: 4 vertices, 4 roads, 2 of them one way, 33 places\n");
   EXPECT_EQ(solved(), "valid: cost 53, lower bound 53, gap 0.00 %, 2 agents\n");
@@ -177,11 +177,11 @@ TEST_F(ConvertRoadmap, SpeedsThatDoNotCountAreTold) {
   const ProcessResult result = run({"p.lif.json", "o.roadmap.json", "--metres-per-step", "6"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err,
-            "grove: warning: p.lif.json: tells the speed or the duration of 6 edges, which counts "
-            "only with --seconds-per-step\n" +
+            "grove: warning: p.lif.json: has a speed or a duration for 6 edges; expected "
+            "--seconds-per-step to use them\n" +
                 kLanes +
-                "grove: warning: p.lif.json: on 3 of these pairs, of one step, robots cannot pass "
-                "one another; for that: shorter steps\n");
+                "grove: warning: p.lif.json: robots cannot pass one another on 3 of these "
+                "pairs, which take one step; use shorter steps to allow it\n");
 }
 
 TEST_F(ConvertRoadmap, OptionsThatDoNotFitAreRefused) {
@@ -192,7 +192,7 @@ TEST_F(ConvertRoadmap, OptionsThatDoNotFitAreRefused) {
     return refused(all);
   };
   EXPECT_EQ(refused({"g.graphml", "o.roadmap.json"}),
-            "--metres-per-step: required; expected how far a robot goes in a step, or "
+            "--metres-per-step: required; expected metres per step, or "
             "--seconds-per-step" +
                 kHint);
   for (const std::string wrong : {"0", "-1", "nan", "inf", "x", ""})
@@ -200,20 +200,20 @@ TEST_F(ConvertRoadmap, OptionsThatDoNotFitAreRefused) {
               "--seconds-per-step: found '" + wrong + "'; expected a number from 1e-06 to 1000000" +
                   kHint);
   EXPECT_EQ(refused({"g.graphml", "o.json", "--metres-per-step", "1"}),
-            "--to: found 'o.json'; graphml holds roads: expected roadmap, or a file "
+            "--to: found 'o.json'; graphml contains roads; expected roadmap, or a file "
             "*.roadmap.json" +
                 kHint);
   EXPECT_EQ(refused({"g.graphml", "o.yaml", "--to", "libmrp"}),
-            "--to: found 'libmrp'; graphml holds roads: expected roadmap, or a file "
+            "--to: found 'libmrp'; graphml contains roads; expected roadmap, or a file "
             "*.roadmap.json" +
                 kHint);
   EXPECT_EQ(
       refused({"plant.json", "o.roadmap.json"}),
       "--from: required, because the suffix of 'plant.json' is not that of a format; expected "
-      "graphml or lif, for OUT is a roadmap" +
+      "graphml or lif, because OUT is a roadmap" +
           kHint);
   EXPECT_EQ(refused({"i.cts.json", "o.roadmap.json", "--from", "grove"}),
-            "--from: found 'grove'; expected graphml or lif, for OUT is a roadmap" + kHint);
+            "--from: found 'grove'; expected graphml or lif, because OUT is a roadmap" + kHint);
   EXPECT_EQ(with({"--layout", "x"}), "--layout: allowed only with LIF" + kHint);
   EXPECT_EQ(with({"--vehicle-type", "x"}), "--vehicle-type: allowed only with LIF" + kHint);
   const std::string only = ": allowed only with instances and plans" + kHint;
