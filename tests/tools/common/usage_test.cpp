@@ -114,8 +114,10 @@ TEST(Usage, NumbersAreCheckedWithFriendlyWords) {
     EXPECT_EQ(said("--obstacles", wrong), "--obstacles: found '" + std::string(wrong) +
                                               "'; expected a number from 0 to 1" + hint);
   EXPECT_EQ(said("--seed", "-1"), "--seed: found '-1'; expected an integer of at least 0" + hint);
-  EXPECT_EQ(said("--obstacles", "1"),
-            "map: 1024 obstacles on 1024 cells leave fewer than 2 passable ones" + hint);
+  EXPECT_EQ(
+      said("--obstacles", "1"),
+      "map: 1024 obstacles on 1024 cells leave fewer than 2 passable cells; expected at least 2" +
+          hint);
 }
 
 TEST(Usage, OutputThatCannotBeWrittenIsAFailure) {

@@ -223,14 +223,14 @@ TEST(GenerateCommand, RefusesOptionsThatDoNotFitTogether) {
   EXPECT_EQ(said(sizes + "--map my.map --roadmap w.json"), "--map: allowed only without --roadmap");
   EXPECT_EQ(said(sizes + "--scen s --roadmap w.json"), "--scen: allowed only with --map");
   EXPECT_EQ(said(sizes + "--turning --roadmap w.json"),
-            "--turning: allowed only with --map: headings are those of a grid");
+            "--turning: allowed only with --map, because only agents on grids have headings");
   EXPECT_EQ(said(sizes + "--map my.map --tasks-on a"), "--tasks-on: allowed only with --roadmap");
   EXPECT_EQ(said(sizes + "--map my.map --turn-steps 2"),
             "--turn-steps: allowed only with --turning");
   EXPECT_EQ(said(sizes + "--map my.map --goal-headings"),
             "--goal-headings: allowed only with --turning");
   EXPECT_EQ(said(sizes + "--map my.map --turning --goal-headings --mg"),
-            "--goal-headings: allowed only where some agents have destinations");
+            "--goal-headings: allowed only if some agents have destinations");
   EXPECT_EQ(said(sizes + "--map my.map --durations 3-1"),
             "--durations: found '3-1'; expected the smaller number first");
   EXPECT_EQ(said(sizes + "--map my.map --durations 3-"),
@@ -321,13 +321,13 @@ TEST(GeneratePaper, TakesScenariosOfBothKindsFromMovingAi) {
     return complaint(generate(directory, start + more + " --output-dir no"));
   };
   EXPECT_EQ(said("--scenarios 3-4"),
-            "ai/m-1-random-4.scen: is not there; expected it, or --scenarios 3");
-  EXPECT_EQ(said("--scenarios 26"), "ai/m-1-even-1.scen: is not there; expected it");
+            "ai/m-1-random-4.scen: does not exist; expected it, or --scenarios 3");
+  EXPECT_EQ(said("--scenarios 26"), "ai/m-1-even-1.scen: does not exist; expected it");
   generate(directory, "scenario --map ai/m-1.map --rows 40 --seed 3 -o ai/m-1-random-2.scen");
   EXPECT_EQ(said("--scenarios 1-27"),
-            "ai/m-1-random-1.scen: is not there; expected it, or --scenarios 2-3,27");
-  EXPECT_TRUE(said("--scenarios 51").starts_with("--scenarios: expected at most 50"));
-  EXPECT_TRUE(said("--maps m-1").starts_with("--maps: expected 'm-1' once"));
+            "ai/m-1-random-1.scen: does not exist; expected it, or --scenarios 2-3,27");
+  EXPECT_TRUE(said("--scenarios 51").starts_with("--scenarios: found more than 50"));
+  EXPECT_TRUE(said("--maps m-1").starts_with("--maps: found 'm-1' more than once"));
   EXPECT_FALSE(fs::exists(directory / "no"));
 }
 
