@@ -48,7 +48,7 @@ std::string text_of(const AgentConstraint& constraint, const Instance& instance)
     case ConstraintKind::kNoRestBy:
       return fmt::format("{} not at rest on {} by {}", agent, place, c.end);
     case ConstraintKind::kRestBy:
-      return fmt::format("{} at rest on {} by {}, nobody else there from then on", agent, place,
+      return fmt::format("{} at rest on {} by {}, no other agent there from then on", agent, place,
                          c.end);
     case ConstraintKind::kNoTraversal:
       return fmt::format("{} not through the passage by {} to {}, arriving {}", agent,

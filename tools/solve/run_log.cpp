@@ -9,11 +9,11 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kRowInterval_s = 0.5;  // at first; then a tenth of the time gone by
+constexpr double kRowInterval_s = 0.5;  // minimum; later a tenth of the elapsed time
 constexpr double kProgressInterval_s = 0.1;
 constexpr std::int64_t kRowInterval_nodes = 1000;
 
-// The rarer the event, the more telling.
+// Importance of an event: rarer events are more important.
 int telling(RunEvent event) {
   switch (event) {
     case RunEvent::kIncumbent:
@@ -60,7 +60,7 @@ void RunLog::on_bound_beside(BoundSource by) {
   raises_ = by;
 }
 
-// Of ranks one hears how many nodes they expanded, not what came of them.
+// Other ranks report only how many nodes they expanded, not the outcome.
 void RunLog::note_bound(const Progress& progress) {
   if (progress.lower_bound <= bound_) return;
   const bool is_known = hears_expansions_ || progress.nodes_expanded == 0;
@@ -108,7 +108,7 @@ void RunLog::on_root(const NodePtr& root) {
   if (const auto row = tree_.root(*root)) format_.root(*row, seconds());
 }
 
-// A bound that rises now does so for this expansion: the last node of the old bound is gone.
+// If the bound rises now, this expansion is the cause: it completed the last node of the old bound.
 void RunLog::on_expanded(const NodePtr& node, const Expansion& expansion, int worker) {
   hears_expansions_ = true;
   last_work_ = expansion.branching ? "splits" : expansion.plan ? last_work_ : "groups";

@@ -29,7 +29,7 @@ class Counts {
     return fmt::format("{}, {} % of them known", asked,
                        100 * (*this)[what + "_known"] / std::max<std::int64_t>(asked, 1));
   }
-  // "parallel 812, target 44", the most first.
+  // "parallel 812, target 44", largest count first.
   std::string splits() const {
     constexpr std::string_view kPrefix = "splits_";
     std::vector<std::pair<std::int64_t, std::string>> kinds;
@@ -44,7 +44,7 @@ class Counts {
     }
     return text.empty() ? "none" : text;
   }
-  // "tree 1, priorities 2 (cost -14)": better plans, and what they took off the cost.
+  // "tree 1, priorities 2 (cost -14)": number of incumbents and the decrease of cost, by source.
   std::string plans() const {
     std::string text;
     for (const std::string_view source : kPlanSources) {

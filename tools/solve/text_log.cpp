@@ -25,7 +25,7 @@ std::string count_text(int count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-// What of the items is out of the ordinary: " (2 turning, 1 idle)", or nothing.
+// Returns counts of special items, such as " (2 turning, 1 idle)"; "" if there are none.
 template <class Item>
 std::string traits_text(
     std::span<const Item> items,
@@ -89,7 +89,7 @@ char letter_of(const LogRow& row) {
   return ' ';
 }
 
-// What the search gave up for want of memory.
+// Number of nodes evicted because of the memory limit, and of restarts.
 std::string evicted_text(const Solution& solution) {
   const auto evicted = solution.stats.counts.find("nodes_evicted");
   if (evicted == solution.stats.counts.end() || evicted->second == 0) return "";

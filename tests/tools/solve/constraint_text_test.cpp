@@ -41,7 +41,7 @@ TEST(ConstraintText, SaysWhatElseIsDemanded) {
   EXPECT_EQ(said_of_red({.cell = 3, .end = 7, .kind = ConstraintKind::kNoRestBy}),
             "red not at rest on [3, 0] by 7");
   EXPECT_EQ(said_of_red({.cell = 3, .end = 7, .kind = ConstraintKind::kRestBy}),
-            "red at rest on [3, 0] by 7, nobody else there from then on");
+            "red at rest on [3, 0] by 7, no other agent there from then on");
   EXPECT_EQ(said_of_red(
                 {.cell = 3, .from = 2, .begin = 4, .end = 6, .kind = ConstraintKind::kNoTraversal}),
             "red not through the passage by [2, 0] to [3, 0], arriving from 4 to 6");
