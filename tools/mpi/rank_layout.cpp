@@ -22,16 +22,16 @@ std::vector<int> gather_numbers(const MpiSession& session, int mine) {
   return all;
 }
 
-// All ranks: how many of them say the same as this one.
-int how_many_say(const MpiSession& session, const std::string& mine) {
+// Collective. Returns on how many ranks `mine` is the same as on this one.
+int count_equal(const MpiSession& session, const std::string& mine) {
   return static_cast<int>(std::ranges::count(session.gather(mine), mine));
 }
 
 }  // namespace
 
 void share_machine(const CLI::App& app, SolveArguments& arguments, const MpiSession& session) {
-  const int on_cores = how_many_say(session, host_name() + usable_cores_text());
-  const int on_host = how_many_say(session, host_name());
+  const int on_cores = count_equal(session, host_name() + usable_cores_text());
+  const int on_host = count_equal(session, host_name());
   if (app.count("--threads") == 0) arguments.threads = std::max(1, usable_cores() / on_cores);
   if (app.count("--memory-limit") == 0) arguments.memory_limit_gb /= on_host;
 }
@@ -62,7 +62,7 @@ std::string workers_text(const RankLayout& layout) {
 std::vector<std::string> warnings(const RankLayout& layout) {
   std::vector<std::string> found;
   std::map<std::string, std::pair<int, int>> by_host;  // threads, cores
-  std::map<std::string, std::string> unshared;         // by host: why
+  std::map<std::string, std::string> unshared;         // by host: the reason
   for (std::size_t rank = 0; rank < layout.hosts.size(); ++rank) {
     auto& [threads, cores] = by_host[layout.hosts[rank]];
     threads += layout.threads[rank];
@@ -80,8 +80,8 @@ std::vector<std::string> warnings(const RankLayout& layout) {
       found.push_back(fmt::format("host {} has {} cores for {} threads", name, cores, threads));
     else if (threads < cores)
       found.push_back(fmt::format(
-          "host {} has {} cores and {} will be used; for more see --threads, mpirun's --bind-to "
-          "none and srun's --cpus-per-task",
+          "host {} has {} cores, of which {} will be used; to use more, see --threads, mpirun's "
+          "--bind-to none and srun's --cpus-per-task",
           name, cores, threads));
   }
   for (const auto& [name, why] : unshared)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who takes part in a run of several processes.
+// Ranks, hosts, threads and cores of a run with several processes.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -12,28 +12,28 @@
 
 namespace grove::detail {
 
-// What each rank says of itself, by rank.
+// Data of all ranks, by rank.
 struct RankLayout {
   std::vector<std::string> hosts;
   std::vector<int> threads;
-  std::vector<int> cores;             // that it may use
+  std::vector<int> cores;             // cores that the rank may use
   std::vector<int> host_cores;        // all cores of its host
-  std::vector<std::string> unshared;  // why its host has no memory for all its ranks; empty: it has
-  std::size_t shared_bytes = 0;       // that it has of such memory, on the host of this rank
+  std::vector<std::string> unshared;  // why its host has no shared memory; "" if it has
+  std::size_t shared_bytes = 0;       // size of the shared memory on the host of this rank
 };
 
-// All ranks: gives this rank its share of what several have in common, where nothing was said about
-// it: of the cores that they may use, and of the memory of a host.
+// Collective. If --threads or --memory-limit is not given, sets it to this rank's share of the
+// cores that several ranks may use, and of the memory of its host.
 void share_machine(const CLI::App& app, SolveArguments& arguments, const MpiSession& session);
 
-// All ranks: what there is, this rank with so many threads and this part in a host's memory.
+// Collective. Gathers the layout; this rank has `threads` threads and the shared memory `memory`.
 RankLayout gather_rank_layout(const MpiSession& session, std::int64_t threads,
                               const SharedMemory& memory);
 
-// "2 each on 4 ranks, 2 hosts", and "912 MB shared" where there are any
+// Returns "2 each on 4 ranks, 2 hosts", with ", 912 MB shared" if memory is shared.
 std::string workers_text(const RankLayout& layout);
-// More threads than cores slow each other down, and cores may be left idle without intent. Nor is
-// it meant that each rank holds all for itself.
+// Returns warnings about hosts with more threads than cores, which slow each other down, with
+// unused cores, and without shared memory.
 std::vector<std::string> warnings(const RankLayout& layout);
 
 }  // namespace grove::detail

@@ -14,7 +14,7 @@
 namespace grove::detail {
 namespace {
 
-// "new_tasks/3/agents/0" as its parts "new_tasks", 3 and "/agents/0".
+// A field "new_tasks/3/agents/0", split into "new_tasks", 3 and "/agents/0".
 struct Field {
   explicit Field(const std::string& text) {
     const std::size_t slash = text.find('/');
@@ -38,7 +38,7 @@ std::vector<Late> late_robots(const ChangeArguments& arguments, const Instance& 
     if (split == std::string::npos) refuse("--late", text, "ROBOT=STEPS");
     const AgentIndex robot = robot_of("--late", text, text.substr(0, split), instance);
     if (std::ranges::count(late, robot, &Late::agent) > 0)
-      refuse("--late", text, "each robot once");
+      refuse("--late", text, "each robot at most once");
     late.push_back(
         {robot, static_cast<Time>(parse_integer("--late", text.substr(split + 1), kPlanSteps))});
   }
@@ -83,7 +83,7 @@ void AskedChange::block_on_roadmap(const std::string& text, const Roadmap& roadm
     blocked_.push_back({"--blocked", text});
     return;
   }
-  // Ids may have commas in them.
+  // Ids may contain commas, so each comma is tried.
   for (std::size_t comma = text.find(','); comma != std::string::npos;
        comma = text.find(',', comma + 1)) {
     const auto from = roadmap.vertex(text.substr(0, comma));
@@ -96,7 +96,7 @@ void AskedChange::block_on_roadmap(const std::string& text, const Roadmap& roadm
     return;
   }
   grove::detail::refuse("--blocked", text,
-                        "a vertex of the roadmap, or A,B: two that a road joins");
+                        "a vertex of the roadmap, or A,B: two vertices joined by a road");
 }
 
 void AskedChange::refuse(const InstanceError& error) const {

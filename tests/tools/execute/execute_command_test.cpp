@@ -139,7 +139,7 @@ TEST_F(ExecuteCommand, WritesThePassingOrder) {
 TEST_F(ExecuteCommand, SaysWhoWaitsForWhom) {
   const ProcessResult done = execute({"--dies", "a3@12", "--view", directory_ / "page.html"});
   EXPECT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_THAT(done.out, HasSubstr("a3 does not move any more"));
+  EXPECT_THAT(done.out, HasSubstr("a3 has failed"));
   EXPECT_THAT(done.out, HasSubstr("waits for a3"));
   EXPECT_TRUE(std::filesystem::exists(directory_ / "page.html"));
 }

@@ -132,7 +132,7 @@ TEST_F(ReplanCommand, WhatIsCommittedReplacesACheaperPlan) {
 TEST_F(ReplanCommand, TellsThatAnotherInstanceIsReplaced) {
   expect_valid({"--at", "20"});
   EXPECT_THAT(replan({"--at", "20"}).err, Not(HasSubstr("another instance")));
-  EXPECT_THAT(replan({"--at", "21"}).err, HasSubstr("then.cts.json held another instance"));
+  EXPECT_THAT(replan({"--at", "21"}).err, HasSubstr("then.cts.json had another instance"));
 }
 
 TEST_F(ReplanCommand, TasksComeAndGo) {
@@ -225,9 +225,9 @@ TEST_F(ReplanCommand, WritesOverNothingThatItReads) {
   EXPECT_THAT(refused({"--output-instance", file}), HasSubstr("is a file of new tasks"));
   EXPECT_THAT(refused({"-o", directory_ / "x.plan.json", "--log", file}),
               HasSubstr("is a file of new tasks"));
-  EXPECT_THAT(refused({"-o", plan_}), HasSubstr("is the plan that is being driven"));
+  EXPECT_THAT(refused({"-o", plan_}), HasSubstr("is the plan that is being executed"));
   EXPECT_THAT(refused({"-o", directory_ / "x.plan.json", "--log", plan_}),
-              HasSubstr("is the plan that is being driven"));
+              HasSubstr("is the plan that is being executed"));
 }
 
 TEST_F(ReplanCommand, RefusesTimesBeyondThePlan) {
