@@ -195,7 +195,7 @@ TEST_F(ViewCommand, SaysWhichPlansItLeavesOut) {
   EXPECT_EQ(done.exit_code, 0);
   EXPECT_THAT(
       done.err,
-      HasSubstr("warning: a page shows 2 plans; first.plan.json and those after it are left out"));
+      HasSubstr("warning: a page shows 2 plans; first.plan.json and later ones are left out"));
 }
 
 TEST_F(ViewCommand, RefusesWhatIsNoLog) {
@@ -243,7 +243,7 @@ TEST_F(ViewCommand, RefusesWhatIsNoDriveOfThePlan) {
               HasSubstr("drive.jsonl"));
   EXPECT_THAT(read("drive.jsonl"), HasSubstr("grove drive 1"));
   EXPECT_THAT(complaint({"view", instance, "--drive", log}),
-              HasSubstr("--drive requires PLAN, the one that is driven"));
+              HasSubstr("--drive requires PLAN, the plan that is executed"));
   EXPECT_THAT(complaint({"view", instance, plan, plan, "--drive", log}), HasSubstr("PLAN"));
   EXPECT_THAT(complaint({"view", instance, plan, "--drive", log, "--svg", "x"}),
               HasSubstr("--svg"));
@@ -295,7 +295,7 @@ TEST_F(ViewCommand, RefusesWhatIsNoCertificateOfTheInstance) {
               HasSubstr("c.proof: is the certificate; expected another file to write to"));
   EXPECT_EQ(read("c.proof"), certificate);
   EXPECT_THAT(complaint_of({"view", instance, plan, plan, "--proof", proof}),
-              HasSubstr("--proof: expected one PLAN at most with it"));
+              HasSubstr("--proof: found several plans; expected at most one PLAN"));
   EXPECT_THAT(complaint_of({"view", instance, "--proof", proof, "--svg", "x.svg"}),
               HasSubstr("--proof excludes --svg"));
   EXPECT_THAT(complaint_of({"view", "--run", "x", "--proof", proof}),
@@ -307,7 +307,7 @@ TEST_F(ViewCommand, RefusesWhatIsNoCertificateOfTheInstance) {
               HasSubstr("bad.plan.json"));
   // The plan of a run with following, in which somebody does.
   EXPECT_THAT(complaint_of({"view", instance, plan, "--proof", proof}),
-              HasSubstr("expected a plan valid without following, as the certificate has it"));
+              HasSubstr("expected a plan valid without following, as the certificate requires"));
 }
 
 TEST_F(ViewCommand, RefusesWhatItDoesNotUnderstand) {
