@@ -259,9 +259,8 @@ TEST(Api, TextsWithUnknownKeysAreRefused) {
   };
   const World world = World::from_rows({"...."});
   const std::string agent = R"({"id": "a", "start": [0, 0], "gaol": [3, 0]})";
-  EXPECT_EQ(
-      said([&] { parse_instance(R"({"agents": [)" + agent + R"(], "tasks": []})", world); }),
-      "the instance: /agents/0: unknown key 'gaol'; expected 'goal', if that is what it means");
+  EXPECT_EQ(said([&] { parse_instance(R"({"agents": [)" + agent + R"(], "tasks": []})", world); }),
+            "the instance: /agents/0: unknown key 'gaol'; expected 'goal', if that is meant");
   std::string plan = plan_text(small(), solve(small()));
   EXPECT_EQ(said([&] { parse_plan(plan, small()); }), "accepted");
   plan.insert(1, R"("priority": 1, )");

@@ -350,11 +350,10 @@ TEST_F(DamagedCheckpoint, WithBlocksLostOrInAnotherOrderIsRefused) {
 // A length that nobody wrote: refused at once, before memory for it is asked for.
 TEST_F(DamagedCheckpoint, ThatAnnouncesMoreThanItHoldsIsRefused) {
   bytes_.replace(16, 8, std::string(6, '\xff') + '\x0f' + '\0');
-  EXPECT_EQ(
-      reading(bytes_),
-      "checkpoint.grove: byte 12: is damaged: announces 4503599627370495 bytes more; expected "
-      "at most the " +
-          std::to_string(bytes_.size() - 24) + " left");
+  EXPECT_EQ(reading(bytes_),
+            "checkpoint.grove: byte 12: is damaged: has a block of 4503599627370495 bytes; "
+            "expected at most " +
+                std::to_string(bytes_.size() - 24) + ", the bytes left");
 }
 
 TEST_F(DamagedCheckpoint, OfAnotherVersionOrKindIsRefused) {
@@ -363,8 +362,9 @@ TEST_F(DamagedCheckpoint, OfAnotherVersionOrKindIsRefused) {
   EXPECT_EQ(reading(later),
             "checkpoint.grove: is a checkpoint of format version 7; expected version 3");
   EXPECT_EQ(reading("{\"status\": \"optimal\"}"),
-            "checkpoint.grove: is no checkpoint: begins with '{\"status'; expected 'GROVE-CP'");
-  EXPECT_EQ(reading(""), "checkpoint.grove: is no checkpoint: begins with ''; expected 'GROVE-CP'");
+            "checkpoint.grove: is not a checkpoint: begins with '{\"status'; expected 'GROVE-CP'");
+  EXPECT_EQ(reading(""),
+            "checkpoint.grove: is not a checkpoint: begins with ''; expected 'GROVE-CP'");
 }
 
 TEST_F(DamagedCheckpoint, OfAnotherInstanceOrPolicyIsRefused) {

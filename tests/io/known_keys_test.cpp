@@ -106,7 +106,7 @@ TEST_F(KnownKeys, UnknownOnesAreRefusedInEveryObject) {
 
 TEST_F(KnownKeys, ACloseKeyIsHinted) {
   const auto hint = [](const std::string& found, const std::string& meant) {
-    return "unknown key '" + found + "'; expected " + meant + ", if that is what it means";
+    return "unknown key '" + found + "'; expected " + meant + ", if that is meant";
   };
   const std::vector<std::vector<std::string>> cases{
       {"headin", "'heading'"}, {"turn-steps", "'turn_steps'"}, {"motions", "'motion'"},
@@ -131,7 +131,7 @@ TEST_F(KnownKeys, ACloseKeyIsHinted) {
   EXPECT_EQ(
       refused_member(kInstance, 1, R"("gaol": [1, 1])"),
       "f: /agents/0: unknown key 'gaol'; expected one of id, start, goal, motion, turn_steps, "
-      "heading, goal_heading, working, or a name that begins with '_' for a remark");
+      "heading, goal_heading, working, or a name that begins with '_', for a remark");
 }
 
 TEST_F(KnownKeys, WhatGroveDoesNotModelIsSaidToBeSo) {

@@ -33,8 +33,7 @@ std::string check_omega(const std::string& text) {
 }
 
 std::string check_backend(const std::string& text) {
-  return is_built(kBackends.at(text)) ? ""
-                                      : "this Grove was built without CBC; expected auto or dp";
+  return is_built(kBackends.at(text)) ? "" : "Grove was built without CBC; expected auto or dp";
 }
 
 std::string check_method(const std::string& text) {

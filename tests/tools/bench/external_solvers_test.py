@@ -271,7 +271,7 @@ class Commands(ExternalSolverTests):
                                   "--output-dir", "out", "--quiet")
         row = self.rows()["easy_s1_n3_m4", "honest"]
         self.assertEqual(row["status"], "unsuitable")
-        self.assertIn("task 't0' cannot be said in a .scen file", row["error"])
+        self.assertIn("task 't0' cannot be represented in a .scen file", row["error"])
         self.assertEqual(self.summary()["honest"]["unsuitable"], "1")
         self.assertEqual(self.summary()["honest"]["solved/run"], "0/0")
 
@@ -360,7 +360,7 @@ class Sweeps(ExternalSolverTests):
         for agents, text in (("3:1", "the smaller number first"), ("0:3", "from 1 to"), ("2,2", "increasing"),
                              ("1:2:3:4", "FIRST:LAST:STEP"), ("1:9:0", "from 1 to"), ("x", "'x'"), ("9", "9 rows")):
             self.refuses(self.sweep(agents=agents), text)
-        self.refuses(self.sweep("--scenarios", "closed*"), "holds no scenario 'closed*.scen'")
+        self.refuses(self.sweep("--scenarios", "closed*"), "has no scenario 'closed*.scen'")
         self.refuses(["bench", "maps", "--run", "grove:", "--output-dir", "out"], "--agents", "10:100:10")
         self.easy(1)
         self.refuses(["bench", "instances", "--run", "grove:", "--output-dir", "out", "--scenarios", "x*"],

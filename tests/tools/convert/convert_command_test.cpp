@@ -147,7 +147,8 @@ TEST_F(ConvertCommand, TerrainIsTakenAsTheSolverTakesIt) {
 
 TEST_F(ConvertCommand, TasksAreNotLostUnasked) {
   const std::string problem =
-      "tasks.cts.json: /tasks/0: task 't0' cannot be said in a .scen file; expected no tasks "
+      "tasks.cts.json: /tasks/0: task 't0' cannot be represented in a .scen file; expected no "
+      "tasks "
       "(--drop tasks leaves the tasks out)";
   EXPECT_EQ(refused({"tasks.cts.json", "o.scen"}), problem);
   EXPECT_EQ(refused({"tasks.cts.json", "o.scen", "--drop", "ids"}), problem);
@@ -165,7 +166,7 @@ TEST_F(ConvertCommand, IdsAreNotLostUnasked) {
   directory_.write("red.cts.json", replaced(kPlain, "a1", "red"));
   EXPECT_EQ(refused({"red.cts.json", "o.scen"}),
             "red.cts.json: /agents/1: a .scen file has no ids: read back, agent 'red' would be "
-            "'a1'; expected that id (--drop ids leaves the ids out)");
+            "'a1'; expected this id (--drop ids leaves the ids out)");
   converted({"red.cts.json", "o.scen", "--drop", "ids"});
   EXPECT_EQ(content("o.scen"), kScen);
   converted({"red.cts.json", "o.yaml", "--drop", "ids"});
@@ -203,14 +204,14 @@ TEST_F(ConvertCommand, LeavesNoMapBehindWhenTheInstanceFails) {
                    "map: {dimensions: [3, 1], obstacles: [[1, 0]]}\n"
                    "agents: [{name: a0, start: [0, 0], goal: [2, 0]}]\n");
   EXPECT_EQ(refused({"cut.yaml", "o.scen"}),
-            "cut.yaml: /agents/0: agent 'a0' cannot reach its goal; expected a way there, for a "
-            ".scen file tells how long it is");
+            "cut.yaml: /agents/0: agent 'a0' cannot reach its goal; expected a path, because a "
+            ".scen file has its length");
   EXPECT_EQ(refused({"plain.yaml", "none/o.cts.json"}),
             "none/o.cts.json: cannot be written: No such file or directory");
   directory_.write("two words.yaml", kPlainYaml);
   EXPECT_EQ(refused({"plain.yaml", "two words.scen"}),
-            "two words.scen: the map's name 'two words.map' has blanks in it; expected none, for "
-            "they separate the columns of a .scen file");
+            "two words.scen: the map's name 'two words.map' contains blanks; expected none, "
+            "because they separate the columns of a .scen file");
 }
 
 TEST_F(ConvertCommand, OverwritesNoneOfItsInputs) {
@@ -322,8 +323,8 @@ TEST_F(ConvertCommand, NoWrongPlanIsPassedOn) {
     "agents": [{"id": "red", "sequence": ["t0"], "cost": 5,
                 "path": [[0,0],[0,1],[1,1],[2,1],[3,1],[4,1]]}]})");
   EXPECT_EQ(refused({"--plan", "t.json", "mg.cts.json", "o.csv"}),
-            "mg.cts.json: /agents/0: agent 'red' has no goal; expected one for every agent, for a "
-            "row of MAPF Tracker cannot do without");
+            "mg.cts.json: /agents/0: agent 'red' has no goal; expected one for every agent, "
+            "because a row of MAPF Tracker requires it");
 }
 
 // The readers are fuzzed one by one; here is what becomes of what they throw.

@@ -251,9 +251,8 @@ TEST_F(ConvertRoadmap, FilesThatDoNotFitAreRefused) {
       refused({"p.lif.json", "o.roadmap.json", "--metres-per-step", "1", "--layout", "attic"}),
       "p.lif.json: /layouts: there is no layout 'attic'; expected one of 'hall'");
   EXPECT_EQ(refused({"g.graphml", "o.roadmap.json", "--seconds-per-step", "1"}),
-            "g.graphml: line 10, column 5: nothing tells how long this edge takes; expected its "
-            "highest speed (LIF) or its duration (GraphML), or --metres-per-step for the robots' "
-            "own speed");
+            "g.graphml: line 10, column 5: this edge has no time; expected a maximum speed (LIF), "
+            "a duration (GraphML), or --metres-per-step for the speed of the robots");
 }
 
 }  // namespace convert_roadmap_test

@@ -389,7 +389,7 @@ TEST(GenerateCommand, RefusesOutputsThatCannotBeWritten) {
   EXPECT_EQ(complaint(generate(directory, "map empty -o none/my.map")),
             "none/my.map: cannot be written: No such file or directory");
   EXPECT_EQ(complaint(generate(directory, "map empty -o .")),
-            ".: cannot be written: is a directory; expected a file name");
+            ".: is a directory; expected a file name");
   EXPECT_EQ(complaint(generate(directory, "map empty -o /dev/full")),
             "/dev/full: cannot be written: No space left on device");
   directory.write("file", "");

@@ -250,7 +250,7 @@ TEST_F(ReplanCommand, RefusesToCloseAWall) {
   const std::size_t wall = map.find('@', first) - first;
   const std::string cell = std::to_string(wall % 33) + "," + std::to_string(wall / 33);
   EXPECT_THAT(complaint({"--at", "3", "--blocked", cell}),
-              HasSubstr("--blocked: '" + cell + "': it is blocked on the map already"));
+              HasSubstr("--blocked: '" + cell + "': the map is blocked there already"));
 }
 
 // Without a destination a robot may end on any task that is left.

@@ -235,7 +235,8 @@ TEST_F(ViewCommand, RefusesWhatIsNoDriveOfThePlan) {
     return complaint({"view", instance, plan, "--drive", log});
   };
   for (const char* text : {"", "red\n", "{\"format\": \"grove drive 2\"}\n", "{\"format\": 1}\n"})
-    EXPECT_THAT(of(text), HasSubstr("drive.jsonl: line 1: expected the log of a drive")) << text;
+    EXPECT_THAT(of(text), HasSubstr("drive.jsonl: line 1: expected the log of an execution"))
+        << text;
   EXPECT_THAT(of("{\"format\": \"grove drive 1\", \"order\": \"o\", \"robots\": [], "
                  "\"seconds_per_step\": 1}\n{\"t\": 1}\n"),
               HasSubstr("drive.jsonl: line 2: /: key 'robot' is missing"));
