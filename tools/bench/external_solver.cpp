@@ -112,7 +112,8 @@ std::string what_went_wrong(const ChildEnd& end, double time_limit_s, const fs::
   if (end.wall_s > time_limit_s) return kTimeLimit;
   if (end.kind == ChildEnd::Kind::kSignalled)
     return fmt::format("ended by signal {} ({})", end.code, ::strsignal(end.code));
-  if (end.code != 0) return fmt::format("ended with exit code {}{}", end.code, last_words(said));
+  if (end.code != 0)
+    return fmt::format("ended with exit code {}{}", end.code, last_output_line(said));
   return "";
 }
 
@@ -307,7 +308,7 @@ void ExternalRun::finish_without_plan(batch::Outcome& outcome, const ChildEnd& e
     outcome.error =
         "claims a plan but wrote none" + (outcome.error.empty() ? "" : "; " + outcome.error);
   } else if (outcome.error.empty()) {
-    outcome.error = "ended without a plan" + last_words(said);
+    outcome.error = "ended without a plan" + last_output_line(said);
   } else if (outcome.error != kTimeLimit) {
     outcome.status = batch::kError;
   }
@@ -318,7 +319,7 @@ batch::Outcome ExternalRun::outcome_of_run(const ChildEnd& end, const fs::path& 
   outcome.peak_memory_mb = end.peak_memory_mb;
   outcome.anytime = solver_.adapter.anytime;
   if (end.kind == ChildEnd::Kind::kExited && end.code == kCannotBeStarted) {
-    outcome.error = fmt::format("cannot be started{}", last_words(said));
+    outcome.error = fmt::format("cannot be started{}", last_output_line(said));
     return outcome;
   }
   outcome.status = to_string(Status::kUnknown);

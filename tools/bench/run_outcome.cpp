@@ -24,7 +24,7 @@ std::string why_failed(const ChildEnd& end, const std::filesystem::path& said) {
   switch (end.kind) {
     case ChildEnd::Kind::kExited:
       if (end.code == 0) return "";
-      return fmt::format("ended with exit code {}{}", end.code, last_words(said));
+      return fmt::format("ended with exit code {}{}", end.code, last_output_line(said));
     case ChildEnd::Kind::kSignalled:
       return fmt::format("ended by signal {} ({})", end.code, ::strsignal(end.code));
     case ChildEnd::Kind::kTooLong:
@@ -37,7 +37,7 @@ std::string why_failed(const ChildEnd& end, const std::filesystem::path& said) {
 
 }  // namespace
 
-std::string last_words(const std::filesystem::path& said) {
+std::string last_output_line(const std::filesystem::path& said) {
   try {
     const std::string text = read_text(said);
     const auto lines = split_lines(text);
@@ -55,7 +55,7 @@ bool is_refusal(const ChildEnd& end) {
 }
 
 std::string refusal(const std::filesystem::path& said, const std::string& instance) {
-  std::string words = last_words(said);
+  std::string words = last_output_line(said);
   for (const std::string& told : {std::string(), instance})
     if (words.starts_with(told + ": ")) words.erase(0, told.size() + 2);
   return words;
@@ -74,7 +74,7 @@ bool is_verified(batch::Outcome& outcome, const ChildEnd& end, const std::filesy
       why = fmt::format("proves no more than {}", cost);
     }
   } else {
-    why += last_words(said);
+    why += last_output_line(said);
   }
   if (outcome.error.empty()) outcome.error = "the certificate " + why;
   return false;

@@ -41,6 +41,6 @@ bool is_refusal(const ChildEnd& end);
 std::string refusal(const std::filesystem::path& said, const std::string& instance);
 
 // Returns ": " and the last line of the output of grove; "" if there is no output.
-std::string last_words(const std::filesystem::path& said);
+std::string last_output_line(const std::filesystem::path& said);
 
 }  // namespace grove::detail::bench
