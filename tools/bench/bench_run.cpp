@@ -174,11 +174,11 @@ class Bench {
   }
 
   ChildEnd run_one(const std::vector<std::string>& command, batch::Row& row, const Files& files,
-                   bool knows_the_limit, std::optional<double> memory_gb) const {
+                   bool receives_time_limit, std::optional<double> memory_gb) const {
     const double limit = row.run.settings.time_limit_s;
     const double grace = limit * (options_.grace_factor - 1) + options_.grace_s;
     const ChildEnd end = run_child(command, files.said,
-                                   {.seconds = knows_the_limit ? limit + grace : limit,
+                                   {.seconds = receives_time_limit ? limit + grace : limit,
                                     .cancelled = [this] { return must_stop(); },
                                     .memory_gb = memory_gb});
     row.wall_s = end.wall_s;
@@ -243,7 +243,7 @@ class Bench {
       ExternalRun external(*method.solver, instances_[index].entry, loaded, row.run.settings,
                            files.folder);
       const ChildEnd end =
-          run_one(external.command(), row, files, external.knows_the_limit(), method.memory_gb);
+          run_one(external.command(), row, files, external.receives_time_limit(), method.memory_gb);
       if (end.kind == ChildEnd::Kind::kCancelled) return false;
       row.outcome = external.outcome_of_run(end, files.said);
       if (options_.keep_plans) keep(external, loaded.instance, files, row);

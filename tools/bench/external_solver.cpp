@@ -195,7 +195,7 @@ std::vector<std::string> ExternalRun::command() const {
   return words;
 }
 
-bool ExternalRun::knows_the_limit() const {
+bool ExternalRun::receives_time_limit() const {
   return std::ranges::any_of(kTimeLimits, [this](std::string_view place) {
     return names(solver_.adapter.command, place);
   });

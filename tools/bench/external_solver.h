@@ -34,7 +34,7 @@ class ExternalRun {
 
   std::vector<std::string> command() const;
   // Whether the command line contains the time limit, so that the solver may end by itself then.
-  bool knows_the_limit() const;
+  bool receives_time_limit() const;
   // Returns the outcome of a run that ended and was not cancelled. `said`: its output.
   batch::Outcome outcome_of_run(const ChildEnd& end, const std::filesystem::path& said);
   // The plan that it wrote, if it passed the check.
