@@ -83,7 +83,7 @@ std::optional<batch::TracePoint> point_in(const TracePattern& pattern, const std
 }
 
 // Sorts by time and keeps only points that improve the cost.
-std::vector<batch::TracePoint> better_and_better(std::vector<batch::TracePoint> trace) {
+std::vector<batch::TracePoint> improving_points(std::vector<batch::TracePoint> trace) {
   std::ranges::stable_sort(trace, {}, &batch::TracePoint::seconds);
   std::vector<batch::TracePoint> better;
   for (const batch::TracePoint& point : trace)
@@ -125,7 +125,7 @@ std::vector<batch::TracePoint> borne_out(std::vector<batch::TracePoint> trace, C
   std::erase_if(trace, [&](const batch::TracePoint& point) { return point.seconds > wall_s; });
   for (batch::TracePoint& point : trace) point.cost = std::max(point.cost, cost);
   trace.push_back({.seconds = wall_s, .cost = cost});
-  return better_and_better(std::move(trace));
+  return improving_points(std::move(trace));
 }
 
 }  // namespace
@@ -249,7 +249,7 @@ void ExternalRun::read_trace(batch::Outcome& outcome, const fs::path& said) cons
         outcome.trace.push_back(*point);
     }
   }
-  outcome.trace = better_and_better(std::move(outcome.trace));
+  outcome.trace = improving_points(std::move(outcome.trace));
 }
 
 void ExternalRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
