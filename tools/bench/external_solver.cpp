@@ -120,8 +120,8 @@ std::string what_went_wrong(const ChildEnd& end, double time_limit_s, const fs::
 // Corrects the claimed trace by the re-checked plan of cost `cost`. The last plan of an anytime
 // solver is its best, so no earlier plan cost less (some solvers report another cost); the trace
 // ends with that plan.
-std::vector<batch::TracePoint> borne_out(std::vector<batch::TracePoint> trace, Cost cost,
-                                         double wall_s) {
+std::vector<batch::TracePoint> corrected_trace(std::vector<batch::TracePoint> trace, Cost cost,
+                                               double wall_s) {
   std::erase_if(trace, [&](const batch::TracePoint& point) { return point.seconds > wall_s; });
   for (batch::TracePoint& point : trace) point.cost = std::max(point.cost, cost);
   trace.push_back({.seconds = wall_s, .cost = cost});
@@ -283,7 +283,7 @@ void ExternalRun::finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
   const double limit = settings_.time_limit_s;
   if (!outcome.first_plan_s)
     outcome.first_plan_s = outcome.trace.empty() ? end.wall_s : outcome.trace.front().seconds;
-  outcome.trace = borne_out(std::move(outcome.trace), *outcome.cost, end.wall_s);
+  outcome.trace = corrected_trace(std::move(outcome.trace), *outcome.cost, end.wall_s);
   outcome.error = what_went_wrong(end, limit, said);
   if (outcome.anytime && outcome.error == kTimeLimit && *outcome.first_plan_s <= limit) {
     const bool in_time = end.wall_s <= limit + std::max(kGrace_s, kGrace * limit);
