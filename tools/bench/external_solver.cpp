@@ -108,7 +108,7 @@ Solution in_terms_of(const Instance& instance, Solution solution) {
 }
 
 // Returns "" if the run exited with 0 within its time limit.
-std::string what_went_wrong(const ChildEnd& end, double time_limit_s, const fs::path& said) {
+std::string failure_text(const ChildEnd& end, double time_limit_s, const fs::path& said) {
   if (end.wall_s > time_limit_s) return kTimeLimit;
   if (end.kind == ChildEnd::Kind::kSignalled)
     return fmt::format("ended by signal {} ({})", end.code, ::strsignal(end.code));
@@ -284,7 +284,7 @@ void ExternalRun::finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
   if (!outcome.first_plan_s)
     outcome.first_plan_s = outcome.trace.empty() ? end.wall_s : outcome.trace.front().seconds;
   outcome.trace = corrected_trace(std::move(outcome.trace), *outcome.cost, end.wall_s);
-  outcome.error = what_went_wrong(end, limit, said);
+  outcome.error = failure_text(end, limit, said);
   if (outcome.anytime && outcome.error == kTimeLimit && *outcome.first_plan_s <= limit) {
     const bool in_time = end.wall_s <= limit + std::max(kGrace_s, kGrace * limit);
     outcome.error =
@@ -301,7 +301,7 @@ void ExternalRun::finish_without_plan(batch::Outcome& outcome, const ChildEnd& e
                                       const fs::path& said) const {
   outcome.trace.clear();
   outcome.first_plan_s.reset();
-  outcome.error = what_went_wrong(end, settings_.time_limit_s, said);
+  outcome.error = failure_text(end, settings_.time_limit_s, said);
   if (outcome.claimed_cost ||
       (solver_.adapter.solved && last_match(*solver_.adapter.solved, said))) {
     outcome.status = batch::kClaimed;
