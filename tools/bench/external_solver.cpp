@@ -93,7 +93,7 @@ std::vector<batch::TracePoint> improving_points(std::vector<batch::TracePoint> t
 }
 
 // Replaces names that the solver's format cannot express, or that the solver may lose, by defaults.
-Instance as_told(const Instance& instance, SolverInput input) {
+Instance instance_for_solver(const Instance& instance, SolverInput input) {
   if (input == SolverInput::kGrove) return instance;
   Instance told = with_default_agent_ids(instance);
   return input == SolverInput::kMgcbs ? with_default_task_ids(told) : told;
@@ -135,7 +135,7 @@ ExternalRun::ExternalRun(const ExternalSolver& solver, const batch::Entry& entry
                          fs::path folder)
     : solver_(solver),
       loaded_(loaded),
-      told_(as_told(loaded.instance, solver.adapter.input)),
+      told_(instance_for_solver(loaded.instance, solver.adapter.input)),
       settings_(settings),
       folder_(fs::absolute(folder)) {
   fs::remove_all(folder_);
