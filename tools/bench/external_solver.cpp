@@ -135,7 +135,7 @@ ExternalRun::ExternalRun(const ExternalSolver& solver, const batch::Entry& entry
                          fs::path folder)
     : solver_(solver),
       loaded_(loaded),
-      told_(instance_for_solver(loaded.instance, solver.adapter.input)),
+      solver_instance_(instance_for_solver(loaded.instance, solver.adapter.input)),
       settings_(settings),
       folder_(fs::absolute(folder)) {
   fs::remove_all(folder_);
@@ -151,13 +151,13 @@ void ExternalRun::write_input(const batch::Entry& entry) {
     case SolverInput::kGrove:
       if (entry.agents == 0) return;
       instance_ = folder_ / "instance.cts.json";
-      return write_instance(instance_, told_, fs::absolute(entry.map).string());
+      return write_instance(instance_, solver_instance_, fs::absolute(entry.map).string());
     case SolverInput::kLibmrp:
-      return write_libmrp_instance(instance_ = folder_ / "instance.yaml", told_);
+      return write_libmrp_instance(instance_ = folder_ / "instance.yaml", solver_instance_);
     case SolverInput::kPotentialGoals:
-      return write_potential_goals(instance_ = folder_ / "instance.yaml", told_);
+      return write_potential_goals(instance_ = folder_ / "instance.yaml", solver_instance_);
     case SolverInput::kMgcbs:
-      return write_mgcbs_instance(instance_ = folder_ / "instance.yaml", told_);
+      return write_mgcbs_instance(instance_ = folder_ / "instance.yaml", solver_instance_);
   }
 }
 
@@ -166,8 +166,8 @@ void ExternalRun::write_input(const batch::Entry& entry) {
 void ExternalRun::write_moving_ai() {
   map_ = folder_ / "map.map";
   scenario_ = folder_ / "map.scen";
-  write_scenario_instance(scenario_, told_, "map.map");
-  write_map(map_, told_.grid());
+  write_scenario_instance(scenario_, solver_instance_, "map.map");
+  write_map(map_, solver_instance_.grid());
 }
 
 std::string ExternalRun::value_of(std::string_view placeholder) const {
@@ -175,7 +175,7 @@ std::string ExternalRun::value_of(std::string_view placeholder) const {
   if (placeholder == "program") return solver_.program;
   if (placeholder == "map") return map_.string();
   if (placeholder == "scenario") return scenario_.string();
-  if (placeholder == "agents") return std::to_string(told_.agent_count());
+  if (placeholder == "agents") return std::to_string(solver_instance_.agent_count());
   if (placeholder == "instance") return instance_.string();
   if (placeholder == "time_limit") return fmt::format("{}", limit);
   if (placeholder == "time_limit_ms") return fmt::format("{:.0f}", limit * 1e3);
@@ -257,11 +257,11 @@ void ExternalRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
   std::error_code error;
   if (file.empty() || !fs::is_regular_file(file, error)) return;
   try {
-    const RecountedPlan told = read_and_recount(file, told_);
+    const RecountedPlan told = read_and_recount(file, solver_instance_);
     if (!outcome.claimed_cost) outcome.claimed_cost = told.claimed_cost;
     if (!outcome.claimed_lower_bound) outcome.claimed_lower_bound = told.claimed_lower_bound;
     if (!told.solution.plan) return;
-    const auto wrong = check(told_, told.solution, 1);
+    const auto wrong = check(solver_instance_, told.solution, 1);
     if (!wrong.empty()) throw InputError(file.string(), wrong.front().place, wrong.front().message);
     outcome.cost = told.solution.plan->cost;
     outcome.status = to_string(Status::kFeasible);

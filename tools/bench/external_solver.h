@@ -61,7 +61,7 @@ class ExternalRun {
 
   const ExternalSolver& solver_;
   const LoadedInstance& loaded_;
-  const Instance told_;
+  const Instance solver_instance_;
   const batch::Settings& settings_;
   const std::filesystem::path folder_;
   std::filesystem::path map_;
