@@ -266,7 +266,7 @@ void ExternalRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
     outcome.cost = told.solution.plan->cost;
     outcome.status = to_string(Status::kFeasible);
     const bool same = solver_.adapter.input == SolverInput::kGrove;
-    shown_ = same ? told.solution : in_terms_of(loaded_.instance, told.solution);
+    valid_plan_ = same ? told.solution : in_terms_of(loaded_.instance, told.solution);
   } catch (const InputError& broken) {
     if (end.kind != ChildEnd::Kind::kExited || end.code != 0) return;  // maybe killed while writing
     outcome.status = batch::kWrongPlan;

@@ -38,7 +38,7 @@ class ExternalRun {
   // Returns the outcome of a run that ended and was not cancelled. `said`: its output.
   batch::Outcome outcome_of_run(const ChildEnd& end, const std::filesystem::path& said);
   // The plan that it wrote, if it passed the check.
-  const std::optional<Solution>& shown() const { return shown_; }
+  const std::optional<Solution>& shown() const { return valid_plan_; }
   // The file for the plan, which may not exist.
   std::filesystem::path plan() const;
 
@@ -67,7 +67,7 @@ class ExternalRun {
   std::filesystem::path map_;
   std::filesystem::path scenario_;
   std::filesystem::path instance_;
-  std::optional<Solution> shown_;
+  std::optional<Solution> valid_plan_;
 };
 
 struct NamedSolver {
