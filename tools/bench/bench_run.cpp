@@ -272,8 +272,8 @@ class Bench {
   // For external solvers: keeps a valid plan as a plan file of Grove, and an invalid one unchanged.
   void keep(const ExternalRun& external, const Instance& instance, const Files& files,
             batch::Row& row) const {
-    if (external.shown()) {
-      write_solution(files.plan, instance, *external.shown());
+    if (external.valid_plan()) {
+      write_solution(files.plan, instance, *external.valid_plan());
       keep(files.plan, plan_name(row), row);
     } else if (row.outcome.status == batch::kWrongPlan) {
       keep(external.plan(), plan_name(row) + ".wrong", row);

@@ -38,7 +38,7 @@ class ExternalRun {
   // Returns the outcome of a run that ended and was not cancelled. `said`: its output.
   batch::Outcome outcome_of_run(const ChildEnd& end, const std::filesystem::path& said);
   // The plan that it wrote, if it passed the check.
-  const std::optional<Solution>& shown() const { return valid_plan_; }
+  const std::optional<Solution>& valid_plan() const { return valid_plan_; }
   // The file for the plan, which may not exist.
   std::filesystem::path plan() const;
 
