@@ -32,7 +32,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kShareOfMemory = 0.8;
+constexpr double kMemoryShare = 0.8;
 constexpr double kMinMemory_gb = 0.1;
 constexpr const char* kAll = "*";
 
@@ -101,7 +101,7 @@ int jobs_of(const BenchArguments& a, const std::vector<bench::Method>& methods) 
 // their limit, because results normally do not depend on it.
 void share_memory(std::vector<bench::Method>& methods, int jobs) {
   const double share =
-      std::max(kMinMemory_gb, std::floor(10 * kShareOfMemory * usable_memory_gb() / jobs) / 10);
+      std::max(kMinMemory_gb, std::floor(10 * kMemoryShare * usable_memory_gb() / jobs) / 10);
   for (bench::Method& method : methods) {
     if (method.settings.memory_limit_gb) continue;
     if (method.solver)
