@@ -36,7 +36,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kCsvInterval_s = 30;  // each time the whole file is written
 // A flush takes longer than a short run. Rows lost in a crash of the machine are run again.
 constexpr auto kWatchInterval = std::chrono::milliseconds(100);
-constexpr double kLongestCheck_s = 3600;
+constexpr double kMaxCheckTime_s = 3600;
 
 class Bench {
  public:
@@ -225,7 +225,7 @@ class Bench {
     std::vector<std::string> command{options_.verify, instance.string(), files.proof.string()};
     if (entry.rules.confined && entry.agents == 0) command.push_back("--confine");
     const ChildEnd end = run_child(command, files.said,
-                                   {.seconds = kLongestCheck_s,
+                                   {.seconds = kMaxCheckTime_s,
                                     .cancelled = [this] { return must_stop(); },
                                     .memory_gb = std::nullopt});
     if (end.kind == ChildEnd::Kind::kCancelled) return false;
