@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kPatience_s = 60;  // time limit of a dry run; it only reads the instance
+constexpr double kDryRunLimit_s = 60;  // time limit of a dry run; it only reads the instance
 
 class Scratch {
  public:
@@ -55,7 +55,7 @@ void check_method_support(const std::vector<BenchInstance>& instances,
     for (const auto& [kind, instance] : first) {
       const ChildEnd end =
           run_child(solve_command(options.program, instance->entry, method, 0, scratch / "plan"),
-                    scratch / "said", {.seconds = kPatience_s, .cancelled = options.stopped});
+                    scratch / "said", {.seconds = kDryRunLimit_s, .cancelled = options.stopped});
       if (!is_refusal(end)) {
         refused = nullptr;
         break;
