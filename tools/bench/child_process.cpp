@@ -20,7 +20,7 @@
 namespace grove::detail::bench {
 namespace {
 
-constexpr int kLookInterval_ms = 100;
+constexpr int kPollInterval_ms = 100;
 
 [[noreturn]] void fail(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
@@ -95,7 +95,7 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
   auto killed = ChildEnd::Kind::kExited;  // kExited: not killed
   for (;;) {
     pollfd wait{process.get(), POLLIN, 0};
-    if (::poll(&wait, 1, kLookInterval_ms) > 0) break;
+    if (::poll(&wait, 1, kPollInterval_ms) > 0) break;
     if (killed != ChildEnd::Kind::kExited) continue;
     if (limits.cancelled()) killed = ChildEnd::Kind::kCancelled;
     if (seconds() - start > limits.seconds) killed = ChildEnd::Kind::kTooLong;
