@@ -50,7 +50,7 @@ class Bench {
         todo_(table_.begin(runs_)),
         root_costs_(instances.size(), options.root_cost_s,
                     static_cast<std::size_t>(options.root_cost_gb * 1e9)) {
-    count_rows_that_stand();
+    count_existing_rows();
     under_way_.resize(workers());
   }
 
@@ -91,7 +91,7 @@ class Bench {
   const Method& method_of(std::size_t run) const { return methods_[run % methods_.size()]; }
   std::size_t instance_index(std::size_t run) const { return run / methods_.size(); }
 
-  void count_rows_that_stand() {
+  void count_existing_rows() {
     state_.work.left = static_cast<int>(runs_.size());
     state_.work.workers = static_cast<int>(std::max<std::size_t>(1, workers()));
     for (const Method& method : methods_) {
