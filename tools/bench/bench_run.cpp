@@ -161,7 +161,7 @@ class Bench {
     try {
       if (const std::string& why = instances_[instance_index(run)].error; !why.empty())
         row.outcome = {.error = why};
-      else if (!(method.solver ? solve_by_other(row, run, files_of(worker))
+      else if (!(method.solver ? solve_externally(row, run, files_of(worker))
                                : solve(row, run, files_of(worker))))
         return;
     } catch (const InputError& error) {
@@ -235,7 +235,7 @@ class Bench {
     return true;
   }
 
-  bool solve_by_other(batch::Row& row, std::size_t run, const Files& files) {
+  bool solve_externally(batch::Row& row, std::size_t run, const Files& files) {
     const std::size_t index = instance_index(run);
     const LoadedInstance loaded = load(instances_[index].entry);
     try {
