@@ -137,7 +137,7 @@ class Bench {
   // Files of a run, per worker.
   struct Files {
     fs::path plan;
-    fs::path said;
+    fs::path output_file;
     fs::path log;
     fs::path folder;  // of an external solver
     fs::path proof;
@@ -177,7 +177,7 @@ class Bench {
                    bool receives_time_limit, std::optional<double> memory_gb) const {
     const double limit = row.run.settings.time_limit_s;
     const double grace = limit * (options_.grace_factor - 1) + options_.grace_s;
-    const ChildEnd end = run_child(command, files.said,
+    const ChildEnd end = run_child(command, files.output_file,
                                    {.seconds = receives_time_limit ? limit + grace : limit,
                                     .cancelled = [this] { return must_stop(); },
                                     .memory_gb = memory_gb});
@@ -200,10 +200,11 @@ class Bench {
     const ChildEnd end = run_one(command, row, files, true, std::nullopt);
     if (end.kind == ChildEnd::Kind::kCancelled) return false;
     const LoadedInstance loaded = load(instances_[index].entry);
-    row.outcome = is_refusal(end)
-                      ? batch::Outcome{.status = batch::kUnsuitable,
-                                       .error = refusal(files.said, instances_[index].entry.path)}
-                      : outcome_of_run(end, limit, loaded.instance, files.plan, files.said);
+    row.outcome =
+        is_refusal(end)
+            ? batch::Outcome{.status = batch::kUnsuitable,
+                             .error = refusal(files.output_file, instances_[index].entry.path)}
+            : outcome_of_run(end, limit, loaded.instance, files.plan, files.output_file);
     if (!row.outcome.failed()) row.outcome.trace = trace_of_log(files.log);
     if (!row.outcome.trace.empty()) row.outcome.first_plan_s = row.outcome.trace.front().seconds;
     if (fs::exists(files.proof) && !certify(row.outcome, index, loaded, files)) return false;
@@ -224,14 +225,14 @@ class Bench {
     }
     std::vector<std::string> command{options_.verify, instance.string(), files.proof.string()};
     if (entry.rules.confined && entry.agents == 0) command.push_back("--confine");
-    const ChildEnd end = run_child(command, files.said,
+    const ChildEnd end = run_child(command, files.output_file,
                                    {.seconds = kMaxCheckTime_s,
                                     .cancelled = [this] { return must_stop(); },
                                     .memory_gb = std::nullopt});
     if (end.kind == ChildEnd::Kind::kCancelled) return false;
     outcome.verify_s = end.wall_s;
     outcome.proof_bytes = static_cast<std::int64_t>(fs::file_size(files.proof));
-    outcome.certified = is_verified(outcome, end, files.said);
+    outcome.certified = is_verified(outcome, end, files.output_file);
     return true;
   }
 
@@ -245,7 +246,7 @@ class Bench {
       const ChildEnd end =
           run_one(external.command(), row, files, external.receives_time_limit(), method.memory_gb);
       if (end.kind == ChildEnd::Kind::kCancelled) return false;
-      row.outcome = external.outcome_of_run(end, files.said);
+      row.outcome = external.outcome_of_run(end, files.output_file);
       if (options_.keep_plans) keep(external, loaded.instance, files, row);
     } catch (const NotRepresentable& error) {
       row.outcome = {.status = batch::kUnsuitable,

@@ -62,15 +62,15 @@ double system_seconds() {
 
 }  // namespace
 
-ChildEnd run_child(const std::vector<std::string>& command, const std::filesystem::path& said,
-                   const ChildLimits& limits) {
+ChildEnd run_child(const std::vector<std::string>& command,
+                   const std::filesystem::path& output_file, const ChildLimits& limits) {
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   const FileDescriptor input("/dev/null", O_RDONLY);
   if (!input.is_open()) fail("/dev/null");
-  const FileDescriptor output(said, O_WRONLY | O_CREAT | O_TRUNC);
-  if (!output.is_open()) fail(said.c_str());
+  const FileDescriptor output(output_file, O_WRONLY | O_CREAT | O_TRUNC);
+  if (!output.is_open()) fail(output_file.c_str());
 
   rlimit memory{};
   memory.rlim_cur = memory.rlim_max = static_cast<rlim_t>(limits.memory_gb.value_or(0) * 1e9);

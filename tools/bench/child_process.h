@@ -35,12 +35,12 @@ struct ChildEnd {
 inline constexpr int kCannotBeStarted = 127;
 
 // Runs `command` (a program and its arguments) and waits for it. Its standard input is /dev/null;
-// standard output and standard error go to the file `said`. The child is killed when the calling
-// thread ends, in whatever way. It has a process group of its own, so Ctrl-C reaches only the
-// caller, and processes of that group that are still running when the child ends are killed. A
+// standard output and standard error go to the file `output_file`. The child is killed when the
+// calling thread ends, in whatever way. It has a process group of its own, so Ctrl-C reaches only
+// the caller, and processes of that group that are still running when the child ends are killed. A
 // program that cannot be started exits with kCannotBeStarted. Thread-safe. Throws std::system_error
 // if the system has no more processes or files.
-ChildEnd run_child(const std::vector<std::string>& command, const std::filesystem::path& said,
-                   const ChildLimits& limits);
+ChildEnd run_child(const std::vector<std::string>& command,
+                   const std::filesystem::path& output_file, const ChildLimits& limits);
 
 }  // namespace grove::detail::bench

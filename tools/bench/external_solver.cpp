@@ -108,12 +108,12 @@ Solution in_terms_of(const Instance& instance, Solution solution) {
 }
 
 // Returns "" if the run exited with 0 within its time limit.
-std::string failure_text(const ChildEnd& end, double time_limit_s, const fs::path& said) {
+std::string failure_text(const ChildEnd& end, double time_limit_s, const fs::path& output_file) {
   if (end.wall_s > time_limit_s) return kTimeLimit;
   if (end.kind == ChildEnd::Kind::kSignalled)
     return fmt::format("ended by signal {} ({})", end.code, ::strsignal(end.code));
   if (end.code != 0)
-    return fmt::format("ended with exit code {}{}", end.code, last_output_line(said));
+    return fmt::format("ended with exit code {}{}", end.code, last_output_line(output_file));
   return "";
 }
 
@@ -207,9 +207,10 @@ fs::path ExternalRun::plan() const {
 
 // Group 1 of the last line in which the pattern is found; the whole match if it has none.
 std::optional<std::string> ExternalRun::last_match(const LinePattern& pattern,
-                                                   const fs::path& said) const {
+                                                   const fs::path& output_file) const {
   const std::regex regex(pattern.regex);
-  const std::string text = text_of(pattern.file.empty() ? said : fs::path(told(pattern.file)));
+  const std::string text =
+      text_of(pattern.file.empty() ? output_file : fs::path(told(pattern.file)));
   std::optional<std::string> found;
   for (const std::string_view line : split_lines(text)) {
     const std::string_view looked_at = beginning(line);
@@ -221,26 +222,26 @@ std::optional<std::string> ExternalRun::last_match(const LinePattern& pattern,
 }
 
 std::optional<double> ExternalRun::number_of(const std::optional<LinePattern>& pattern,
-                                             const fs::path& said) const {
+                                             const fs::path& output_file) const {
   if (!pattern) return std::nullopt;
-  const auto text = last_match(*pattern, said);
+  const auto text = last_match(*pattern, output_file);
   const auto number = text ? number_in(*text) : std::nullopt;
   return number && *number >= 0 ? std::optional(*number * pattern->scale) : std::nullopt;
 }
 
-void ExternalRun::read_claims(batch::Outcome& outcome, const fs::path& said) const {
+void ExternalRun::read_claims(batch::Outcome& outcome, const fs::path& output_file) const {
   const SolverAdapter& adapter = solver_.adapter;
-  outcome.claimed_cost = cost_in(number_of(adapter.cost, said));
-  outcome.claimed_lower_bound = cost_in(number_of(adapter.lower_bound, said));
-  outcome.claimed_s = number_of(adapter.seconds, said);
-  outcome.first_plan_s = number_of(adapter.first_plan, said);
+  outcome.claimed_cost = cost_in(number_of(adapter.cost, output_file));
+  outcome.claimed_lower_bound = cost_in(number_of(adapter.lower_bound, output_file));
+  outcome.claimed_s = number_of(adapter.seconds, output_file);
+  outcome.first_plan_s = number_of(adapter.first_plan, output_file);
 }
 
-void ExternalRun::read_trace(batch::Outcome& outcome, const fs::path& said) const {
+void ExternalRun::read_trace(batch::Outcome& outcome, const fs::path& output_file) const {
   for (const TracePattern& pattern : solver_.adapter.trace) {
     const std::regex regex(pattern.line.regex);
     const std::string text =
-        text_of(pattern.line.file.empty() ? said : fs::path(told(pattern.line.file)));
+        text_of(pattern.line.file.empty() ? output_file : fs::path(told(pattern.line.file)));
     for (const std::string_view line : split_lines(text)) {
       const std::string words(beginning(line));
       std::smatch match;
@@ -279,12 +280,12 @@ void ExternalRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
 // An anytime solver that ran until its limit counts as solved if it had a plan in time. Only its
 // own claim says when it had the plan, so a run that ends much later than its limit does not count.
 void ExternalRun::finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
-                                   const fs::path& said) const {
+                                   const fs::path& output_file) const {
   const double limit = settings_.time_limit_s;
   if (!outcome.first_plan_s)
     outcome.first_plan_s = outcome.trace.empty() ? end.wall_s : outcome.trace.front().seconds;
   outcome.trace = corrected_trace(std::move(outcome.trace), *outcome.cost, end.wall_s);
-  outcome.error = failure_text(end, limit, said);
+  outcome.error = failure_text(end, limit, output_file);
   if (outcome.anytime && outcome.error == kTimeLimit && *outcome.first_plan_s <= limit) {
     const bool in_time = end.wall_s <= limit + std::max(kGrace_s, kGrace * limit);
     outcome.error =
@@ -298,41 +299,41 @@ void ExternalRun::finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
 }
 
 void ExternalRun::finish_without_plan(batch::Outcome& outcome, const ChildEnd& end,
-                                      const fs::path& said) const {
+                                      const fs::path& output_file) const {
   outcome.trace.clear();
   outcome.first_plan_s.reset();
-  outcome.error = failure_text(end, settings_.time_limit_s, said);
+  outcome.error = failure_text(end, settings_.time_limit_s, output_file);
   if (outcome.claimed_cost ||
-      (solver_.adapter.solved && last_match(*solver_.adapter.solved, said))) {
+      (solver_.adapter.solved && last_match(*solver_.adapter.solved, output_file))) {
     outcome.status = batch::kClaimed;
     outcome.error =
         "claims a plan but wrote none" + (outcome.error.empty() ? "" : "; " + outcome.error);
   } else if (outcome.error.empty()) {
-    outcome.error = "ended without a plan" + last_output_line(said);
+    outcome.error = "ended without a plan" + last_output_line(output_file);
   } else if (outcome.error != kTimeLimit) {
     outcome.status = batch::kError;
   }
 }
 
-batch::Outcome ExternalRun::outcome_of_run(const ChildEnd& end, const fs::path& said) {
+batch::Outcome ExternalRun::outcome_of_run(const ChildEnd& end, const fs::path& output_file) {
   batch::Outcome outcome;
   outcome.peak_memory_mb = end.peak_memory_mb;
   outcome.anytime = solver_.adapter.anytime;
   if (end.kind == ChildEnd::Kind::kExited && end.code == kCannotBeStarted) {
-    outcome.error = fmt::format("cannot be started{}", last_output_line(said));
+    outcome.error = fmt::format("cannot be started{}", last_output_line(output_file));
     return outcome;
   }
   outcome.status = to_string(Status::kUnknown);
-  read_claims(outcome, said);
-  read_trace(outcome, said);
+  read_claims(outcome, output_file);
+  read_trace(outcome, output_file);
   read_plan(outcome, end);
   if (outcome.status == batch::kWrongPlan) {
     outcome.trace.clear();
     outcome.first_plan_s.reset();
   } else if (outcome.cost) {
-    finish_with_plan(outcome, end, said);
+    finish_with_plan(outcome, end, output_file);
   } else {
-    finish_without_plan(outcome, end, said);
+    finish_without_plan(outcome, end, output_file);
   }
   return outcome;
 }

@@ -35,8 +35,8 @@ class ExternalRun {
   std::vector<std::string> command() const;
   // Whether the command line contains the time limit, so that the solver may end by itself then.
   bool receives_time_limit() const;
-  // Returns the outcome of a run that ended and was not cancelled. `said`: its output.
-  batch::Outcome outcome_of_run(const ChildEnd& end, const std::filesystem::path& said);
+  // Returns the outcome of a run that ended and was not cancelled. `output_file`: its output.
+  batch::Outcome outcome_of_run(const ChildEnd& end, const std::filesystem::path& output_file);
   // The plan that it wrote, if it passed the check.
   const std::optional<Solution>& valid_plan() const { return valid_plan_; }
   // The file for the plan, which may not exist.
@@ -47,17 +47,17 @@ class ExternalRun {
   std::string told(const std::string& text) const;
   void write_input(const batch::Entry& entry);
   void write_moving_ai();
-  void read_claims(batch::Outcome& outcome, const std::filesystem::path& said) const;
-  void read_trace(batch::Outcome& outcome, const std::filesystem::path& said) const;
+  void read_claims(batch::Outcome& outcome, const std::filesystem::path& output_file) const;
+  void read_trace(batch::Outcome& outcome, const std::filesystem::path& output_file) const;
   void read_plan(batch::Outcome& outcome, const ChildEnd& end);
   void finish_with_plan(batch::Outcome& outcome, const ChildEnd& end,
-                        const std::filesystem::path& said) const;
+                        const std::filesystem::path& output_file) const;
   void finish_without_plan(batch::Outcome& outcome, const ChildEnd& end,
-                           const std::filesystem::path& said) const;
+                           const std::filesystem::path& output_file) const;
   std::optional<std::string> last_match(const LinePattern& pattern,
-                                        const std::filesystem::path& said) const;
+                                        const std::filesystem::path& output_file) const;
   std::optional<double> number_of(const std::optional<LinePattern>& pattern,
-                                  const std::filesystem::path& said) const;
+                                  const std::filesystem::path& output_file) const;
 
   const ExternalSolver& solver_;
   const LoadedInstance& loaded_;

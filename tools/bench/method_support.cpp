@@ -53,16 +53,16 @@ void check_method_support(const std::vector<BenchInstance>& instances,
     const BenchInstance* refused = nullptr;
     std::string why;
     for (const auto& [kind, instance] : first) {
-      const ChildEnd end =
-          run_child(solve_command(options.program, instance->entry, method, 0, scratch / "plan"),
-                    scratch / "said", {.seconds = kDryRunLimit_s, .cancelled = options.stopped});
+      const ChildEnd end = run_child(
+          solve_command(options.program, instance->entry, method, 0, scratch / "plan"),
+          scratch / "output_file", {.seconds = kDryRunLimit_s, .cancelled = options.stopped});
       if (!is_refusal(end)) {
         refused = nullptr;
         break;
       }
       if (refused == nullptr) {
         refused = instance;
-        why = refusal(scratch / "said", instance->entry.path);
+        why = refusal(scratch / "output_file", instance->entry.path);
       }
     }
     if (refused != nullptr)
