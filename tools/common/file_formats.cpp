@@ -103,7 +103,7 @@ bool holds_tasks(InstanceFormat format) {
   return format != InstanceFormat::kLibmrp && format != InstanceFormat::kScen;
 }
 
-bool is_called_like_another_tools_instance(const std::string& file) {
+bool has_suffix_of_other_format(const std::string& file) {
   return std::ranges::any_of(kInstanceSuffixes, [&](const Entry<InstanceFormat>& entry) {
     return !names_a_map(entry.format) && file.ends_with(entry.name);
   });

@@ -30,7 +30,7 @@ bool names_a_map(InstanceFormat format);
 bool holds_tasks(InstanceFormat format);
 
 // Whether the suffix of `file` is that of a format that only 'grove convert' reads.
-bool is_called_like_another_tools_instance(const std::string& file);
+bool has_suffix_of_other_format(const std::string& file);
 
 // Returns `file` without the suffix of a format: "x" of "x.cts.json".
 std::string without_suffix(const std::string& file);

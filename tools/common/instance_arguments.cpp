@@ -95,7 +95,7 @@ LoadedInstance InstanceArguments::read() const {
         path_, "",
         "found a road network of another tool; expected an instance, FILE.cts.json, on the "
         "roadmap that 'grove convert' makes from it");
-  if (is_called_like_another_tools_instance(path_))
+  if (has_suffix_of_other_format(path_))
     throw InputError(
         path_, "",
         "found an instance of another tool; expected FILE.cts.json, which 'grove convert' "
