@@ -7,12 +7,12 @@
 namespace grove::detail {
 
 std::atomic<bool> interrupted{false};
-std::atomic<bool> checkpoint_asked{false};
+std::atomic<bool> checkpoint_requested{false};
 
 namespace {
 
 extern "C" void on_signal(int signal) {
-  (signal == SIGUSR1 ? checkpoint_asked : interrupted) = true;
+  (signal == SIGUSR1 ? checkpoint_requested : interrupted) = true;
 }
 
 }  // namespace

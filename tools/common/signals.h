@@ -10,7 +10,7 @@ namespace grove::detail {
 extern std::atomic<bool> interrupted;
 
 // Set by SIGUSR1; the code that writes the checkpoint resets it.
-extern std::atomic<bool> checkpoint_asked;
+extern std::atomic<bool> checkpoint_requested;
 
 // From now on SIGUSR1 requests a checkpoint, even if the program was started with this signal
 // blocked or ignored. Without this call SIGUSR1 ends the process. Call it first in main(), so that

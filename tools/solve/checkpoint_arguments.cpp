@@ -87,7 +87,7 @@ CheckpointFolder prepare_checkpoints(const CheckpointArguments& a, const Instanc
   if (a.directory.empty()) return {};
   make_folder(a.directory);
   CheckpointFolder folder{lock_folder(a.directory), nullptr};
-  options.checkpoints = {a.directory, a.interval_s, &checkpoint_asked};
+  options.checkpoints = {a.directory, a.interval_s, &checkpoint_requested};
   const std::filesystem::path file = checkpoint_file(a.directory);
   const bool found = std::filesystem::exists(file);
   if (a.resume.empty() && (found || std::filesystem::exists(a.incumbent_file())))
