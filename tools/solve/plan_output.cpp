@@ -69,8 +69,8 @@ std::optional<Cost> write_plan(const std::filesystem::path& file, const Instance
   return std::nullopt;
 }
 
-void tell_without_plan(const Solution& solution, const std::filesystem::path& file,
-                       std::optional<Cost> kept) {
+void report_missing_plan(const Solution& solution, const std::filesystem::path& file,
+                         std::optional<Cost> kept) {
   if (solution.plan && !kept) return;
   say_on_stderr(fmt::format(
       "grove: {} ({}){}",

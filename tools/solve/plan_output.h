@@ -24,7 +24,7 @@ std::optional<Cost> write_plan(const std::filesystem::path& file, const Instance
 
 // Reports on standard error how the run ended if it has no plan, or if the file was left unchanged
 // with a plan of cost `kept`.
-void tell_without_plan(const Solution& solution, const std::filesystem::path& file,
-                       std::optional<Cost> kept);
+void report_missing_plan(const Solution& solution, const std::filesystem::path& file,
+                         std::optional<Cost> kept);
 
 }  // namespace grove::detail

@@ -126,7 +126,7 @@ std::string finish_run(const SolveArguments& a, const Instance& instance, const 
   const auto [kept, failure] = try_to_write_plan(a, instance, solution);
   log.end({solution, a.output == kStandardOutput ? "standard output" : a.output.string(),
            a.proof.string(), kept, !failure.empty()});
-  tell_without_plan(solution, a.output, kept);
+  report_missing_plan(solution, a.output, kept);
   return failure;
 }
 

@@ -93,7 +93,7 @@ TEST_F(PlanOutput, RefutesAWrongProof) {
 TEST_F(PlanOutput, TellsWhatMustNotBeMissed) {
   const auto told = [](const Solution& solution, std::optional<Cost> kept) {
     ::testing::internal::CaptureStderr();
-    tell_without_plan(solution, "p.json", kept);
+    report_missing_plan(solution, "p.json", kept);
     return ::testing::internal::GetCapturedStderr();
   };
   EXPECT_EQ(told(waiting(1), {}), "");
