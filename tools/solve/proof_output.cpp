@@ -81,7 +81,7 @@ void warn_of_joint_search(const fs::path& file, const Instance& instance, const 
 }  // namespace
 
 ProofOutput::ProofOutput(const SolveArguments& a, int rank)
-    : file_(a.proof), goes_on_(!a.checkpoints.directory.empty()) {
+    : file_(a.proof), may_resume_(!a.checkpoints.directory.empty()) {
   if (file_.empty()) return;
   if (method_of(a) == Method::kCtsCbsB || method_of(a) == Method::kCtsCbsC)
     throw CLI::ValidationError(
@@ -128,7 +128,7 @@ void ProofOutput::make(const Instance& instance, Solution& solution) const {
 }
 
 void ProofOutput::remove_parts() const {
-  if (goes_on_) return;
+  if (may_resume_) return;
   for (const fs::path& part : parts_of(file_)) fs::remove(part);
 }
 

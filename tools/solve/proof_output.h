@@ -42,7 +42,7 @@ class ProofOutput {
   void remove_parts() const;
 
   const std::filesystem::path file_;
-  const bool goes_on_;  // a later run may resume
+  const bool may_resume_;  // a later run may resume
   std::unique_ptr<ProofRecorder> recorder_;
   std::string failure_;
 };
