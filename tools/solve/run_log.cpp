@@ -63,7 +63,7 @@ void RunLog::on_bound_beside(BoundSource by) {
 // Other ranks report only how many nodes they expanded, not the outcome.
 void RunLog::note_bound(const Progress& progress) {
   if (progress.lower_bound <= bound_) return;
-  const bool is_known = hears_expansions_ || progress.nodes_expanded == 0;
+  const bool is_known = receives_expansions_ || progress.nodes_expanded == 0;
   const std::optional<BoundSource> beside = std::exchange(raises_, std::nullopt);
   raised_by_[beside     ? name_of(*beside)
              : is_known ? last_work_
@@ -110,7 +110,7 @@ void RunLog::on_root(const NodePtr& root) {
 
 // If the bound rises now, this expansion is the cause: it completed the last node of the old bound.
 void RunLog::on_expanded(const NodePtr& node, const Expansion& expansion, int worker) {
-  hears_expansions_ = true;
+  receives_expansions_ = true;
   last_work_ = expansion.branching ? "splits" : expansion.plan ? last_work_ : "groups";
   if (const auto row = tree_.expanded(*node, expansion, worker)) format_.node(*row, seconds());
 }

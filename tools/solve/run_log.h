@@ -53,7 +53,7 @@ class RunLog : public RunObserver {
   TreeLog tree_;
   bool has_rows_ = false;
   bool survey_is_due_ = false;
-  bool hears_expansions_ = false;
+  bool receives_expansions_ = false;
   std::optional<BoundSource> raises_;     // source of the next rise of the bound, if not the tree
   RunEvent event_ = RunEvent::kProgress;  // the most important one since the last row
   PlanSource source_ = PlanSource::kTree;
