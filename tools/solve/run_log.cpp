@@ -14,7 +14,7 @@ constexpr double kProgressInterval_s = 0.1;
 constexpr std::int64_t kRowInterval_nodes = 1000;
 
 // Importance of an event: rarer events are more important.
-int telling(RunEvent event) {
+int importance(RunEvent event) {
   switch (event) {
     case RunEvent::kIncumbent:
       return 3;
@@ -46,7 +46,7 @@ void RunLog::on_incumbent(const Plan&, PlanSource source, const Progress&) {
 void RunLog::on_event(RunEvent event, const Progress& told) {
   Progress progress = told;
   if (progress.lower_bound >= kInfiniteCost) progress.lower_bound = bound_;  // there is no plan
-  if (telling(event) > telling(event_)) event_ = event;
+  if (importance(event) > importance(event_)) event_ = event;
   note_bound(progress);
   const bool news = event_ != RunEvent::kProgress || progress.nodes_expanded != last_row_nodes_;
   const bool is_due = row_is_due(progress);
