@@ -23,7 +23,7 @@ namespace grove::detail {
 namespace {
 
 constexpr const char* kJsonLines = "jsonl";
-constexpr double kLongestWait_s = 10;  // max. interval of rows for programs, as a sign of life
+constexpr double kMaxRowInterval_s = 10;  // max. interval of rows for programs, as a sign of life
 
 // The adaptations of CTS-CBS are those of the paper only with its policy.
 std::string method_text(const SolveArguments& a) {
@@ -93,7 +93,7 @@ RunLog rows_of(LogFormat& log, const SolveArguments& a,
                std::chrono::steady_clock::time_point start) {
   const bool for_programs = a.log_format == kJsonLines;
   RunLog::Options options{.by_work = a.deterministic, .tree_nodes = a.log_tree};
-  if (for_programs) options.longest_interval_s = kLongestWait_s;
+  if (for_programs) options.longest_interval_s = kMaxRowInterval_s;
   return RunLog(log, start, options);
 }
 
