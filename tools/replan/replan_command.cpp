@@ -189,17 +189,17 @@ class Replanning {
         write_map(map, now.grid());
       else
         write_roadmap(map, *now.roadmap());
-      if (!before.empty() && read_text(map) != before) tell_that_another_is_replaced(map, "map");
+      if (!before.empty() && read_text(map) != before) report_replaced(map, "map");
     }
     const std::string text = instance_text(
         now, map_as_seen_from(a_.output_instance, (map.empty() ? loaded_.map_path : map).string()));
     if (fs::exists(a_.output_instance) && read_text(a_.output_instance) != text)
-      tell_that_another_is_replaced(a_.output_instance, "instance");
+      report_replaced(a_.output_instance, "instance");
     write_file_atomically(a_.output_instance, text);
   }
 
   // Reports that existing plans of the replaced file are not plans of the new one.
-  static void tell_that_another_is_replaced(const fs::path& file, const std::string& what) {
+  static void report_replaced(const fs::path& file, const std::string& what) {
     say_on_stderr(fmt::format(
         "grove: {} had another {} and was replaced; plans of that one are not valid for this one; "
         "to keep it, give another name with --output-instance",
