@@ -207,7 +207,7 @@ class Replanning {
   }
 
   // The bound then is that of a more constrained instance: see docs/engineers.md.
-  static void tell_ends_of_old_plan(const Solution& solution) {
+  static void report_ends_of_old_plan(const Solution& solution) {
     const auto ends = solution.stats.texts.find("ends_of_old_plan");
     if (ends == solution.stats.texts.end()) return;
     say_on_stderr(
@@ -232,7 +232,7 @@ class Replanning {
     solution.stats.texts["instance"] = head.instance;
     if (solution.stats.counts.contains("lower_bound_committed")) tell_committed(solution, *log);
     write_instance_then();
-    tell_ends_of_old_plan(solution);
+    report_ends_of_old_plan(solution);
     report_failures({finish_run(s, session_.instance(), solution, *log)});
     if (s.require_plan && !solution.plan) throw CommandFailed(kExitNoPlan);
   }
