@@ -230,7 +230,8 @@ class Replanning {
     Solution solution = solve_session(limits, rows);
     add_run_facts(solution, app_, s, start_);
     solution.stats.texts["instance"] = head.instance;
-    if (solution.stats.counts.contains("lower_bound_committed")) tell_committed(solution, *log);
+    if (solution.stats.counts.contains("lower_bound_committed"))
+      report_committed_bound(solution, *log);
     write_instance_then();
     report_ends_of_old_plan(solution);
     report_failures({finish_run(s, session_.instance(), solution, *log)});
@@ -249,7 +250,7 @@ class Replanning {
     }
   }
 
-  void tell_committed(const Solution& solution, LogFormat& log) const {
+  void report_committed_bound(const Solution& solution, LogFormat& log) const {
     log.note(fmt::format("no plan that begins with the {} committed steps costs less than {}",
                          a_.commit, solution.stats.counts.at("lower_bound_committed")),
              std::chrono::duration<double>(Clock::now() - start_).count());
