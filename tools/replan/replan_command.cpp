@@ -141,7 +141,7 @@ class Replanning {
     if (s.output.empty())
       s.output = (names_instance ? stem_of(a_.output_instance) : stem) + kPlanSuffix;
     locks_ = prepare_outputs(s, loaded_);
-    require_files_of_their_own();
+    require_distinct_outputs();
     require_writable(a_.output_instance);
   }
 
@@ -158,7 +158,7 @@ class Replanning {
   }
 
   // Requires that the output files are distinct and are not input files.
-  void require_files_of_their_own() const {
+  void require_distinct_outputs() const {
     const SolveArguments& s = a_.solve;
     std::vector<fs::path> written{a_.output_instance, map_then(), fs::path(s.log)};
     if (s.output != kStandardOutput) written.push_back(s.output);
