@@ -180,7 +180,7 @@ class Replanning {
            (session_.instance().is_on_grid() ? ".map" : ".roadmap.json");
   }
 
-  void write_instance_then() const {
+  void write_remaining_instance() const {
     const Instance& now = session_.instance();
     const fs::path map = map_then();
     if (!map.empty()) {
@@ -232,7 +232,7 @@ class Replanning {
     solution.stats.texts["instance"] = head.instance;
     if (solution.stats.counts.contains("lower_bound_committed"))
       report_committed_bound(solution, *log);
-    write_instance_then();
+    write_remaining_instance();
     report_ends_of_old_plan(solution);
     report_failures({finish_run(s, session_.instance(), solution, *log)});
     if (s.require_plan && !solution.plan) throw CommandFailed(kExitNoPlan);
