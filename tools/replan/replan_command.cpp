@@ -160,7 +160,7 @@ class Replanning {
   // Requires that the output files are distinct and are not input files.
   void require_distinct_outputs() const {
     const SolveArguments& s = a_.solve;
-    std::vector<fs::path> written{a_.output_instance, map_then(), fs::path(s.log)};
+    std::vector<fs::path> written{a_.output_instance, changed_map(), fs::path(s.log)};
     if (s.output != kStandardOutput) written.push_back(s.output);
     for (std::size_t i = 0; i < written.size(); ++i) {
       require_distinct_files(written[i], s.instance.path(), "the instance");
@@ -174,7 +174,7 @@ class Replanning {
   }
 
   // Returns the file beside the instance for a map with blocked places; "" if nothing is blocked.
-  fs::path map_then() const {
+  fs::path changed_map() const {
     if (a_.change.blocked.empty() && !loaded_.map_path.empty()) return {};
     return stem_of(a_.output_instance) +
            (session_.instance().is_on_grid() ? ".map" : ".roadmap.json");
@@ -182,7 +182,7 @@ class Replanning {
 
   void write_remaining_instance() const {
     const Instance& now = session_.instance();
-    const fs::path map = map_then();
+    const fs::path map = changed_map();
     if (!map.empty()) {
       const std::string before = fs::exists(map) ? read_text(map) : "";
       if (now.is_on_grid())
