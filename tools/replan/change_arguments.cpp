@@ -45,7 +45,7 @@ std::vector<Late> late_robots(const ChangeArguments& arguments, const Instance& 
   return late;
 }
 
-AskedChange::AskedChange(const ChangeArguments& arguments, const Instance& instance) {
+RequestedChange::RequestedChange(const ChangeArguments& arguments, const Instance& instance) {
   for (const std::string& file : arguments.new_tasks) read_new_tasks(file, instance);
   for (const std::string& task : arguments.dropped) {
     change_.dropped_tasks.push_back(task);
@@ -54,14 +54,14 @@ AskedChange::AskedChange(const ChangeArguments& arguments, const Instance& insta
   for (const std::string& text : arguments.blocked) block(text, instance);
 }
 
-void AskedChange::read_new_tasks(const std::string& file, const Instance& instance) {
+void RequestedChange::read_new_tasks(const std::string& file, const Instance& instance) {
   for (ReadTask& read : grove::detail::read_new_tasks(file, instance)) {
     change_.new_tasks.push_back(std::move(read.task));
     new_tasks_.push_back({file, read.place});
   }
 }
 
-void AskedChange::block(const std::string& text, const Instance& instance) {
+void RequestedChange::block(const std::string& text, const Instance& instance) {
   if (instance.roadmap()) return block_on_roadmap(text, *instance.roadmap());
   const Grid& grid = instance.grid();
   const std::size_t comma = text.find(',');
@@ -77,7 +77,7 @@ void AskedChange::block(const std::string& text, const Instance& instance) {
   blocked_.push_back({"--blocked", text});
 }
 
-void AskedChange::block_on_roadmap(const std::string& text, const Roadmap& roadmap) {
+void RequestedChange::block_on_roadmap(const std::string& text, const Roadmap& roadmap) {
   if (const auto vertex = roadmap.vertex(text)) {
     change_.blocked.push_back(roadmap.place_of_vertex(*vertex));
     blocked_.push_back({"--blocked", text});
@@ -99,7 +99,7 @@ void AskedChange::block_on_roadmap(const std::string& text, const Roadmap& roadm
                         "a vertex of the roadmap, or A,B: two vertices joined by a road");
 }
 
-void AskedChange::refuse(const InstanceError& error) const {
+void RequestedChange::refuse(const InstanceError& error) const {
   const Field field(error.field());
   if (field.part == "new_tasks") {
     const Said& said = new_tasks_[field.number];

@@ -23,10 +23,10 @@ struct ChangeArguments {
 std::vector<Late> late_robots(const ChangeArguments& arguments, const Instance& instance);
 
 // The change, with the source of each part.
-class AskedChange {
+class RequestedChange {
  public:
   // `instance` is the instance to change.
-  AskedChange(const ChangeArguments& arguments, const Instance& instance);
+  RequestedChange(const ChangeArguments& arguments, const Instance& instance);
 
   const InstanceChange& change() const { return change_; }
   // Rethrows an error of apply() as an error of the command line or of a file.

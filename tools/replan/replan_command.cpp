@@ -122,7 +122,7 @@ class Replanning {
   }
 
   void change() {
-    const AskedChange asked(a_.change, session_.instance());
+    const RequestedChange asked(a_.change, session_.instance());
     try {
       session_.change(asked.change());
     } catch (const InstanceError& error) {
