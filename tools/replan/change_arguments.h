@@ -38,11 +38,11 @@ class RequestedChange {
   void block_on_roadmap(const std::string& text, const Roadmap& roadmap);
 
   InstanceChange change_;
-  struct Said {
+  struct Source {
     std::string where;  // file or option
     std::string what;   // place in the file, or the option's value
   };
-  std::vector<Said> new_tasks_, dropped_, blocked_, closed_roads_;  // same order as in the change
+  std::vector<Source> new_tasks_, dropped_, blocked_, closed_roads_;  // same order as in the change
 };
 
 }  // namespace grove::detail
