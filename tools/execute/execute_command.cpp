@@ -96,7 +96,7 @@ class Execution {
       : a_(arguments),
         options_(options_text(app)),
         loaded_(arguments.instance.load()),
-        claimed_(read_plan_to_drive(arguments.plan, loaded_.instance)),
+        claimed_(read_plan_to_execute(arguments.plan, loaded_.instance)),
         order_(loaded_.instance, *claimed_.solution.plan) {}
 
   void run() {

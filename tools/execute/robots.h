@@ -19,6 +19,6 @@ AgentIndex robot_of(const std::string& option, const std::string& text, const st
 
 // Reads the plan to execute, in any format, and prints warnings. Throws InputError if there is none
 // or if it is not valid.
-ClaimedPlan read_plan_to_drive(const std::string& file, const Instance& instance);
+ClaimedPlan read_plan_to_execute(const std::string& file, const Instance& instance);
 
 }  // namespace grove::detail

@@ -95,7 +95,7 @@ class Replanning {
  private:
   // Returns the plan. If it is without following, so will be the new one.
   Plan read_plan() {
-    Solution driven = read_plan_to_drive(a_.plan, loaded_.instance).solution;
+    Solution driven = read_plan_to_execute(a_.plan, loaded_.instance).solution;
     if (!driven.may_follow) loaded_.instance = loaded_.instance.without_following();
     return *std::move(driven.plan);
   }
