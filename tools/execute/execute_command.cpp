@@ -109,7 +109,7 @@ class Execution {
     for (std::int64_t run = 0; run < a_.runs; ++run) drive_once(troubles, a_.seed + run);
     print();
     if (a_.switches) fmt::print("switched: {} places\n", switches_);
-    if (unfinished_ > 0) tell_stuck();
+    if (unfinished_ > 0) report_blocked_robots();
   }
 
  private:
@@ -176,7 +176,7 @@ class Execution {
     require_valid_plan(loaded_.instance, solution_of(drive));
   }
 
-  void tell_stuck() const {
+  void report_blocked_robots() const {
     const auto id = [&](AgentIndex agent) { return one_line(loaded_.instance.agent(agent).id); };
     const std::string which =
         a_.runs == 1 ? ""
