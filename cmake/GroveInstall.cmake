@@ -100,29 +100,29 @@ install(FILES ${grove_pages} DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT progr
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/benchmarks/data/
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT programs
   FILES_MATCHING PATTERN "*.map" PATTERN "*.scen" PATTERN "*.json")
-# What `grove report` and others become lies apart: nobody calls it by itself. There is a grove beside
-# it for what calls that.
-set(grove_companions ${CMAKE_INSTALL_LIBEXECDIR}/grove)
-install(TARGETS grove-follow RUNTIME DESTINATION ${grove_companions} COMPONENT programs)
-install(TARGETS grove-picture RUNTIME DESTINATION ${grove_companions} COMPONENT pictures)
+# The programs that `grove report` and other commands start by exec(3) are in a folder of their own,
+# since no user calls them directly. That folder has a link to grove, for those that call it.
+set(grove_helper_programs ${CMAKE_INSTALL_LIBEXECDIR}/grove)
+install(TARGETS grove-follow RUNTIME DESTINATION ${grove_helper_programs} COMPONENT programs)
+install(TARGETS grove-picture RUNTIME DESTINATION ${grove_helper_programs} COMPONENT pictures)
 foreach(program report toio vda5050)
   install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/${program}/grove-${program}
-    DESTINATION ${grove_companions} COMPONENT programs)
+    DESTINATION ${grove_helper_programs} COMPONENT programs)
 endforeach()
 foreach(package driving report toio vda5050)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/${package}/grove_${package}
-    DESTINATION ${grove_companions} COMPONENT programs PATTERN __pycache__ EXCLUDE)
+    DESTINATION ${grove_helper_programs} COMPONENT programs PATTERN __pycache__ EXCLUDE)
 endforeach()
 install(CODE "
   include(\"${CMAKE_CURRENT_LIST_DIR}/compile_python.cmake\")
   foreach(package driving report toio vda5050)
-    compile_python(/usr/bin/python3 \"\${CMAKE_INSTALL_PREFIX}/${grove_companions}/grove_\${package}\")
+    compile_python(/usr/bin/python3 \"\${CMAKE_INSTALL_PREFIX}/${grove_helper_programs}/grove_\${package}\")
   endforeach()" COMPONENT programs)
-file(RELATIVE_PATH grove_from_companions
+file(RELATIVE_PATH grove_from_helper_programs
   ${CMAKE_INSTALL_FULL_LIBEXECDIR}/grove ${CMAKE_INSTALL_FULL_BINDIR}/grove)
-file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/companion)
-file(CREATE_LINK ${grove_from_companions} ${PROJECT_BINARY_DIR}/companion/grove SYMBOLIC)
-install(FILES ${PROJECT_BINARY_DIR}/companion/grove DESTINATION ${grove_companions} COMPONENT programs)
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/helper_programs)
+file(CREATE_LINK ${grove_from_helper_programs} ${PROJECT_BINARY_DIR}/helper_programs/grove SYMBOLIC)
+install(FILES ${PROJECT_BINARY_DIR}/helper_programs/grove DESTINATION ${grove_helper_programs} COMPONENT programs)
 # For editors: docs/formats.md.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/schemas
   DESTINATION ${CMAKE_INSTALL_DATADIR}/grove COMPONENT programs)

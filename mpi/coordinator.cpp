@@ -150,7 +150,7 @@ void Coordinator::restore(CheckpointReader& checkpoint) {
 
 void Coordinator::handle(int from, message::Message&& message) {
   const auto unexpected = [](const auto&) {
-    throw std::invalid_argument("a message for a rank came to the coordinator");
+    throw std::invalid_argument("coordinator: unexpected message type");
   };
   std::visit(
       Overloaded{

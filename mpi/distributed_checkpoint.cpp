@@ -53,7 +53,7 @@ void DistributedCheckpoint::write(Write what) {
   } catch (const InputError& error) {
     report_.failure = error.what();
   } catch (const std::bad_alloc&) {
-    report_.failure = "there is no memory left to write it";
+    report_.failure = "not enough memory to write it";
   }
   if (!report_.failure.empty()) writer_.reset();
 }

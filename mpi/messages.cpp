@@ -57,7 +57,7 @@ template <class Archive, class Enum>
 void enumerated(Archive& archive, Enum& value, Enum last) {
   auto number = static_cast<std::uint8_t>(value);
   archive(number);
-  if (number > static_cast<std::uint8_t>(last)) throw cereal::Exception("a value of no known kind");
+  if (number > static_cast<std::uint8_t>(last)) throw cereal::Exception("message: unknown kind");
   value = static_cast<Enum>(number);
 }
 

@@ -35,7 +35,7 @@ MpiTransport::~MpiTransport() {
 
 void MpiTransport::do_send(int to, std::string bytes) {
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    throw std::length_error("a message is too long for MPI");
+    throw std::length_error("MPI transport: message too long");
   forget_sent();
   Sending& sending = sending_.emplace_back(Sending{MPI_REQUEST_NULL, std::move(bytes)});
   MPI_Isend(sending.bytes.data(), static_cast<int>(sending.bytes.size()), MPI_BYTE, to, kTag,

@@ -26,7 +26,8 @@ void require_mpi() {
   MPI_Finalized(&finalized);
   if (initialized == 1 && finalized == 0) MPI_Query_thread(&provided);
   if (provided < MPI_THREAD_FUNNELED)
-    throw Error("MPI is not there for threads; expected MPI_Init_thread with MPI_THREAD_FUNNELED");
+    throw Error(
+        "MPI is not initialised for threads; expected MPI_Init_thread with MPI_THREAD_FUNNELED");
 }
 
 // Collective. The minimum of `mine`.
@@ -47,7 +48,7 @@ void collective(MPI_Comm communicator, Act&& act) {
   }
   const bool all_well = least(failure ? 0 : 1, communicator) == 1;
   if (failure) std::rethrow_exception(failure);
-  if (!all_well) throw InvalidArgument("", "another rank was given what it refuses");
+  if (!all_well) throw InvalidArgument("", "another rank refused its arguments");
 }
 
 void require_same(const detail::Instance& instance, MPI_Comm communicator) {
@@ -55,16 +56,17 @@ void require_same(const detail::Instance& instance, MPI_Comm communicator) {
   const std::int64_t smallest = least(mine, communicator);
   const std::int64_t greatest = ~least(~mine, communicator);
   if (smallest != greatest)
-    throw InvalidArgument("/instance", "ranks are given different instances; expected one");
+    throw InvalidArgument("/instance", "found different instances on the ranks; expected the same");
 }
 
 detail::SolveOptions shared_options(const detail::Instance& instance, const Options& options) {
   detail::SolveOptions search = search_options_of(instance, options);
   if (search.deterministic)
-    throw InvalidArgument("/deterministic", "is for one process; expected false");
+    throw InvalidArgument("/deterministic", "not supported with several processes; expected false");
   const auto method = detail::parse_method(options.method);
   if (method && detail::is_adaptation(*method))
-    throw InvalidArgument("/method", fmt::format("'{}' is for one process", options.method));
+    throw InvalidArgument(
+        "/method", fmt::format("'{}' is not supported with several processes", options.method));
   return search;
 }
 

@@ -63,7 +63,7 @@ Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& li
 
 void Rank::handle(int from, message::Message&& message) {
   const auto unexpected = [](const auto&) {
-    throw std::invalid_argument("a message for the coordinator came to a rank");
+    throw std::invalid_argument("rank: unexpected message type");
   };
   std::visit(
       Overloaded{

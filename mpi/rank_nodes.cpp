@@ -24,7 +24,7 @@ void RankNodes::update(int child, message::Status status) {
   const std::int64_t arrived = status.entrusted - latest.entrusted;
   if (arrived < 0 || arrived > std::ssize(sent) || status.epoch < latest.epoch ||
       status.epoch > epoch_)
-    throw std::invalid_argument("a status of a rank that does not fit what it was told");
+    throw std::invalid_argument("coordinator: status does not match the messages to the rank");
   bounds_.insert(status.bound);
   bounds_.erase(bounds_.find(latest.bound));
   for (std::int64_t i = 0; i < arrived; ++i) {

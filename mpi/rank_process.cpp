@@ -44,7 +44,7 @@ void RankProcess::handle(int from, message::Addressed&& addressed) {
   else if (coordinator_ && level == std::ssize(subs_) + 1)
     coordinator_->handle(from, std::move(message));
   else
-    throw std::invalid_argument("a message for a coordinator that is not here");
+    throw std::invalid_argument("rank process: message for a coordinator of another process");
 }
 
 double RankProcess::next_send_time() const {

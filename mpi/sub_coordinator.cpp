@@ -31,7 +31,7 @@ SubCoordinator::SubCoordinator(Transport& transport, const Hierarchy& hierarchy,
 void SubCoordinator::handle(int from, message::Message&& message) {
   const auto child = [&] { return children_.with(from); };
   const auto unexpected = [](const auto&) {
-    throw std::invalid_argument("a message for somebody else came to a coordinator of some ranks");
+    throw std::invalid_argument("sub-coordinator: unexpected message type");
   };
   std::visit(
       Overloaded{[&](message::Status& status) { heard(child(), std::move(status)); },

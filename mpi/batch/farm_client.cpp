@@ -18,7 +18,7 @@ constexpr int kLeader = 0;  // of the group
 // The text of the error, never empty.
 std::string error_text(const std::exception& error) {
   const std::string text = one_line(error.what());
-  return text.empty() ? "an unknown error" : text;
+  return text.empty() ? "unknown error" : text;
 }
 
 }  // namespace

@@ -129,20 +129,20 @@ detail::Pose pose_of(const detail::Map& map, detail::Motion motion, const Pose& 
   detail::Pose made{.place = place_of(map, pose.place, field)};
   if (motion.turn_steps == 0) {
     if (pose.heading || pose.turning_to || pose.turn_steps_done != 0)
-      throw InvalidArgument(field, "has a heading; expected none of a robot without turn_steps");
+      throw InvalidArgument(field, "found a heading; expected none for a robot without turn_steps");
     return made;
   }
   if (!pose.heading)
-    throw InvalidArgument(field, "has no heading; expected one of a robot with turn_steps");
+    throw InvalidArgument(field, "found no heading; expected one for a robot with turn_steps");
   made.heading = made.to = heading_of(*pose.heading);
   if (!pose.turning_to) return made;
   made.to = heading_of(*pose.turning_to);
   made.steps = pose.turn_steps_done;
   const bool is_next =
       made.to == detail::right_of(made.heading) || made.to == detail::left_of(made.heading);
-  if (!is_next) throw InvalidArgument(field, "turns to what is not a quarter turn away");
+  if (!is_next) throw InvalidArgument(field, "found a turn that is not a quarter turn");
   if (made.steps < 1 || made.steps >= motion.turn_steps)
-    throw InvalidArgument(field, fmt::format("{} steps of a turn done; expected from 1 to {}",
+    throw InvalidArgument(field, fmt::format("found {} steps of a turn; expected from 1 to {}",
                                              made.steps, motion.turn_steps - 1));
   return made;
 }

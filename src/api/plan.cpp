@@ -157,7 +157,8 @@ std::vector<Violation> check(const Instance& instance, const Solution& solution,
 Plan plan_from_paths(const Instance& instance, const std::vector<std::vector<Place>>& paths) {
   const detail::Instance& inner = Access::instance(instance);
   if (!detail::paths_are_places(inner))
-    throw InvalidArgument("/agents", "robots turn, or tasks take time; expected neither");
+    throw InvalidArgument("/agents",
+                          "found robots that turn or tasks that take time; expected neither");
   if (static_cast<int>(paths.size()) != inner.agent_count())
     throw InvalidArgument("/agents",
                           fmt::format("{} paths; expected {}", paths.size(), inner.agent_count()));

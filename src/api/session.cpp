@@ -52,14 +52,14 @@ std::optional<Plan> Session::plan() const {
 
 void Session::advance(int steps, const std::vector<Delay>& late) {
   detail::Session& session = impl_->session;
-  if (!session.plan()) throw InvalidArgument("", "there is no plan to advance by");
+  if (!session.plan()) throw InvalidArgument("", "there is no plan; expected one to advance along");
   if (steps < 0)
     throw InvalidArgument("/steps", fmt::format("found {}; expected at least 0", steps));
   std::vector<detail::Delay> those;
   for (std::size_t i = 0; i < late.size(); ++i) {
     const std::string field = fmt::format("/late/{}", i);
     those.push_back({agent_of(session.instance(), late[i].agent, field), late[i].steps});
-    if (late[i].steps < 0) throw InvalidArgument(field, "expected steps, at least 0");
+    if (late[i].steps < 0) throw InvalidArgument(field, "expected at least 0 steps");
   }
   translated([&] {
     try {
@@ -104,7 +104,7 @@ Solution Session::replan(const Options& options, int commit) {
       return session.solve(search, limits, &observer, commit);
     } catch (const detail::Session::NotCommitted& error) {
       throw InvalidArgument("/commit",
-                            fmt::format("{} can keep to it for {} steps only",
+                            fmt::format("'{}' can follow the old plan only for {} steps",
                                         session.instance().agent(error.agent).id, error.steps));
     }
   };

@@ -29,9 +29,9 @@ void require_numbers(const Options& options) {
     throw InvalidArgument(
         "/threads", fmt::format("found {}; expected from 1 to {}", options.threads, kMostThreads));
   if (options.time_limit && !(*options.time_limit >= 0))
-    throw InvalidArgument("/time_limit", "expected seconds, at least 0");
+    throw InvalidArgument("/time_limit", "expected at least 0 seconds");
   if (!(options.progress_interval >= 0))
-    throw InvalidArgument("/progress_interval", "expected seconds, at least 0");
+    throw InvalidArgument("/progress_interval", "expected at least 0 seconds");
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ class CentralBounds : public SharedBounds {
   // True if infeasibility was proven outside the tree search, for the reason kNoJointPlan.
   bool has_no_joint_plan() const { return ended_beside_; }
   static constexpr std::string_view kNoJointPlan =
-      "everything was searched that the agents can come to together";
+      "the search visited all joint states that the agents can reach";
   // Takes over the lower bound of an earlier run.
   void resume_at(Cost lower_bound);
   // Sets the lower bound on all trees not yet instantiated; kInfiniteCost: there is none. Call

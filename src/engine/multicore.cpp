@@ -162,9 +162,9 @@ void run_parallel(std::span<const std::unique_ptr<Worker>> workers, SharedSearch
     const Limits& limits;
     ~AllowWork() { limits.clear_cancel(); }
   } const at_last{limits};
-  WorkerPool crew(shared, limits, between_turns);
+  WorkerPool pool(shared, limits, between_turns);
   ThreadTeam(static_cast<int>(workers.size())).run([&](int thread) {
-    crew.work(*workers[static_cast<std::size_t>(thread)]);
+    pool.work(*workers[static_cast<std::size_t>(thread)]);
   });
 }
 

@@ -64,9 +64,8 @@ std::optional<std::vector<NodePtr>> RunState::restore(const CheckpointHeader& he
     if (!same && limits_.stop_requested()) return std::nullopt;
     roots.push_back(restored_trees_.add(tree, static_cast<std::uint32_t>(roots.size())));
     if (!same || !same_sequences(same->tree(), roots.back()->tree()))
-      throw InputError(
-          checkpoint_file(options_.checkpoints.directory).string(), "",
-          "its trees come in another order than they do here; expected the same --rtsp");
+      throw InputError(checkpoint_file(options_.checkpoints.directory).string(), "",
+                       "its trees have another order than in this run; expected the same --rtsp");
     trees_.resume_with(roots.back());
   }
   return roots;

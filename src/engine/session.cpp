@@ -63,7 +63,7 @@ class WholePlans : public ForwardingObserver {
       solution.status = Status::kUnknown;
       solution.stats.texts["reason"] =
           "the committed steps leave no plan where agents without a destination end as in the old "
-          "plan; fewer committed steps may";
+          "plan; fewer committed steps may leave one";
     }
     return solution;
   }
@@ -256,7 +256,7 @@ class Session::Impl {
     FirstSearch first(observer);
     Solution solution = search(free, affected, options, limits, first, commit);
     if (!solution.plan || (plan_ && plan_->cost < solution.plan->cost)) {
-      observer.on_note("no plan as good as the old one ends on tasks that are left");
+      observer.on_note("no plan as good as the old one ends on remaining tasks");
       Solution other = search(instance_, affected_, options, limits, observer, commit);
       if (other.plan) {
         other.stats.texts["ends_of_old_plan"] = names(ends_with_plan_);

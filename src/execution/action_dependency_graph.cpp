@@ -41,7 +41,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr const char* kCollides = "a passing order is of a plan without collisions";
+constexpr const char* kCollides = "a passing order requires a plan without collisions";
 constexpr int kLanes = 16;
 // By robot of a group: the number of its actions that are completed when a given action is.
 using Known = std::array<std::int32_t, kLanes>;
@@ -68,7 +68,7 @@ bool goes_on(const Instance& instance, const Action& turn, State from) {
 
 ActionDependencyGraph::ActionDependencyGraph(const Instance& instance, const Plan& plan) {
   if (static_cast<int>(plan.agents.size()) != instance.agent_count())
-    throw std::invalid_argument("a passing order is of a plan of all agents");
+    throw std::invalid_argument("a passing order requires a plan of all agents");
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
     add_actions(instance, agent, plan.agents[agent]);
     first_.push_back(static_cast<ActionIndex>(actions_.size()));

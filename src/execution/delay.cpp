@@ -65,7 +65,7 @@ class Wishes {
                          : fmt::format("'{}'", instance.agent(order.actions()[other].agent).id);
   throw InfeasibleDelay(
       action.agent,
-      fmt::format("'{}' cannot have come to {} by step {}, for {} had not left it",
+      fmt::format("'{}' cannot be at {} by step {}, because {} had not left it",
                   instance.agent(action.agent).id, instance.world().name(action.to), time, before));
 }
 
@@ -78,7 +78,8 @@ void require_possible(const Instance& instance, Time time, std::span<const Delay
                                "have passed",
                                id, l.steps, time));
     if (std::ranges::count(late, l.agent, &Delay::agent) > 1)
-      throw InfeasibleDelay(l.agent, fmt::format("'{}' is named twice; expected once", id));
+      throw InfeasibleDelay(l.agent,
+                            fmt::format("'{}' is named twice; expected each robot once", id));
   }
 }
 

@@ -59,7 +59,7 @@ AgentIndex waits_for(const ActionDependencyGraph& order, const ExecutionTrace& d
 // Only an action that never ends has end kNever.
 Time end_of_action(Time begin, Time duration) {
   if (duration >= kNever) return kNever;
-  if (duration >= kNever - begin) throw std::overflow_error("robots drive for too many steps");
+  if (duration >= kNever - begin) throw std::overflow_error("the execution takes too many steps");
   return begin + duration;
 }
 

@@ -34,7 +34,7 @@ fs::path resolved(const fs::path& path, fs::file_status& status) {
   status = fs::status(path, error);
   if (status.type() == fs::file_type::none) fail_to_write(path, error.value());
   if (path.filename().empty() || fs::is_directory(status))
-    throw InputError(path.string(), "", "cannot be written: is a directory; expected a file name");
+    throw InputError(path.string(), "", "is a directory; expected a file name");
   if (fs::exists(status) && ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0)
     fail_to_write(path);
   if (is_special_file(path, status)) return path;

@@ -44,8 +44,8 @@ std::string_view common_mistake(std::string_view rest) {
     std::string_view message;
   };
   constexpr std::string_view kNoComments =
-      "a comment, which JSON does not have; expected none, or a key that begins with '_' for it";
-  constexpr std::string_view kNoNumber = "this is no number in JSON; expected a finite number";
+      "found a comment, which JSON does not allow; expected a key that begins with '_' instead";
+  constexpr std::string_view kNoNumber = "found no valid JSON number; expected a finite number";
   constexpr Mistake kMistakes[] = {{"//", kNoComments},
                                    {"/*", kNoComments},
                                    {"#", kNoComments},
@@ -56,8 +56,8 @@ std::string_view common_mistake(std::string_view rest) {
                                    {"inf", kNoNumber},
                                    {"-inf", kNoNumber},
                                    {"'", "a single quote; expected text in double quotes"},
-                                   {"True", "found True; expected true, in small letters"},
-                                   {"False", "found False; expected false, in small letters"},
+                                   {"True", "found True; expected true, in lower case"},
+                                   {"False", "found False; expected false, in lower case"},
                                    {"None", "found None; expected null, or no such key"}};
   for (const Mistake& mistake : kMistakes)
     if (rest.starts_with(mistake.beginning)) return mistake.message;
@@ -118,7 +118,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
                          fmt::format("malformed JSON: {}", mistake));
     if (is_behind_last_comma(text_, offset))
       throw InputError(file_, line_and_column_at(text_, offset),
-                       "malformed JSON: a comma behind the last value; expected none there");
+                       "malformed JSON: a comma after the last value; expected none");
     throw InputError(file_, line_and_column_at(text_, offset), "malformed JSON: " + tidy(error));
   }
 

@@ -45,8 +45,7 @@ std::string key_text(const Instance& instance, AgentIndex agent) {
   if (key.size() > kLongestKey)
     throw NotRepresentable(
         fmt::format("agents/{}", agent),
-        fmt::format("the id has {} bytes in YAML; expected at most {}, for it is a "
-                    "key there",
+        fmt::format("the id has {} bytes in YAML, where it is a key; expected at most {}",
                     key.size(), kLongestKey),
         Loss::kNothing);
   return key;

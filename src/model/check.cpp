@@ -223,8 +223,8 @@ class AgentCheck {
     };
     if (begun && std::ranges::none_of(plan_.work, goes_on))
       report_.add(place_ + "/work",
-                  "agent '{}' starts at work on task '{}', {} steps of it done; expected it to go "
-                  "on, with begin {}",
+                  "agent '{}' starts at work on task '{}', {} steps of it done; expected it to "
+                  "continue, with begin {}",
                   agent_.id, instance_.task(begun->first).id, begun->second, -begun->second);
   }
 
@@ -423,11 +423,9 @@ class CollisionCheck {
     const AgentIndex other = before_[to];
     if (other == kNobody || other == agent || at(other, t) == to) return;
     if (is_new(following_pairs_, other, agent))
-      report_.add(
-          where(agent, t),
-          "agent '{}' enters {} at time {}, as '{}' leaves it; expected that nobody follows "
-          "another so closely",
-          id(agent), steps_.name(to), t, id(other));
+      report_.add(where(agent, t),
+                  "agent '{}' enters {} at time {}, as '{}' leaves it; expected no following",
+                  id(agent), steps_.name(to), t, id(other));
   }
 
   const std::string& id(AgentIndex agent) const { return instance_.agent(agent).id; }
@@ -482,7 +480,7 @@ void check_claims(const Solution& solution, Cost cost, Report& report) {
   if (solution.lower_bound < 0)
     report.add("/lower_bound", "found {}; expected at least 0", solution.lower_bound);
   if (solution.lower_bound > cost)
-    report.add("/lower_bound", "a lower bound of {} cannot be: this plan costs {}",
+    report.add("/lower_bound", "found {}; expected at most {}, the cost of this plan",
                solution.lower_bound, cost);
   const Status deserved = deserved_status(cost, solution.lower_bound, solution.omega);
   if (solution.lower_bound <= cost && solution.status != deserved)

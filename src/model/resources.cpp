@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "model/memory_granted.h"
+#include "model/job_memory_limit.h"
 
 namespace grove::detail {
 
@@ -16,7 +16,7 @@ std::uint64_t physical_memory() {
 }
 
 std::uint64_t usable_memory() {
-  return std::min(physical_memory(), memory_granted().value_or(UINT64_MAX));
+  return std::min(physical_memory(), job_memory_limit().value_or(UINT64_MAX));
 }
 
 int usable_cores() {

@@ -34,7 +34,7 @@ std::size_t CertificateBytes::read(char* buffer, std::size_t size) {
     const std::size_t count = stream_->read(buffer, size);
     if (stream_->broken())
       throw InputError(path_.string(), "",
-                       "is damaged; expected what grove solve --proof compressed by zstd");
+                       "is damaged; expected a file that grove solve --proof compressed by zstd");
     return count;
   }
   const std::size_t count = first_.copy(buffer, size);

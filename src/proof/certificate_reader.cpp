@@ -46,7 +46,7 @@ class Reader {
     end_line();
     visitor_.end();
     if (lines_.next() != LineStream::Next::kNone)
-      fail("found more behind it", "nothing after 'end'");
+      fail("found more after it", "nothing after 'end'");
   }
 
  private:
@@ -235,7 +235,7 @@ class Reader {
       const std::string_view rest = *words_;
       const CertificateDemand found = demand();
       if (!std::ranges::binary_search(whose, found.agent))
-        fail_at(rest, "a demand on an agent of the lemma");
+        fail_at(rest, "a constraint on an agent of the lemma");
       end_line();
       visitor_.demand(found);
       take_line();

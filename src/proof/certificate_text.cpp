@@ -23,7 +23,7 @@ std::string text_of(const std::filesystem::path& path) {
     text.append(block, count);
     if (text.size() > kMostBytes)
       throw InputError(path.string(), "",
-                       fmt::format("is too large to be looked at; expected a certificate of at "
+                       fmt::format("is too large to be shown; expected a certificate of at "
                                    "most {} bytes, uncompressed",
                                    kMostBytes));
   }
@@ -65,9 +65,9 @@ CertificateText read_certificate(const std::filesystem::path& path, const Instan
   };
   read_certificate_lines(path.string(), bytes, &instance, summary);
   if (summary.splits > most_splits)
-    throw InputError(path.string(), "",
-                     fmt::format("has {} splits; expected at most {}, which people can look at",
-                                 summary.splits, most_splits));
+    throw InputError(
+        path.string(), "",
+        fmt::format("has {} splits; expected at most {}", summary.splits, most_splits));
   return read;
 }
 

@@ -46,7 +46,7 @@ void add(Numbers& numbers, const ProofSplit& split) {
 }
 
 [[noreturn]] void refuse_part(const std::filesystem::path& path) {
-  throw InputError(path.string(), "", "expected what a search wrote down for its proof");
+  throw InputError(path.string(), "", "expected the record of a search for its proof");
 }
 
 // Takes numbers back in the order in which they were added.

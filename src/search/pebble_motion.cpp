@@ -98,10 +98,10 @@ class Crowd {
     for (const AgentIndex agent : agents_)
       if (const auto place = out_of_reach(instance_.agent(agent)))
         return fmt::format(
-            "agent '{}' cannot get to {}: the agents have too little room to let it pass",
+            "agent '{}' cannot reach {}: the agents have too little room to let it pass",
             instance_.agent(agent).id, instance_.world().name(*place));
     if (all_have_goals() && !reach_->has(goals()))
-      return "the agents cannot all get to their goals: to be in this order there they would have "
+      return "the agents cannot all reach their goals: to be there in this order they would have "
              "to "
              "pass each other, and there is too little room";
     return std::nullopt;

@@ -272,7 +272,7 @@ TEST(Api, TextsWithUnknownKeysAreRefused) {
   const std::string agent = R"({"id": "a", "start": [0, 0], "gaol": [3, 0]})";
   EXPECT_EQ(
       message([&] { parse_instance(R"({"agents": [)" + agent + R"(], "tasks": []})", world); }),
-      "the instance: /agents/0: unknown key 'gaol'; expected 'goal', if that is what it means");
+      "the instance: /agents/0: unknown key 'gaol'; expected 'goal', if that is meant");
   std::string plan = plan_text(small(), solve(small()));
   EXPECT_EQ(message([&] { parse_plan(plan, small()); }), "accepted");
   plan.insert(1, R"("priority": 1, )");

@@ -167,8 +167,8 @@ TEST_F(Tables, OfPlansRefuseOtherSettings) {
     return refusal([&] { open().begin(others); });
   };
   EXPECT_EQ(refused_to([](Settings& settings) { settings.seed = 8; }),
-            "results.jsonl: holds a row of another run of auto on i (seed '7' there, '8' here); "
-            "expected the same, another folder, or that row deleted");
+            "results.jsonl: has a row of another run of auto on i (seed '7' there, '8' here); "
+            "expected the same run; use another folder, or delete the row");
   EXPECT_NE(refused_to([](Settings& settings) {
               settings.method = "hcbs";
             }).find("method 'auto' there, 'hcbs' here"),
@@ -188,8 +188,8 @@ TEST_F(Tables, RefuseInvalidLines) {
   run({0, 1});
   std::ofstream(file(), std::ios::app) << "\nnonsense\n";
   EXPECT_TRUE(
-      refused().starts_with("results.jsonl: line 4: expected a row as this version writes "
-                            "them, another folder, or the line deleted to run it again ("))
+      refused().starts_with("results.jsonl: line 4: expected a row of this version; use another "
+                            "folder, or delete the line to repeat the run ("))
       << refused();
 }
 

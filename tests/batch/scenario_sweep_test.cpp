@@ -77,8 +77,8 @@ TEST_F(Sweeps, PreferTheMapBesideTheScenario) {
   EXPECT_EQ(fs::path(read({1}).entries[0].map).parent_path().filename(), "b");
   add_scenario("c/s.scen", 1);
   EXPECT_EQ(refused({1}),
-            "s.scen: line 2: there are 2 maps m.map there; expected it beside the scenario, or "
-            "once in the folder of the scenarios or below");
+            "s.scen: line 2: there are 2 maps m.map there; expected one beside the scenario, or "
+            "exactly one in the folder of the scenarios or below");
 }
 
 TEST_F(Sweeps, TakeOneScenario) {
@@ -100,14 +100,15 @@ TEST_F(Sweeps, SkipScenariosWithTooFewRows) {
 
 TEST_F(Sweeps, RefuseMissingScenariosAndMaps) {
   add_map("m.map");
-  EXPECT_NE(refused({1}).find("holds no scenario '*.scen'; expected some"), std::string::npos);
+  EXPECT_NE(refused({1}).find("has no scenario '*.scen'; expected at least one"),
+            std::string::npos);
   add_scenario("s.scen", 1, "other.map");
   EXPECT_EQ(refused({1}),
-            "s.scen: line 2: there is no map other.map there; expected it beside the scenario, or "
-            "once in the folder of the scenarios or below");
-  EXPECT_NE(refused({1}, "t*").find("holds no scenario 't*.scen'"), std::string::npos);
+            "s.scen: line 2: there is no map other.map there; expected one beside the scenario, or "
+            "exactly one in the folder of the scenarios or below");
+  EXPECT_NE(refused({1}, "t*").find("has no scenario 't*.scen'"), std::string::npos);
   add_scenario("empty.scen", 0);
-  EXPECT_EQ(refused({1}, "empty"), "empty.scen: has no rows; expected agents");
+  EXPECT_EQ(refused({1}, "empty"), "empty.scen: has no rows; expected at least one");
   EXPECT_NE(refused({1}, "*", "nowhere"), "accepted");
 }
 

@@ -350,11 +350,10 @@ TEST_F(DamagedCheckpoint, IsRefusedIfBlocksAreLostDoubledOrSwapped) {
 // A length that is larger than the file: refused before memory for it is allocated.
 TEST_F(DamagedCheckpoint, IsRefusedIfALengthExceedsTheFile) {
   bytes_.replace(16, 8, std::string(6, '\xff') + '\x0f' + '\0');
-  EXPECT_EQ(
-      read_result(bytes_),
-      "checkpoint.grove: byte 12: is damaged: announces 4503599627370495 bytes more; expected "
-      "at most the " +
-          std::to_string(bytes_.size() - 24) + " left");
+  EXPECT_EQ(read_result(bytes_),
+            "checkpoint.grove: byte 12: is damaged: has a block of 4503599627370495 bytes; "
+            "expected at most " +
+                std::to_string(bytes_.size() - 24) + ", the bytes left");
 }
 
 TEST_F(DamagedCheckpoint, IsRefusedIfOfAnotherVersionOrKind) {
@@ -363,9 +362,9 @@ TEST_F(DamagedCheckpoint, IsRefusedIfOfAnotherVersionOrKind) {
   EXPECT_EQ(read_result(later),
             "checkpoint.grove: is a checkpoint of format version 7; expected version 3");
   EXPECT_EQ(read_result("{\"status\": \"optimal\"}"),
-            "checkpoint.grove: is no checkpoint: begins with '{\"status'; expected 'GROVE-CP'");
+            "checkpoint.grove: is not a checkpoint: begins with '{\"status'; expected 'GROVE-CP'");
   EXPECT_EQ(read_result(""),
-            "checkpoint.grove: is no checkpoint: begins with ''; expected 'GROVE-CP'");
+            "checkpoint.grove: is not a checkpoint: begins with ''; expected 'GROVE-CP'");
 }
 
 TEST_F(DamagedCheckpoint, IsRefusedIfOfAnotherInstanceOrPolicy) {

@@ -88,12 +88,18 @@ TEST(Bytes, KeepNumbersOfAllSizes) {
 }
 
 TEST(Bytes, AreRefusedIfANumberOverflowsOrIsNotShortest) {
-  EXPECT_EQ(refusal<std::uint16_t>(to_bytes(std::uint32_t{1} << 16)), "a number of too many bits");
-  EXPECT_EQ(refusal<std::int16_t>(to_bytes(std::int32_t{-32769})), "a number of too many bits");
-  EXPECT_EQ(refusal<std::int32_t>(to_bytes(std::int64_t{1} << 31)), "a number of too many bits");
-  EXPECT_EQ(refusal<std::uint64_t>(std::string(9, '\xFF') + '\2'), "a number of too many bits");
-  EXPECT_EQ(refusal<std::uint64_t>(std::string(10, '\xFF') + '\1'), "a number of too many bits");
-  EXPECT_EQ(refusal<std::uint64_t>(std::string("\x85\0", 2)), "a number longer than need be");
+  EXPECT_EQ(refusal<std::uint16_t>(to_bytes(std::uint32_t{1} << 16)),
+            "found a number with too many bits");
+  EXPECT_EQ(refusal<std::int16_t>(to_bytes(std::int32_t{-32769})),
+            "found a number with too many bits");
+  EXPECT_EQ(refusal<std::int32_t>(to_bytes(std::int64_t{1} << 31)),
+            "found a number with too many bits");
+  EXPECT_EQ(refusal<std::uint64_t>(std::string(9, '\xFF') + '\2'),
+            "found a number with too many bits");
+  EXPECT_EQ(refusal<std::uint64_t>(std::string(10, '\xFF') + '\1'),
+            "found a number with too many bits");
+  EXPECT_EQ(refusal<std::uint64_t>(std::string("\x85\0", 2)),
+            "found a number that is longer than necessary");
 }
 
 template <class T>
@@ -145,7 +151,7 @@ TEST(Bytes, AreReadSafelyIfRandom) {
 
 // Refused before memory for the items is allocated.
 TEST(Bytes, AreRefusedIfACountExceedsTheBytesLeft) {
-  const std::string message = "more items are announced than there are bytes left";
+  const std::string message = "found a number of items above the number of bytes left";
   const std::string bytes = to_bytes(a_node());
   for (const std::uint64_t count : {std::uint64_t{bytes.size()}, std::uint64_t{1} << 31,
                                     std::uint64_t{1} << 61, ~std::uint64_t{0}}) {

@@ -87,8 +87,10 @@ TEST_F(ExecutionLogFile, MayBeTruncatedAnywhere) {
 
 TEST_F(ExecutionLogFile, OtherFilesAreRefused) {
   for (const std::string text : {"", "\n", "red\n", "[]\n", "{}\n", "{\"format\": 1}\n"})
-    EXPECT_THAT(refused(text), HasSubstr("d.jsonl: line 1: expected the log of a drive")) << text;
-  EXPECT_THAT(refused(kHeader.substr(0, 20)), HasSubstr("line 1: expected the log of a drive"));
+    EXPECT_THAT(refused(text), HasSubstr("d.jsonl: line 1: expected the log of an execution"))
+        << text;
+  EXPECT_THAT(refused(kHeader.substr(0, 20)),
+              HasSubstr("line 1: expected the log of an execution"));
   std::string other = kHeader;
   EXPECT_THAT(refused(other.replace(other.find("\"b\""), 3, "\"r2\"")),
               HasSubstr("line 1: /robots/1: found \"r2\"; expected a robot of the instance"));

@@ -51,7 +51,7 @@ TEST(FileLock, IsNotTakenThroughLinks) {
   std::filesystem::create_symlink(directory / "none", directory / "dangling");
   for (const char* name : {"link", "twin", "dangling"})
     EXPECT_EQ(locking(directory / name),
-              std::string(name) + ": is a link or no regular file; expected a lock file");
+              std::string(name) + ": is a link or not a regular file; expected a lock file");
   EXPECT_FALSE(std::filesystem::exists(directory / "none"));
   EXPECT_EQ(read_text(victim), "precious");
 }

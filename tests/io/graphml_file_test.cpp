@@ -199,12 +199,12 @@ TEST(GraphmlFile, RefusesInvalidFilesWithThePlace) {
       {std::string("<graphml>\n\0</graphml>", 21),
        "line 2, column 1: found a NUL character; expected text in UTF-8"},
       {"<?xml version='1.0' encoding='ISO-8859-1'?>" + graphml(kA),
-       "is in another encoding; expected UTF-8"},
-      {std::string("\xFF\xFE<\0g\0/\0>\0", 10), "is in another encoding; expected UTF-8"},
+       "is encoded in another way; expected UTF-8"},
+      {std::string("\xFF\xFE<\0g\0/\0>\0", 10), "is encoded in another way; expected UTF-8"},
       {"<svg/>", "line 1, column 1: found element 'svg'; expected 'graphml'"},
       {"<graphml/>", "line 1, column 1: has no element 'graph'; expected one"},
       {"<graphml><graph edgedefault='directed'/><graph edgedefault='directed'/></graphml>",
-       "line 1, column 41: a second graph; expected one in a file"},
+       "line 1, column 41: found a second graph; expected one per file"},
       {"<graphml><graph/></graphml>",
        "line 1, column 10: attribute 'edgedefault' is missing; expected it in this element"},
       {"<graphml><graph edgedefault='both'/></graphml>",
@@ -214,7 +214,8 @@ TEST(GraphmlFile, RefusesInvalidFilesWithThePlace) {
        "line 1, column 40: attribute 'id' is missing; expected it in this element"},
       {graphml("<node id=''/>"), "line 1, column 40: expected an id that is not empty"},
       {graphml(kA + "\n" + kA), "line 2, column 1: id 'A' is used twice; expected distinct ids"},
-      {graphml("<node id='\xE4'/>"), "line 1, column 40: id '\\xe4' is no UTF-8; expected UTF-8"},
+      {graphml("<node id='\xE4'/>"),
+       "line 1, column 40: id '\\xe4' is not in UTF-8; expected UTF-8"},
       {graphml("<node id='A'/>"),
        "line 1, column 40: data 'x' is missing; expected x and y of the node, in metres"},
       {graphml("<node id='A'><data key='x'>1</data></node>"),
@@ -230,7 +231,7 @@ TEST(GraphmlFile, RefusesInvalidFilesWithThePlace) {
       {node("1e999"), "line 1, column 53: found '1e999' for x; expected a finite number"},
       {node("0x10"), "line 1, column 53: found '0x10' for x; expected a finite number"},
       {graphml("<node id='A'>\n<graph edgedefault='directed'/></node>"),
-       "line 2, column 1: a graph within a node; expected a flat graph, without groups"},
+       "line 2, column 1: found a graph within a node; expected a graph without groups"},
       {graphml("<node id='A'><data key='d'><s><Geometry x='0' y='1' width='2'/></s></data></node>"),
        "line 1, column 70: attribute 'height' is missing; expected it in this element"},
       {edge("\n<hyperedge/>"), "line 2, column 1: a hyperedge; expected edges between two nodes"},
@@ -244,12 +245,12 @@ TEST(GraphmlFile, RefusesInvalidFilesWithThePlace) {
        "line 2, column 1: found directed 'yes'; expected true or false"},
       {edge("\n<edge source='A' target='A'/>"),
        "line 2, column 1: has no length, and its ends are 0 m apart; expected data 'length', or "
-       "ends at some distance"},
+       "ends at a positive distance"},
       {graphml("<node id='A'><data key='x'>-1e308</data><data key='y'>0</data></node>"
                "<node id='B'><data key='x'>1e308</data><data key='y'>0</data></node>"
                "\n<edge source='A' target='B'/>"),
        "line 2, column 1: has no length, and its ends are inf m apart; expected data 'length', or "
-       "ends at some distance"},
+       "ends at a positive distance"},
       {length("0"), "line 2, column 29: found 0 for length; expected a positive number of metres"},
       {length("-2"),
        "line 2, column 29: found -2 for length; expected a positive number of metres"},
@@ -268,7 +269,7 @@ TEST(GraphmlFile, RefusesInvalidFilesWithThePlace) {
       {graphml(kA, "<key/>"),
        "line 1, column 10: attribute 'id' is missing; expected it in this element"},
       {"<!DOCTYPE graphml [<!ENTITY a 'lol'><!ENTITY b '&a;&a;&a;&a;'>]>" + graphml(kA),
-       "its document type has declarations of its own; expected none: entities are not expanded"},
+       "its document type has declarations; expected none, because entities are not expanded"},
   };
   for (const Bad& bad : all) EXPECT_EQ(refused(bad.text), "g.graphml: " + bad.message) << bad.text;
 }

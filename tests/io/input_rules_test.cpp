@@ -57,8 +57,8 @@ TEST_F(InputRulesTest, ConfinedNamesStayInTheFolder) {
   fs::create_symlink("below/in.map", folder / "near.map");
   for (const char* name :
        {"../out.map", "link.map", "up/out.map", "up/folder/../out.map", "..", "."})
-    EXPECT_THAT(named(name), HasSubstr("leads out of the folder of this file")) << name;
-  EXPECT_THAT(named((folder / "below/in.map").string()), HasSubstr("is an absolute name"));
+    EXPECT_THAT(named(name), HasSubstr("leads outside the folder of this file")) << name;
+  EXPECT_THAT(named((folder / "below/in.map").string()), HasSubstr("is an absolute path"));
   const std::string inside = fs::canonical(folder / "below/in.map").string();
   for (const char* name :
        {"below/in.map", "near.map", "below/../below/in.map", "up/folder/near.map"})

@@ -92,8 +92,8 @@ TEST_F(InstanceFile, NamesLineAndColumnOfMalformedJson) {
 
 TEST_F(InstanceFile, ExplainsCommonMistakesInJson) {
   const std::string comment =
-      ": malformed JSON: a comment, which JSON does not have; expected none, or a key that begins "
-      "with '_' for it";
+      ": malformed JSON: found a comment, which JSON does not allow; expected a key that begins "
+      "with '_' instead";
   EXPECT_EQ(refused("{} // note"), "i.json: line 1, column 4" + comment);
   EXPECT_EQ(refused("{\"map\": 1// note\n}"), "i.json: line 1, column 10" + comment);
   EXPECT_EQ(refused("{\n  // note\n \"map\": 1}"), "i.json: line 2, column 3" + comment);
@@ -101,15 +101,14 @@ TEST_F(InstanceFile, ExplainsCommonMistakesInJson) {
   EXPECT_EQ(refused("# note\n{}"), "i.json: line 1, column 1" + comment);
   for (const char* number : {"NaN", "nan", "Infinity", "-Infinity", "inf"})
     EXPECT_EQ(refused(std::string("{\"map\": [") + number + "]}"),
-              "i.json: line 1, column 10: malformed JSON: this is no number in JSON; expected a "
+              "i.json: line 1, column 10: malformed JSON: found no valid JSON number; expected a "
               "finite number")
         << number;
-  EXPECT_EQ(
-      refused("{\"map\": True}"),
-      "i.json: line 1, column 9: malformed JSON: found True; expected true, in small letters");
+  EXPECT_EQ(refused("{\"map\": True}"),
+            "i.json: line 1, column 9: malformed JSON: found True; expected true, in lower case");
   for (const char* text : {"{\"map\": 1,}", "{\"map\": 1, }", "{\"map\": [1,\n]}"})
-    EXPECT_TRUE(refused(text).ends_with(
-        "malformed JSON: a comma behind the last value; expected none there"))
+    EXPECT_TRUE(
+        refused(text).ends_with("malformed JSON: a comma after the last value; expected none"))
         << refused(text);
 }
 
@@ -125,11 +124,12 @@ TEST_F(InstanceFile, MapAndRoadmapAreNotInterchangeable) {
   directory_.write("r.roadmap.json", R"({"vertices": [{"id": "A", "at": [0, 0]}], "edges": []})");
   EXPECT_EQ(refused(R"({"map": "r.roadmap.json", "agents": [], "tasks": []})"),
             "i.json: /map: '" + (directory_ / "r.roadmap.json") +
-                "' is a JSON file; expected a map, or this name under the key \"roadmap\" if it is "
+                "' is a JSON file; expected a map, or this file under the key \"roadmap\" if it is "
                 "a roadmap");
-  EXPECT_EQ(refused(R"({"roadmap": "m.map", "agents": [], "tasks": []})"),
-            "i.json: /roadmap: '" + (directory_ / "m.map") +
-                "' is named like a map; expected a roadmap, or this name under the key \"map\"");
+  EXPECT_EQ(
+      refused(R"({"roadmap": "m.map", "agents": [], "tasks": []})"),
+      "i.json: /roadmap: '" + (directory_ / "m.map") +
+          "' has the suffix of a map; expected a roadmap, or this file under the key \"map\"");
 }
 
 TEST_F(InstanceFile, EveryTruncationIsRefused) {

@@ -107,7 +107,7 @@ TEST_F(KnownKeys, UnknownKeysAreRefusedInEveryObject) {
 
 TEST_F(KnownKeys, CloseKeyIsSuggested) {
   const auto hint = [](const std::string& found, const std::string& meant) {
-    return "unknown key '" + found + "'; expected " + meant + ", if that is what it means";
+    return "unknown key '" + found + "'; expected " + meant + ", if that is meant";
   };
   const std::vector<std::vector<std::string>> cases{
       {"headin", "'heading'"}, {"turn-steps", "'turn_steps'"}, {"motions", "'motion'"},
@@ -132,7 +132,7 @@ TEST_F(KnownKeys, CloseKeyIsSuggested) {
   EXPECT_EQ(
       refused_member(kInstance, 1, R"("gaol": [1, 1])"),
       "f: /agents/0: unknown key 'gaol'; expected one of id, start, goal, motion, turn_steps, "
-      "heading, goal_heading, working, or a name that begins with '_' for a remark");
+      "heading, goal_heading, working, or a name that begins with '_', for a remark");
 }
 
 TEST_F(KnownKeys, UnsupportedFeaturesAreNamed) {

@@ -119,7 +119,7 @@ TEST_F(LibmrpFile, ReadsEquivalentYaml) {
 TEST_F(LibmrpFile, AcceptsDirectivesAndDocumentMarkers) {
   EXPECT_EQ(summary(read("%YAML 1.2\n---\n" + kMapf + "...\n# the end\n")), summary(mapf()));
   EXPECT_EQ(summary(read("\xEF\xBB\xBF# the beginning\n" + kMapf)), summary(mapf()));
-  EXPECT_EQ(refused("# nothing\n"), "i.yaml: holds nothing; expected a YAML map");
+  EXPECT_EQ(refused("# nothing\n"), "i.yaml: is empty; expected a YAML map");
 }
 
 TEST_F(LibmrpFile, KeepsNamesThatYamlMustQuote) {
@@ -163,13 +163,13 @@ TEST_F(LibmrpFile, WarnsAboutUnknownKeys) {
 }
 
 TEST_F(LibmrpFile, RefusesInvalidFilesWithThePlace) {
-  EXPECT_EQ(refused(""), "i.yaml: holds nothing; expected a YAML map");
+  EXPECT_EQ(refused(""), "i.yaml: is empty; expected a YAML map");
   EXPECT_EQ(refused("hello"),
             "i.yaml: line 1, column 1: found 'hello'; expected a map with the keys 'map' and "
             "'agents'");
   EXPECT_EQ(refused(kMapf + "---\na: 1\n"),
-            "i.yaml: holds more than one YAML document; expected one");
-  EXPECT_EQ(refused("," + kMapf), "i.yaml: holds more than one YAML document; expected one");
+            "i.yaml: has more than one YAML document; expected one");
+  EXPECT_EQ(refused("," + kMapf), "i.yaml: has more than one YAML document; expected one");
   EXPECT_EQ(refused_with("[4, 0]", "[4, 0"),
             "i.yaml: line 11, column 9: malformed YAML: end of sequence flow not found; expected a "
             "YAML map");
@@ -206,8 +206,8 @@ TEST_F(LibmrpFile, RefusesInvalidFilesWithThePlace) {
             "i.yaml: line 8, column 5: expected exactly one of the keys 'goal', 'goals' and "
             "'potentialGoals'");
   EXPECT_EQ(refused_with("goal: [4, 0]", "potentialGoals: [[4, 0], [3, 0]]"),
-            "i.yaml: line 10, column 21: found 2 potential goals; expected one, for Grove "
-            "does not choose destinations");
+            "i.yaml: line 10, column 21: found 2 potential goals; expected one, because Grove does "
+            "not choose destinations");
   EXPECT_EQ(refused_with("goal: [4, 0]", "goal: [4, 0]\n    goal: [3, 1]"),
             "i.yaml: line 11, column 5: key 'goal' appears twice; expected distinct keys");
   EXPECT_EQ(refused_with("goal: [4, 0]", "goals: [[4, 0], [3, 1], [4, 0]]"),
@@ -221,7 +221,7 @@ TEST_F(LibmrpFile, RefusesInvalidFilesWithThePlace) {
   EXPECT_EQ(refused(kMapText + "agents: []\n"),
             "i.yaml: line 7, column 9: expected at least one agent");
   EXPECT_EQ(refused("roadmap:\n  undirected: true\nagents: []\n"),
-            "i.yaml: line 2, column 3: a roadmap; expected a grid, given by the key 'map'");
+            "i.yaml: line 2, column 3: found a roadmap; expected a grid, given by the key 'map'");
 }
 
 TEST_F(LibmrpFile, TakesOnlyDecimalIntegers) {
@@ -232,9 +232,8 @@ TEST_F(LibmrpFile, TakesOnlyDecimalIntegers) {
         << wrong;
   EXPECT_EQ(refused_with("[5, 3]", "[5, 0]"),
             "i.yaml: line 2, column 19: found '0'; expected a decimal integer from 1 to 16777216");
-  EXPECT_EQ(
-      refused_with("[5, 3]", "[16777216, 2]"),
-      "i.yaml: line 2, column 15: 16777216 x 2 cells are too many; expected at most 16777216");
+  EXPECT_EQ(refused_with("[5, 3]", "[16777216, 2]"),
+            "i.yaml: line 2, column 15: found 16777216 x 2 cells; expected at most 16777216");
 }
 
 TEST_F(LibmrpFile, SurvivesDeepNesting) {
@@ -265,14 +264,16 @@ TEST_F(LibmrpFile, UnrepresentableInstancesAreNotWritten) {
     return "written";
   };
   EXPECT_EQ(problem(write_libmrp_instance, mg_mapf()),
-            "agents/0: agent 'agent0' has no goal; expected one for every agent, for "
-            "libMultiRobotPlanning's YAML cannot do without");
+            "agents/0: agent 'agent0' has no goal; expected one for every agent, because "
+            "libMultiRobotPlanning's YAML requires it");
   EXPECT_EQ(problem(write_libmrp_instance,
                     testing::instance_of({"..."}, {{{0, 0}, Position{2, 0}, {{1, 0}}}})),
-            "tasks/0: task 't0' cannot be said in libMultiRobotPlanning's YAML; expected no tasks");
-  EXPECT_EQ(problem(write_mgcbs_instance, mapf()),
-            "agents/0: agent 'agent0' has a goal to end on, which cannot be said in MGCBS's YAML; "
-            "expected an agent that may end on any of its tasks (MG-MAPF)");
+            "tasks/0: task 't0' cannot be represented in libMultiRobotPlanning's YAML; expected no "
+            "tasks");
+  EXPECT_EQ(
+      problem(write_mgcbs_instance, mapf()),
+      "agents/0: agent 'agent0' has a goal to end on, which cannot be represented in MGCBS's YAML; "
+      "expected an agent that may end on any of its tasks (MG-MAPF)");
   EXPECT_EQ(problem(write_mgcbs_instance, mg_mapf("shelf")),
             "tasks/2: MGCBS's YAML has no ids of tasks: read back, task 'shelf' (number 2) would "
             "be 't2' (number 2); expected that");

@@ -98,19 +98,21 @@ TEST(LifFile, SeveralLayoutsRequireAChoice) {
   EXPECT_EQ(low.vertices.size(), 2u);
   ASSERT_EQ(low.links.size(), 1u);
   EXPECT_EQ(low.links[0].place, "/layouts/0/edges/0");
-  EXPECT_EQ(warnings, (std::vector<std::string>{"p: /layouts/0/edges: 1 of the edges lead from or "
-                                                "to another layout and are left out"}));
+  EXPECT_EQ(warnings,
+            (std::vector<std::string>{
+                "p: /layouts/0/edges: 1 edges lead from or to another layout and are left out"}));
   EXPECT_EQ(parse_lif(kFloors, "p", {.layout = "high"}).vertices[0].id, "C");
 }
 
 TEST(LifFile, SeveralVehicleTypesRequireAChoice) {
-  EXPECT_EQ(refused(kTypes),
-            "p.lif.json: /layouts/0: 2 vehicle types, with roads and speeds of their own; expected "
-            "--vehicle-type with one of 'T1', 'T2'");
+  EXPECT_EQ(
+      refused(kTypes),
+      "p.lif.json: /layouts/0: found 2 vehicle types with different roads and speeds; expected "
+      "--vehicle-type with one of 'T1', 'T2'");
   EXPECT_EQ(refused(kTypes, {.vehicle_type = "T3"}),
             "p.lif.json: /layouts/0: there is no vehicle type 'T3'; expected one of 'T1', 'T2'");
   EXPECT_EQ(refused(kFloors, {.layout = "low", .vehicle_type = "T"}),
-            "p.lif.json: /layouts/0: names no vehicle types; expected no --vehicle-type");
+            "p.lif.json: /layouts/0: has no vehicle types; expected no --vehicle-type");
   const RoadNetwork first = parse_lif(kTypes, "p", {.vehicle_type = "T1"});
   EXPECT_EQ(first.vertices.size(), 3u);
   ASSERT_EQ(first.links.size(), 2u);  // AB and BC
@@ -181,7 +183,7 @@ TEST(LifFile, RefusesInvalidFilesWithThePlace) {
       {"", "is empty; expected a JSON object"},
       {"[]", "/: found an array; expected a JSON object"},
       {"{}", "/: key 'layouts' is missing; expected it in this object"},
-      {R"({"origins": []})", "/: has 'origins', as LIF 2 has; expected 'layouts', as in LIF 1"},
+      {R"({"origins": []})", "/: found 'origins', a key of LIF 2; expected 'layouts', as in LIF 1"},
       {R"({"layouts": {}})", "/layouts: found an object; expected an array"},
       {R"({"layouts": []})", "/layouts: expected at least one layout"},
       {R"({"layouts": [7]})", "/layouts/0: found 7; expected an object"},
@@ -217,9 +219,9 @@ TEST(LifFile, RefusesInvalidFilesWithThePlace) {
       {replaced(kPlant, "\"endNodeId\": \"out\"", "\"endNodeId\": \"up\""),
        edge + "/endNodeId: there is no node 'up'; expected the id of one of this file"},
       {replaced(kPlant, "\"endNodeId\": \"out\"", "\"endNodeId\": \"in\""),
-       edge + ": leads over 0 m; expected ends, or a trajectory, at some distance"},
+       edge + ": has a length of 0 m; expected ends, or a trajectory, at a positive distance"},
       {replaced(replaced(kPlant, "\"x\": -1.5", "\"x\": -1e308"), "\"x\": 1.5", "\"x\": 1e308"),
-       edge + ": leads over inf m; expected ends, or a trajectory, at some distance"},
+       edge + ": has a length of inf m; expected ends, or a trajectory, at a positive distance"},
       {replaced(kPlant, "0.5", "0"),
        properties + "/maxSpeed: found 0; expected a positive number of metres per second"},
       {replaced(kPlant, "0.5", "-1"),
@@ -244,7 +246,7 @@ TEST(LifFile, RefusesInvalidFilesWithThePlace) {
        properties +
            "/trajectory/knotVector: 3 knots; expected 4, for 2 control points and degree 1"},
       {curve("1", "[0,1,0.5,1]", two),
-       properties + "/trajectory/knotVector/2: found 0.5; expected no less than the knot before"},
+       properties + "/trajectory/knotVector/2: found 0.5; expected at least the knot before"},
       {curve("1", "[0,0,1,1]", R"([{"x": 0, "y": 0, "weight": 0}, {"x": 1, "y": 0}])"),
        properties + "/trajectory/controlPoints/0/weight: found 0; expected a positive number"},
       {replaced(kPlant, "\"layoutVersion\": \"1\"", "\"layoutId\": \"1\""),

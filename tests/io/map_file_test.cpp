@@ -74,14 +74,14 @@ TEST_F(MapFile, RefusesAWrongNumberOfRows) {
   EXPECT_EQ(refused(kHeader + "...\n"),
             "m.map: line 6, column 1: the map ends after 1 rows; expected 2");
   EXPECT_EQ(refused(kHeader + "...\n...\n...\n"),
-            "m.map: line 7, column 1: the map goes on after 2 rows; expected no more");
+            "m.map: line 7, column 1: the map has more than 2 rows; expected no more");
 }
 
 TEST_F(MapFile, ReadsHeadersStrictly) {
   EXPECT_EQ(refused(""), "m.map: line 1, column 1: the file ends here; expected 'type octile'");
   EXPECT_EQ(refused("type tile\n"),
-            "m.map: line 1, column 1: does not begin as a map does; expected 'type octile' ('grove "
-            "convert' makes a map of a drawing)");
+            "m.map: line 1, column 1: is not a map; expected the first line 'type octile' ('grove "
+            "convert' converts drawings to maps)");
   EXPECT_EQ(refused("type octile\n"),
             "m.map: line 2, column 1: the file ends here; expected 'height' or 'width'");
   const std::string both = "expected 'height' and 'width', one per line, each with a number";
@@ -99,7 +99,7 @@ TEST_F(MapFile, RefusesInvalidSizes) {
   for (const char* height : {"0", "-1", "2.5", "99999999999", "x", "1e3", "2 3"})
     EXPECT_EQ(with_height(height), "m.map: line 2, column 8: ") << height;
   EXPECT_EQ(refused("type octile\nheight 60000\nwidth 60000\nmap\n"),
-            "m.map: line 2, column 1: 60000 x 60000 cells are too many; expected at most 67108864");
+            "m.map: line 2, column 1: found 60000 x 60000 cells; expected at most 67108864");
 }
 
 TEST_F(MapFile, RefusesFoldersAndMissingFiles) {

@@ -134,8 +134,8 @@ TEST_F(MapfwFile, UnrepresentableInstancesAreNotWritten) {
             "tasks/1: MAPFW's JSON has no ids of tasks: read back, task 't7' (number 1) would be "
             "'t1' (number 1); expected that");
   EXPECT_EQ(problem(testing::instance_of({".."}, {{{0, 0}, std::nullopt, {{1, 0}}}})),
-            "agents/0: agent 'a0' has no goal; expected one for every agent, for MAPFW's JSON "
-            "cannot do without");
+            "agents/0: agent 'a0' has no goal; expected one for every agent, because MAPFW's JSON "
+            "requires it");
   EXPECT_TRUE(directory_.files().empty());
 }
 

@@ -134,7 +134,7 @@ TEST_F(MotionFile, InvalidValuesAreRefusedWithThePlace) {
       {turning + R"("heading": "N", "goal": [2, 0], "goal_heading": "Q")",
        R"(goal_heading: found "Q"; expected "N", "E", "S" or "W")"},
       {turning + R"("heading": "N", "goal_heading": "N")",
-       "goal_heading: the agent has no goal; expected one, or no such key"},
+       "goal_heading: the agent has no goal; expected a goal, or no such key"},
       {turning + R"("heading": "N", "goal": [2, 0, "N"])",
        "goal: found an array; expected a cell [x, y]"},
       {R"("start": [1, 1], "motion": "turning", "heading": "N")",
@@ -165,13 +165,13 @@ TEST_F(MotionFile, InvalidValuesAreRefusedWithThePlace) {
       {start + R"("working": {"task": "t", "done": -1})",
        "working/done: found -1; expected an integer from 0 to 65536"},
       {start + R"("working": {"task": "z", "done": 1})",
-       "working/task: there is no task 'z'; expected one of agent 'a'"},
+       "working/task: there is no task 'z'; expected a task of agent 'a'"},
       {start + R"("working": {"task": "t", "done": 1})",
-       "working/task: agent 'a' does not start on cell [1, 0]; expected a task where it starts"},
+       "working/task: agent 'a' does not start on cell [1, 0]; expected a task on its start"},
       {R"("start": [1, 0], "working": {"task": "t", "done": 3})",
        "working/done: found 3 steps of task 't'; expected 0 to 2, less than its duration"},
       {R"("start": [1, 0], "working": {"task": "u", "done": 0})",
-       "working/task: task 'u' takes no time; expected one with a duration"},
+       "working/task: task 'u' takes no time; expected a task with a duration"},
   };
   for (const Case& c : cases) {
     const bool is_missing = c.expected.starts_with("key");
@@ -183,10 +183,10 @@ TEST_F(MotionFile, InvalidValuesAreRefusedWithThePlace) {
                            {"id": "b", "start": [1, 0], "working": {"task": "t", "done": 1}}])",
                        kWork);
             }),
-            "i.json: /agents/1/working/task: task 't' is none of agent 'b'; expected one of its "
-            "own");
+            "i.json: /agents/1/working/task: task 't' is not a task of agent 'b'; expected one of "
+            "its tasks");
   EXPECT_EQ(refused_on_roads(R"("motion": "turning", "heading": "N")"),
-            "i.json: /agents/0/motion: agents turn on grids only; expected no such key on a "
+            "i.json: /agents/0/motion: agents can turn only on grids; expected no such key on a "
             "roadmap");
   const std::string duration = "i.json: /tasks/0/duration: found ";
   for (const std::string wrong : {"-1", "1.5", "65537", "\"3\"", "null", "true"})
@@ -220,7 +220,7 @@ TEST_F(MotionFile, WorldsWithTooManyStatesAreRefused) {
   EXPECT_EQ(refused_agent(R"("start": [0, 0], "motion": "turning", "heading": "N",
                              "turn_steps": 65536)",
                           "[]"),
-            "i.json: /map: a world has 268435456 states at most");
+            "i.json: /map: a world has at most 268435456 states");
 }
 
 TEST_F(MotionFile, PlansHoldHeadingsAndWork) {

@@ -136,13 +136,13 @@ TEST_F(PlanFile, RefusesInvalidFilesWithThePlace) {
             "p.json: /status: found \"solved\"; expected optimal, bounded, feasible, infeasible or "
             "unknown");
   EXPECT_EQ(refused_with("\"status\"", "\"stat\""),
-            "p.json: /: unknown key 'stat'; expected 'status', if that is what it means");
+            "p.json: /: unknown key 'stat'; expected 'status', if that is meant");
   EXPECT_EQ(refused_with("\"lower_bound\"", "\"bound\""),
-            "p.json: /: unknown key 'bound'; expected 'lower_bound', if that is what it means");
+            "p.json: /: unknown key 'bound'; expected 'lower_bound', if that is meant");
   EXPECT_EQ(refused_with("\"cost\": 3", "\"cots\": 3"),
-            "p.json: /: unknown key 'cots'; expected 'cost', if that is what it means");
+            "p.json: /: unknown key 'cots'; expected 'cost', if that is meant");
   EXPECT_EQ(refused_with("\"agents\"", "\"agent\""),
-            "p.json: /: unknown key 'agent'; expected 'agents', if that is what it means");
+            "p.json: /: unknown key 'agent'; expected 'agents', if that is meant");
   EXPECT_EQ(refused_with("\"cost\": 3", "\"cost\": 3.5"),
             "p.json: /cost: found 3.5; expected an integer from 0 to 1152921504606846976");
   EXPECT_EQ(refused_with("\"cost\":2", "\"cost\":99999999999"),

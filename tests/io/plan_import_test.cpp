@@ -107,12 +107,12 @@ TEST_F(PlanImport, ReadsSchedules) {
 
 TEST_F(PlanImport, RefusesInvalidSchedulesWithThePlace) {
   EXPECT_EQ(refused(replaced(kSchedule, "agent0", "agent2")),
-            "plan: line 5, column 3: found 'agent2', which no agent of the instance is called; "
-            "expected the name of one, or agent0 to agent1");
+            "plan: line 5, column 3: found 'agent2', which is not an agent of the instance; "
+            "expected the name of an agent, or agent0 to agent1");
   EXPECT_EQ(refused(replaced(kSchedule, "  a1:", "  a0:")),
-            "plan: line 15, column 3: an agent appears twice");
+            "plan: line 15, column 3: an agent appears more than once");
   EXPECT_EQ(refused(replaced(kSchedule, "x: 3, y: 0, t: 6", "x: 3, y: 0, t: 7")),
-            "plan: line 14, column 23: expected t: 6, for each step follows the one before");
+            "plan: line 14, column 23: expected t: 6, because steps are consecutive");
   EXPECT_NE(refused(replaced(kSchedule, "x: 3, y: 0", "x: 4, y: 0")), "accepted");
   EXPECT_NE(refused(replaced(kSchedule, "x: 3, y: 0", "x: 3, y: -1")), "accepted");
   EXPECT_NE(refused(replaced(kSchedule, "x: 3, ", "")), "accepted");
@@ -182,7 +182,7 @@ TEST_F(PlanImport, LeavesFalseClaimsToTheChecker) {
   EXPECT_EQ(first_violation(replaced(kText, "soc=10", "soc=9")),
             "/cost: the agents' costs add up to 10, but the plan says 9");
   EXPECT_EQ(first_violation(replaced(kText, "soc_lb=8", "soc_lb=11")),
-            "/lower_bound: a lower bound of 11 cannot be: this plan costs 10");
+            "/lower_bound: found 11; expected at most 10, the cost of this plan");
   EXPECT_EQ(
       first_violation(replaced(kLists, "(1,1)->", "")),
       "/agents/0/path/3: agent 'a0' jumps from [0, 1] to [2, 1]; expected a wait or a move to "
@@ -217,7 +217,7 @@ TEST_F(PlanImport, RefusesInvalidFilesWithThePlace) {
   EXPECT_EQ(refused(replaced(kLists, "->(1,1)", "-(1,1)")),
             "plan: line 1, column 29: expected '->'");
   EXPECT_EQ(refused(replaced(kText, "agents=2", "agents=3")),
-            "plan: line 1, column 9: expected 2 agents, as the instance has");
+            "plan: line 1, column 9: expected 2 agents, as in the instance");
   EXPECT_EQ(refused(replaced(kText, "\n4:", "\n5:")), "plan: line 17, column 1: expected '4:'");
   EXPECT_EQ(refused(replaced(kText, "4:(2,1),(0,1),", "4:(2,1),(0,1),(1,1),")),
             "plan: line 17, column 15: expected the end of the line, after all agents of the "

@@ -44,8 +44,8 @@ TEST(RoadNetwork, LargerOfTimeAndLengthDecides) {
   EXPECT_EQ(steps(link(3, 17), kBoth), 9);
   EXPECT_EQ(steps(link(3), kBoth), 6);
   EXPECT_EQ(refusal([] { steps(link(3), kSeconds); }),
-            "f: line 7: nothing tells how long this edge takes; expected its highest speed (LIF) "
-            "or its duration (GraphML), or --metres-per-step for the robots' own speed");
+            "f: line 7: this edge has no time; expected a maximum speed (LIF), a duration "
+            "(GraphML), or --metres-per-step for the speed of the robots");
 }
 
 TEST(RoadNetwork, LargestRoundingsAreReported) {
@@ -61,14 +61,14 @@ TEST(RoadNetwork, LargestRoundingsAreReported) {
 
 TEST(RoadNetwork, TooManyPlacesAreRefused) {
   EXPECT_EQ(refusal([] { steps(link(1e9), kHalfMetres); }),
-            "f: line 7: this edge takes 2e+09 steps; expected at most 67108864: take longer steps");
+            "f: line 7: this edge takes 2e+09 steps; expected at most 67108864; use longer steps");
   EXPECT_EQ(refusal([] { steps(link(1e308), {.metres_per_step = 1e-6}); }),
-            "f: line 7: this edge takes inf steps; expected at most 67108864: take longer steps");
+            "f: line 7: this edge takes inf steps; expected at most 67108864; use longer steps");
   EXPECT_EQ(refusal([] {
               in_steps(network({link(2e7), link(2e7)}), kHalfMetres);
             }),
-            "f: line 7: the roads up to this one have more than 67108864 places; expected fewer: "
-            "take longer steps");
+            "f: line 7: the roads up to this one have more than 67108864 places; expected fewer; "
+            "use longer steps");
 }
 
 TEST(RoadNetwork, LinkFromANodeToItselfIsRefused) {

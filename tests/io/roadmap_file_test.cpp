@@ -114,7 +114,7 @@ TEST_F(RoadmapFile, RefusesInvalidValuesWithThePlace) {
   EXPECT_EQ(
       edge(R"({"from": "A", "to": "B", "steps": 2.5})"),
       "r.json: /edges/0/steps: found 2.5; expected a whole number of steps, at least 1; 'grove "
-      "convert --metres-per-step' makes them of lengths in GraphML or LIF, and rounds up");
+      "convert --metres-per-step' converts lengths in GraphML or LIF to steps, rounded up");
   EXPECT_EQ(edge(R"({"from": "A", "to": "B", "steps": 1, "one_way": 1})"),
             "r.json: /edges/0/one_way: found 1; expected true or false");
   EXPECT_TRUE(edge(R"({"from": "A", "to": "B", "steps": 67108864})")
@@ -153,7 +153,8 @@ TEST_F(RoadmapFile, InvalidPlacesOfInstancesAreRefused) {
             "i.json: /agents/0/start: found 3; expected a vertex [\"A\"] or a place on "
             "a road [\"A\", \"B\", k], k steps from A");
   EXPECT_EQ(start(R"(["A", "C", 1])"),
-            "i.json: /agents/0/start: no road joins these vertices; expected two that one joins");
+            "i.json: /agents/0/start: no road joins these vertices; expected two vertices joined "
+            "by a road");
   EXPECT_EQ(start(R"(["A", "B", 3])"),
             "i.json: /agents/0/start/2: found 3; expected an integer from 1 to 2");
   EXPECT_EQ(start(R"(["B", "C", 1])"),

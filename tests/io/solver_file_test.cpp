@@ -67,16 +67,15 @@ TEST(SolverFiles, HaveDefaults) {
 TEST(SolverFiles, AreRefusedWithThePlaceIfInvalid) {
   EXPECT_EQ(refused("[]"), "s.json: /: found an array; expected a JSON object");
   EXPECT_EQ(refused_with("\"threads\"", "\"thread\""),
-            "s.json: /: unknown key 'thread'; expected 'threads', if that is what it means");
+            "s.json: /: unknown key 'thread'; expected 'threads', if that is meant");
   EXPECT_EQ(refused_with("\"cost\": ", "\"price\": "),
             "s.json: /claims: unknown key 'price'; expected one of solved, cost, lower_bound, "
-            "seconds, first_plan, or a name that begins with '_' for a remark");
+            "seconds, first_plan, or a name that begins with '_', for a remark");
   EXPECT_EQ(refused_with("{agents}", "{agent}"),
             "s.json: /command: found {agent}; expected one of {program}, {map}, {scenario}, "
             "{agents}, {instance}, {time_limit}, {time_limit_ms}, {time_limit_whole}, {seed}, "
             "{output}, {folder}");
-  EXPECT_EQ(refused_with("{program} ", ""),
-            "s.json: /command: expected {program} where the program stands");
+  EXPECT_EQ(refused_with("{program} ", ""), "s.json: /command: expected {program} as the program");
   EXPECT_EQ(refused_with("{scenario} ", ""), "s.json: /command: expected {map} and {scenario}");
   EXPECT_EQ(refused_with("{map}", "{map} {instance}"),
             "s.json: /command: expected {instance}, or {map} and {scenario}, and not both");
@@ -86,18 +85,20 @@ TEST(SolverFiles, AreRefusedWithThePlaceIfInvalid) {
             "without blanks");
   EXPECT_EQ(refused_with("cost (\\\\d+)", "cost \\\\d+"),
             "s.json: /claims/cost: found 0 groups in round brackets; expected 1");
-  EXPECT_NE(refused_with("cost (\\\\d+)", "cost (\\\\d+")
-                .find("s.json: /claims/cost: found 'cost (\\d+', which is no regular expression"),
-            std::string::npos);
+  EXPECT_NE(
+      refused_with("cost (\\\\d+)", "cost (\\\\d+")
+          .find("s.json: /claims/cost: found 'cost (\\d+', which is not a regular expression"),
+      std::string::npos);
   EXPECT_EQ(refused_with("\"unit\": \"ms\"", "\"unit\": \"h\""),
             "s.json: /claims/first_plan/unit: found \"h\"; expected s or ms");
-  EXPECT_EQ(refused_with("\"cost\", \"seconds_left\"", "\"cost\", \"cost\""),
-            "s.json: /trace/0/groups: expected the cost once and one time: seconds, milliseconds "
-            "or seconds_left");
+  EXPECT_EQ(
+      refused_with("\"cost\", \"seconds_left\"", "\"cost\", \"cost\""),
+      "s.json: /trace/0/groups: expected cost once and exactly one time: seconds, milliseconds "
+      "or seconds_left");
   EXPECT_EQ(refused_with("(\\\\d+) at (\\\\d+) over", "(\\\\d+) at over"),
             "s.json: /trace/0/regex: found 2 groups in round brackets; expected 3");
   EXPECT_EQ(refused(R"({"name": "s", "command": "{program} {map} {scenario}", "plan": null})"),
-            "s.json: /: there is neither a plan nor a claim to read; expected one of plan, claims");
+            "s.json: /: found neither a plan nor claims; expected one of plan, claims");
 }
 
 // The solver files of Grove are read as strictly.
@@ -126,7 +127,7 @@ TEST(SolverTemplates, AreFilledWithValues) {
   EXPECT_EQ(template_mistake("a{map}b{seed}"), "");
   for (const char* text : {"a{map", "map}", "{map}}", "{"})
     EXPECT_EQ(template_mistake(text),
-              "a brace without its other one; expected names in braces, such as {map}")
+              "found an unpaired brace; expected names in braces, such as {map}")
         << text;
   EXPECT_TRUE(template_mistake("{}").starts_with("found {}; expected one of {program}"));
   EXPECT_TRUE(template_mistake("{{map}}").starts_with("found {{map}; expected one of"));

@@ -124,7 +124,7 @@ TEST(Check, RefusesAnImpossibleBound) {
   const auto with_bound = [](Cost bound) {
     return verdict([&](Solution& solution) { solution.lower_bound = bound; });
   };
-  EXPECT_MENTIONS(with_bound(16), "/lower_bound: a lower bound of 16 cannot be");
+  EXPECT_MENTIONS(with_bound(16), "/lower_bound: found 16; expected at most 15");
   EXPECT_MENTIONS(with_bound(-1), "/lower_bound: found -1");
   EXPECT_MENTIONS(with_bound(kInfiniteCost), "/lower_bound");
 }

@@ -121,11 +121,11 @@ TEST_F(CertificateTexts, FollowTheGrammarExactly) {
   EXPECT_EQ(refusal(head() + "theorem -1\n"),
             "line 4: found '-1'; expected a cost or inf, from 0 to 1152921504606846975");
   EXPECT_EQ(refusal(head() + "theorem 4\nleaf\nend\n\n"),
-            "line 6: found more behind it; expected nothing after 'end'");
+            "line 6: found more after it; expected nothing after 'end'");
   EXPECT_EQ(refusal(head() + "lemma 3 1 1\n"),
             "line 4: found '1'; expected agents in ascending order");
   EXPECT_EQ(refusal(head() + "lemma 3 1\ndemand 0 bar 0 0 0\n"),
-            "line 5: found '0 bar 0 0 0'; expected a demand on an agent of the lemma");
+            "line 5: found '0 bar 0 0 0'; expected a constraint on an agent of the lemma");
   EXPECT_EQ(refusal(head() + "lemma 3 1\nleaf 0\n"),
             "line 5: found '0'; expected the number of an earlier lemma, of which there is none");
   EXPECT_EQ(refusal_of_proof("leaf\n"), "it was read");
@@ -158,14 +158,13 @@ TEST_F(CertificateTexts, FollowTheGrammarExactly) {
 }
 
 TEST_F(CertificateTexts, AreRefusedIfTooLarge) {
-  EXPECT_EQ(refusal(head() + std::string(kAll), 4),
-            "has 5 splits; expected at most 4, which people can look at");
+  EXPECT_EQ(refusal(head() + std::string(kAll), 4), "has 5 splits; expected at most 4");
   const std::string blanks(std::size_t{1} << 25, ' ');
   std::string bomb(ZSTD_compressBound(blanks.size()), '\0');
   bomb.resize(ZSTD_compress(bomb.data(), bomb.size(), blanks.data(), blanks.size(), 3));
   for (const std::string& large : {blanks, bomb})
     EXPECT_EQ(refusal(large),
-              "is too large to be looked at; expected a certificate of at most 16777216 bytes, "
+              "is too large to be shown; expected a certificate of at most 16777216 bytes, "
               "uncompressed");
 }
 

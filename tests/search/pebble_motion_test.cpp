@@ -67,7 +67,7 @@ TEST(PebbleMotion, NamesTheAgentAndItsUnreachablePlace) {
   for (int x = 4; x < 6; ++x) agents.push_back({{x, 1}, Position{x, 1}});
   agents[0].tasks = {{4, 2}};
   EXPECT_EQ(reason(testing::instance_of(dead_end, agents)),
-            "agent 'a0' cannot get to [4, 2]: the agents have too little room to let it pass");
+            "agent 'a0' cannot reach [4, 2]: the agents have too little room to let it pass");
   agents[0].tasks = {};
   agents[3].tasks = {{4, 2}};
   EXPECT_EQ(reason(testing::instance_of(dead_end, agents)), "");

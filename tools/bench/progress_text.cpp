@@ -17,7 +17,7 @@ std::string median_text(std::vector<double> values) {
   return fmt::format("{:.2f}", median);
 }
 
-// The first column to the left, the others to the right.
+// The first column is left-aligned, the others right-aligned.
 std::string table_text(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths(rows.front().size());
   for (const auto& row : rows)
@@ -38,7 +38,7 @@ std::string refuted_text(const std::vector<batch::FalseClaim>& claims) {
     text +=
         fmt::format("refuted: {} on {} {}\n", claims[k].method, claims[k].instance, claims[k].what);
   if (claims.size() > kShown)
-    text += fmt::format("refuted: and {} more; grove report lists all\n", claims.size() - kShown);
+    text += fmt::format("refuted: {} more; grove report lists all\n", claims.size() - kShown);
   return text;
 }
 
@@ -90,8 +90,9 @@ std::string summary_table(const BenchState& state) {
     lines[name] = {name, fmt::format("{}/{}", count.solved, count.runs),
                    median_text(count.runtimes_s), std::to_string(count.errors)};
   }
-  std::string legend = "median s: of all runs; one that is not solved counts as its time limit\n";
-  // Only where there is something to tell.
+  std::string legend =
+      "median s: over all runs; a run that is not solved counts as its time limit\n";
+  // Adds a column if a value is not 0.
   const auto add = [&](const char* title, const char* meaning, const auto& value) {
     const auto has_some = [&](const std::string& name) { return value(name) > 0; };
     if (std::ranges::none_of(state.methods, has_some)) return;
@@ -100,11 +101,11 @@ std::string summary_table(const BenchState& state) {
       lines[name].push_back(std::to_string(value(name)));
     legend += fmt::format("{}: {}\n", title, meaning);
   };
-  add("invalid", "the plan is invalid; see the column error of the table",
+  add("invalid", "invalid plans; the column error of the table has the reason",
       [&](const std::string& name) { return state.counts.at(name).wrong; });
-  add("claimed", "the solver says that it has a plan, and shows none",
+  add("claimed", "the solver reports a plan but wrote none",
       [&](const std::string& name) { return state.counts.at(name).claimed; });
-  add("refuted", "a cost or a bound that cannot be; they are listed below",
+  add("refuted", "a claimed cost or bound is impossible; see the list below",
       [&](const std::string& name) {
         return std::ranges::count(state.false_claims, name, &batch::FalseClaim::method);
       });

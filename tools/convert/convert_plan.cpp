@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove convert --plan: a plan in another format.
+// grove convert --plan: writes a plan in another format.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -26,7 +26,7 @@ AgentIndex robot_of(const std::string& option, const std::string& text, const st
   return static_cast<AgentIndex>(found - instance.agents().begin());
 }
 
-ClaimedPlan read_plan_to_drive(const std::string& file, const Instance& instance) {
+ClaimedPlan read_plan_to_execute(const std::string& file, const Instance& instance) {
   ClaimedPlan claimed = read_plan_of_any_tool(file, instance);
   const auto wrong = check(instance, claimed.solution, 1);
   if (wrong.empty()) return claimed;

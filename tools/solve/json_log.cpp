@@ -10,14 +10,14 @@
 
 #include "tools/common/machine.h"
 #include "tools/common/version.h"
-#include "tools/solve/demand_text.h"
+#include "tools/solve/constraint_text.h"
 
 namespace grove::detail {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Whatever bytes are in file names.
+// File names may contain any bytes; invalid UTF-8 must not fail.
 std::string line_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -34,7 +34,7 @@ Json cost_json(std::optional<Cost> cost) {
   return cost ? Json(*cost) : Json();
 }
 
-// (cost - lower bound) / lower bound; null without a cost, and where it would be infinite.
+// (cost - lower bound) / lower bound; null without a cost and if it would be infinite.
 Json gap_json(std::optional<Cost> cost, Cost lower_bound) {
   if (!cost) return {};
   if (*cost == lower_bound) return 0;
@@ -93,7 +93,7 @@ Json memory_json(const MemoryUse& memory) {
           {"dependencies", megabytes_json(memory.groups)}};
 }
 
-// Columns, one entry for each rank; null what is not known.
+// Columns with one entry per rank; null if unknown.
 Json ranks_json(const RunStatistics& survey) {
   Json json{{"nodes", Json::array()},           {"open", Json::array()},
             {"lower_bound", Json::array()},     {"memory_mb", Json::array()},
@@ -232,7 +232,7 @@ void JsonLog::checkpoint(const CheckpointReport& report, double seconds) {
             {"took_s", seconds_json(report.seconds)}};
   if (!report.failure.empty()) {
     json["failure"] = report.failure;
-    sink_.warn_the_blind("Checkpoint failed: " + report.failure);
+    sink_.warn_if_log_hidden("Checkpoint failed: " + report.failure);
   }
   sink_.line(line_of(json));
 }

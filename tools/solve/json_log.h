@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The log of a run for programs that follow it: one JSON object a line, with its kind as "event".
-// docs/command-line.md lists events and keys.
+// JSON log of a run: one object per line, with its kind in the key "event". docs/command-line.md
+// lists events and keys.
 #pragma once
 
 #include "tools/solve/log_format.h"
@@ -26,7 +26,7 @@ class JsonLog : public LogFormat {
 
  private:
   LogSink sink_;
-  const Instance* instance_ = nullptr;  // of the head, which outlives the log
+  const Instance* instance_ = nullptr;  // from head(); outlives the log
 };
 
 }  // namespace grove::detail

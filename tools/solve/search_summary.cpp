@@ -44,7 +44,7 @@ class Counts {
     }
     return text.empty() ? "none" : text;
   }
-  // "tree 1, prioritized 2 (cost -14)": incumbents by source, and their cost reduction.
+  // "tree 1, prioritized 2 (cost -14)": number of incumbents and the decrease of cost, by source.
   std::string plans() const {
     std::string text;
     for (const std::string_view source : kPlanSources) {

@@ -25,7 +25,7 @@ std::string count_text(int count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-// What of the items is out of the ordinary: " (2 turning, 1 idle)", or nothing.
+// Returns counts of special items, such as " (2 turning, 1 idle)"; "" if there are none.
 template <class Item>
 std::string traits_text(
     std::span<const Item> items,
@@ -89,7 +89,7 @@ char letter_of(const LogRow& row) {
   return ' ';
 }
 
-// Nodes that were evicted because memory was short.
+// The number of evicted nodes and of restarts.
 std::string evicted_text(const Solution& solution) {
   const auto evicted = solution.stats.counts.find("nodes_evicted");
   if (evicted == solution.stats.counts.end() || evicted->second == 0) return "";
@@ -183,7 +183,7 @@ void TextLog::checkpoint(const CheckpointReport& report, double seconds) {
                                   report.nodes, report.seconds, seconds));
   const std::string text = fmt::format("Checkpoint failed: {}", report.failure);
   sink_.line("  " + text);
-  sink_.warn_the_blind(text);
+  sink_.warn_if_log_hidden(text);
 }
 
 void TextLog::end(const LogEnd& end) {

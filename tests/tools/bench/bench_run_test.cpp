@@ -12,7 +12,7 @@
 #include "io/text_file.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
-#include "tools/bench/rehearsal.h"
+#include "tools/bench/method_support.h"
 
 namespace grove::detail::bench {
 namespace bench_run_test {
@@ -205,7 +205,7 @@ TEST_F(Benches, CheckMethodSupportOnEachKindOfInstance) {
   methods(2);
   instances_[2].kind = "mg";
   solver("");
-  rehearse(instances_, methods_, options_);
+  check_method_support(instances_, methods_, options_);
   const std::string text = file_content(directory_ / "log");
   ASSERT_EQ(split_lines(text).size(), 2U);  // 2 methods, each accepted at once
   for (const std::string_view line : split_lines(text))
@@ -213,14 +213,14 @@ TEST_F(Benches, CheckMethodSupportOnEachKindOfInstance) {
 
   for (const char* other : {"exit 1", "kill $$"}) {  // not a refusal
     solver(other);
-    EXPECT_NO_THROW(rehearse(instances_, methods_, options_));
+    EXPECT_NO_THROW(check_method_support(instances_, methods_, options_));
   }
   solver("case $(tail -n 1 \"$log\") in *i0.cts.json*--k\\ 1*) echo 'grove: error: " +
          instances_[0].entry.path + ": not for me'; exit 2;; esac");
-  EXPECT_NO_THROW(rehearse(instances_, methods_, options_));
+  EXPECT_NO_THROW(check_method_support(instances_, methods_, options_));
   solver("echo 'grove: error: not for me'; exit 2");
-  EXPECT_EQ(refusal([&] { rehearse(instances_, methods_, options_); }).substr(2),
-            ".cts.json: is not for the run 'm0': not for me");
+  EXPECT_EQ(refusal([&] { check_method_support(instances_, methods_, options_); }).substr(2),
+            ".cts.json: the method of run 'm0' does not accept it: not for me");
   EXPECT_FALSE(fs::exists(options_.folder));
 }
 

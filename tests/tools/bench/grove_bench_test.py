@@ -234,7 +234,7 @@ class Refusals(Program):
         running = self.start(*self.bench(runs=["x: --omega 0"]))
         _, err = running.communicate(timeout=HANG_S)
         self.assertEqual(running.returncode, 0, err)
-        self.assertRegex(err, r"(?m)^grove: warning: instances/broken\.cts\.json: .*; its rows are errors$")
+        self.assertRegex(err, r"(?m)^grove: warning: instances/broken\.cts\.json: .*; its rows have an error$")
         row = self.rows()["broken", "x"]
         self.assertEqual(row["status"], "error")
         self.assertIn("broken.cts.json", row["error"])
@@ -297,7 +297,7 @@ class Resuming(Program):
         file.write_text(text)
         running = self.start(*self.bench("--quiet"))
         self.assertRegex(running.communicate(timeout=HANG_S)[1],
-                         r"\Agrove: warning: out holds rows of grove -1[^\n]*; they stay\n\Z")
+                         r"\Agrove: warning: out holds rows of grove -1[^\n]*; they are kept\n\Z")
         self.assertEqual(file.read_text(), text)
 
     def test_killed_again_and_again(self):

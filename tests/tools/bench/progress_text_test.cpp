@@ -41,7 +41,7 @@ TEST(BenchSummary, CountsUnsolvedRunsAsTheTimeLimit) {
             "method  solved/run  median s  errors\n"
             "auto           3/3      3.00       0\n"
             "paper          0/1     60.00       1\n"
-            "median s: of all runs; one that is not solved counts as its time limit\n");
+            "median s: over all runs; a run that is not solved counts as its time limit\n");
   Row row = solved_row("i", "auto");
   row.wall_s = 5;
   state.count(row);

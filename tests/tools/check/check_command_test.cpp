@@ -125,7 +125,7 @@ TEST_F(CheckCommand, ReportsSwappedArguments) {
   const ProcessResult result = run_grove({"check", directory_ / "p.json", directory_ / "i.json"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(said(result),
-            "grove: error: p.json: found a plan; expected an instance, and its plan after it: "
+            "grove: error: p.json: found a plan; expected an instance before its plan: "
             "'grove check INSTANCE PLAN'\n");
 }
 

@@ -69,7 +69,7 @@ TEST(Usage, WrongUsagePrintsOneLineAndAHint) {
   EXPECT_EQ(said({"check", "a.scen", "b", "--map", "m"}),
             "--agents: required with a .scen file (see 'grove check --help')");
   EXPECT_EQ(said({"check", "a.json", "b", "--map", "m"}),
-            "--map, --agents: expected only with a .scen file (see 'grove check --help')");
+            "--map, --agents: allowed only with a .scen file (see 'grove check --help')");
   EXPECT_EQ(said({"generate", "map", "empty"}),
             "--output is required (see 'grove generate map empty --help')");
   EXPECT_EQ(said({"generate", "map", "empty", "-o", "x", "a\nb"}),
@@ -114,8 +114,10 @@ TEST(Usage, InvalidNumberMessageNamesTheRange) {
     EXPECT_EQ(said("--obstacles", wrong), "--obstacles: found '" + std::string(wrong) +
                                               "'; expected a number from 0 to 1" + hint);
   EXPECT_EQ(said("--seed", "-1"), "--seed: found '-1'; expected an integer of at least 0" + hint);
-  EXPECT_EQ(said("--obstacles", "1"),
-            "map: 1024 obstacles on 1024 cells leave fewer than 2 passable ones" + hint);
+  EXPECT_EQ(
+      said("--obstacles", "1"),
+      "map: 1024 obstacles on 1024 cells leave fewer than 2 passable cells; expected at least 2" +
+          hint);
 }
 
 TEST(Usage, UnwritableStandardOutputIsAnError) {

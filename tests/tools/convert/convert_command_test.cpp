@@ -131,8 +131,7 @@ TEST_F(ConvertCommand, MapsAreNotOverwritten) {
   const std::string other = replaced(kMap, ".@...", "..@..");
   directory_.write("o.map", other);
   EXPECT_EQ(refused({"plain.yaml", "o.cts.json"}),
-            "o.map: is another map than that of 'plain.yaml'; expected the same 5 x 3 cells, "
-            "passable and blocked alike");
+            "o.map: is not the map of 'plain.yaml'; expected the same 5 x 3 cells");
   EXPECT_EQ(content("o.map"), other);
   EXPECT_EQ(refused({"plain.yaml", "x.cts.json", "--map", "o.map"}).substr(0, 21),
             "o.map: is another map");
@@ -148,8 +147,9 @@ TEST_F(ConvertCommand, TerrainIsReadAsBySolve) {
 
 TEST_F(ConvertCommand, TasksAreDroppedOnlyOnRequest) {
   const std::string problem =
-      "tasks.cts.json: /tasks/0: task 't0' cannot be said in a .scen file; expected no tasks "
-      "(--drop tasks gives the tasks up)";
+      "tasks.cts.json: /tasks/0: task 't0' cannot be represented in a .scen file; expected no "
+      "tasks "
+      "(--drop tasks leaves the tasks out)";
   EXPECT_EQ(refused({"tasks.cts.json", "o.scen"}), problem);
   EXPECT_EQ(refused({"tasks.cts.json", "o.scen", "--drop", "ids"}), problem);
   EXPECT_EQ(converted({"tasks.cts.json", "o.scen", "--drop", "tasks"}),
@@ -166,7 +166,7 @@ TEST_F(ConvertCommand, IdsAreDroppedOnlyOnRequest) {
   directory_.write("red.cts.json", replaced(kPlain, "a1", "red"));
   EXPECT_EQ(refused({"red.cts.json", "o.scen"}),
             "red.cts.json: /agents/1: a .scen file has no ids: read back, agent 'red' would be "
-            "'a1'; expected that id (--drop ids gives the ids up)");
+            "'a1'; expected this id (--drop ids leaves the ids out)");
   converted({"red.cts.json", "o.scen", "--drop", "ids"});
   EXPECT_EQ(content("o.scen"), kScen);
   converted({"red.cts.json", "o.yaml", "--drop", "ids"});
@@ -174,7 +174,7 @@ TEST_F(ConvertCommand, IdsAreDroppedOnlyOnRequest) {
   directory_.write("shelf.cts.json", replaced(kMg, "t0", "shelf"));
   EXPECT_EQ(refused({"shelf.cts.json", "o.yaml", "--to", "mgcbs"}),
             "shelf.cts.json: /tasks/0: MGCBS's YAML has no ids of tasks: read back, task 'shelf' "
-            "(number 0) would be 't0' (number 0); expected that (--drop ids gives the ids up)");
+            "(number 0) would be 't0' (number 0); expected that (--drop ids leaves the ids out)");
   converted({"shelf.cts.json", "o.yaml", "--to", "mgcbs", "--drop", "ids"});
   EXPECT_NE(content("o.yaml").find("name: red"), std::string::npos);
 }
@@ -204,14 +204,14 @@ TEST_F(ConvertCommand, WritesNoMapIfTheInstanceFails) {
                    "map: {dimensions: [3, 1], obstacles: [[1, 0]]}\n"
                    "agents: [{name: a0, start: [0, 0], goal: [2, 0]}]\n");
   EXPECT_EQ(refused({"cut.yaml", "o.scen"}),
-            "cut.yaml: /agents/0: agent 'a0' cannot reach its goal; expected a way there, for a "
-            ".scen file tells how long it is");
+            "cut.yaml: /agents/0: agent 'a0' cannot reach its goal; expected a path, because a "
+            ".scen file has its length");
   EXPECT_EQ(refused({"plain.yaml", "none/o.cts.json"}),
             "none/o.cts.json: cannot be written: No such file or directory");
   directory_.write("two words.yaml", kPlainYaml);
   EXPECT_EQ(refused({"plain.yaml", "two words.scen"}),
-            "two words.scen: the map's name 'two words.map' has blanks in it; expected none, for "
-            "they separate the columns of a .scen file");
+            "two words.scen: the map's name 'two words.map' contains blanks; expected none, "
+            "because they separate the columns of a .scen file");
 }
 
 TEST_F(ConvertCommand, OverwritesNoneOfItsInputs) {
@@ -226,18 +226,21 @@ TEST_F(ConvertCommand, OverwritesNoneOfItsInputs) {
 
 TEST_F(ConvertCommand, FormatsAreDerivedOnlyFromKnownFileNames) {
   directory_.write("x.json", kTasks);
-  EXPECT_EQ(refused({"x.json", "o.yaml"}),
-            "--from: required, for the name 'x.json' does not tell the format; expected one of "
-            "grove, libmrp, mgcbs, mapfw, scen" +
-                kHint);
+  EXPECT_EQ(
+      refused({"x.json", "o.yaml"}),
+      "--from: required, because the suffix of 'x.json' is not that of a format; expected one of "
+      "grove, libmrp, mgcbs, mapfw, scen" +
+          kHint);
   EXPECT_EQ(refused({"plain.yaml", "o.txt"}),
-            "--to: required, for the name 'o.txt' does not tell the format; expected one of grove, "
+            "--to: required, because the suffix of 'o.txt' is not that of a format; expected one "
+            "of grove, "
             "libmrp, mgcbs, mapfw, scen" +
                 kHint);
-  EXPECT_EQ(refused({"--plan", "p.json", "plain.yaml", "o.txt"}),
-            "--to: required, for the name 'o.txt' does not tell the format; expected one of "
-            "libmrp, mapf-visualizer, eecbs, tracker, tracker-csv, waypoints, nav-path, planviz" +
-                kHint);
+  EXPECT_EQ(
+      refused({"--plan", "p.json", "plain.yaml", "o.txt"}),
+      "--to: required, because the suffix of 'o.txt' is not that of a format; expected one of "
+      "libmrp, mapf-visualizer, eecbs, tracker, tracker-csv, waypoints, nav-path, planviz" +
+          kHint);
   EXPECT_EQ(refused({"--from", "grv", "x.json", "o.yaml"}),
             "--from: found 'grv'; expected one of grove, libmrp, mgcbs, mapfw, scen" + kHint);
   EXPECT_EQ(converted({"--from", "grove", "x.json", "--to", "mapfw", "o.txt"}),
@@ -251,17 +254,17 @@ TEST_F(ConvertCommand, OptionsWithoutEffectAreRefused) {
   };
   EXPECT_EQ(said({"plain.scen", "o.yaml"}), "--map: required with a .scen INSTANCE");
   EXPECT_EQ(said({"plain.yaml", "o.cts.json", "--agents", "1"}),
-            "--agents: expected only with a .scen INSTANCE");
+            "--agents: allowed only with a .scen INSTANCE");
   EXPECT_EQ(said({"plain.yaml", "o.mapfw.json", "--map", "m.map"}),
-            "--map: expected only with a .scen INSTANCE, or an OUT with a map");
+            "--map: allowed only with a .scen INSTANCE, or an OUT with a map");
   EXPECT_EQ(said({"plain.yaml", "o.cts.json", "--scenario", "even-1"}),
-            "--scenario: expected only with --plan and --to tracker");
+            "--scenario: allowed only with --plan and --to tracker");
   EXPECT_EQ(said({"plain.yaml", "o.cts.json", "--flip-up-down"}),
-            "--flip-up-down: expected only with --plan and --to tracker");
+            "--flip-up-down: allowed only with --plan and --to tracker");
   EXPECT_EQ(said({"--plan", "p.json", "plain.yaml", "o.yaml", "--drop", "ids"}),
-            "--drop: expected only with instances, not with --plan");
+            "--drop: allowed only with instances, not with --plan");
   EXPECT_EQ(said({"--plan", "p.json", "plain.yaml", "o.yaml", "--map", "m.map"}),
-            "--map: expected only with a .scen INSTANCE");
+            "--map: allowed only with a .scen INSTANCE");
   EXPECT_EQ(said({"plain.yaml", "o.cts.json", "--drop", "agents"}),
             "--drop: found 'agents'; expected ids, tasks or ids,tasks");
   EXPECT_EQ(said({"--plan", "p.json", "plain.yaml", "o.csv", "--scenario", "even-1"}),
@@ -320,8 +323,8 @@ TEST_F(ConvertCommand, InvalidPlansAreRefused) {
     "agents": [{"id": "red", "sequence": ["t0"], "cost": 5,
                 "path": [[0,0],[0,1],[1,1],[2,1],[3,1],[4,1]]}]})");
   EXPECT_EQ(refused({"--plan", "t.json", "mg.cts.json", "o.csv"}),
-            "mg.cts.json: /agents/0: agent 'red' has no goal; expected one for every agent, for a "
-            "row of MAPF Tracker cannot do without");
+            "mg.cts.json: /agents/0: agent 'red' has no goal; expected one for every agent, "
+            "because a row of MAPF Tracker requires it");
 }
 
 // Other tests fuzz the readers; this one tests the messages for their exceptions.

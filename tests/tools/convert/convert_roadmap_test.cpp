@@ -120,7 +120,7 @@ TEST_F(ConvertRoadmap, ReportsThatNothingWasRounded) {
 
 const std::string kLanes =
     "grove: warning: p.lif.json: 3 pairs of opposite edges are two lanes each, on which robots "
-    "pass one another; where robots share one lane: --merge-lanes\n";
+    "pass one another; use --merge-lanes if robots share one lane\n";
 
 TEST_F(ConvertRoadmap, LifIsConvertedWithTwoLanesOrOne) {
   const Arguments convert = {"p.lif.json", "o.roadmap.json",     "--metres-per-step",
@@ -137,7 +137,7 @@ TEST_F(ConvertRoadmap, LifIsConvertedWithTwoLanesOrOne) {
   merge.emplace_back("--merge-lanes");
   EXPECT_EQ(converted(merge,
                       "grove: warning: p.lif.json: 1 pairs of opposite edges take different "
-                      "numbers of steps and stay two lanes each\n")
+                      "numbers of steps and remain two lanes each\n")
                 .substr(0, 72),
             "wrote o.roadmap.json: 4 vertices, 4 roads, 2 of them one way, 33 places\n");
   EXPECT_EQ(solved(), "valid: cost 53, lower bound 53, gap 0.00 %, 2 agents\n");
@@ -177,11 +177,11 @@ TEST_F(ConvertRoadmap, WarnsOfIgnoredSpeeds) {
   const ProcessResult result = run({"p.lif.json", "o.roadmap.json", "--metres-per-step", "6"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err,
-            "grove: warning: p.lif.json: tells the speed or the duration of 6 edges, which counts "
-            "only with --seconds-per-step\n" +
+            "grove: warning: p.lif.json: has a speed or a duration for 6 edges; expected "
+            "--seconds-per-step to use them\n" +
                 kLanes +
-                "grove: warning: p.lif.json: on 3 of these pairs, of one step, robots cannot pass "
-                "one another; for that: shorter steps\n");
+                "grove: warning: p.lif.json: robots cannot pass one another on 3 of these "
+                "pairs, which take one step; use shorter steps to allow it\n");
 }
 
 TEST_F(ConvertRoadmap, UnsuitableOptionsAreRefused) {
@@ -192,7 +192,7 @@ TEST_F(ConvertRoadmap, UnsuitableOptionsAreRefused) {
     return refused(all);
   };
   EXPECT_EQ(refused({"g.graphml", "o.roadmap.json"}),
-            "--metres-per-step: required; expected how far a robot goes in a step, or "
+            "--metres-per-step: required; expected metres per step, or "
             "--seconds-per-step" +
                 kHint);
   for (const std::string wrong : {"0", "-1", "nan", "inf", "x", ""})
@@ -200,22 +200,23 @@ TEST_F(ConvertRoadmap, UnsuitableOptionsAreRefused) {
               "--seconds-per-step: found '" + wrong + "'; expected a number from 1e-06 to 1000000" +
                   kHint);
   EXPECT_EQ(refused({"g.graphml", "o.json", "--metres-per-step", "1"}),
-            "--to: found 'o.json'; graphml holds roads: expected roadmap, or a file "
+            "--to: found 'o.json'; graphml contains roads; expected roadmap, or a file "
             "*.roadmap.json" +
                 kHint);
   EXPECT_EQ(refused({"g.graphml", "o.yaml", "--to", "libmrp"}),
-            "--to: found 'libmrp'; graphml holds roads: expected roadmap, or a file "
+            "--to: found 'libmrp'; graphml contains roads; expected roadmap, or a file "
             "*.roadmap.json" +
                 kHint);
-  EXPECT_EQ(refused({"plant.json", "o.roadmap.json"}),
-            "--from: required, for the name 'plant.json' does not tell the format; expected "
-            "graphml or lif, for OUT is a roadmap" +
-                kHint);
+  EXPECT_EQ(
+      refused({"plant.json", "o.roadmap.json"}),
+      "--from: required, because the suffix of 'plant.json' is not that of a format; expected "
+      "graphml or lif, because OUT is a roadmap" +
+          kHint);
   EXPECT_EQ(refused({"i.cts.json", "o.roadmap.json", "--from", "grove"}),
-            "--from: found 'grove'; expected graphml or lif, for OUT is a roadmap" + kHint);
-  EXPECT_EQ(with({"--layout", "x"}), "--layout: expected only with LIF" + kHint);
-  EXPECT_EQ(with({"--vehicle-type", "x"}), "--vehicle-type: expected only with LIF" + kHint);
-  const std::string only = ": expected only with instances and plans" + kHint;
+            "--from: found 'grove'; expected graphml or lif, because OUT is a roadmap" + kHint);
+  EXPECT_EQ(with({"--layout", "x"}), "--layout: allowed only with LIF" + kHint);
+  EXPECT_EQ(with({"--vehicle-type", "x"}), "--vehicle-type: allowed only with LIF" + kHint);
+  const std::string only = ": allowed only with instances and plans" + kHint;
   EXPECT_EQ(with({"--plan", "p"}), "--plan" + only);
   EXPECT_EQ(with({"--map", "m"}), "--map" + only);
   EXPECT_EQ(with({"--agents", "3"}), "--agents" + only);
@@ -223,7 +224,7 @@ TEST_F(ConvertRoadmap, UnsuitableOptionsAreRefused) {
   EXPECT_EQ(with({"--scenario", "even-1"}), "--scenario" + only);
   EXPECT_EQ(with({"--flip-up-down"}), "--flip-up-down" + only);
   const std::string roads =
-      ": expected only with roads: a *.graphml or *.lif.json INSTANCE, or --from graphml or lif";
+      ": allowed only with roads: a *.graphml or *.lif.json INSTANCE, or --from graphml or lif";
   for (const Arguments& option : {Arguments{"--metres-per-step", "1"},
                                   {"--layout", "l"},
                                   {"--vehicle-type", "t"},
@@ -250,9 +251,8 @@ TEST_F(ConvertRoadmap, UnsuitableFilesAreRefused) {
       refused({"p.lif.json", "o.roadmap.json", "--metres-per-step", "1", "--layout", "attic"}),
       "p.lif.json: /layouts: there is no layout 'attic'; expected one of 'hall'");
   EXPECT_EQ(refused({"g.graphml", "o.roadmap.json", "--seconds-per-step", "1"}),
-            "g.graphml: line 10, column 5: nothing tells how long this edge takes; expected its "
-            "highest speed (LIF) or its duration (GraphML), or --metres-per-step for the robots' "
-            "own speed");
+            "g.graphml: line 10, column 5: this edge has no time; expected a maximum speed (LIF), "
+            "a duration (GraphML), or --metres-per-step for the speed of the robots");
 }
 
 }  // namespace convert_roadmap_test

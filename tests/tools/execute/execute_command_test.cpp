@@ -141,7 +141,7 @@ TEST_F(ExecuteCommand, WritesThePassingOrder) {
 TEST_F(ExecuteCommand, ReportsBlockedRobots) {
   const ProcessResult done = execute({"--dies", "a3@12", "--view", directory_ / "page.html"});
   EXPECT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_THAT(done.out, HasSubstr("a3 does not move any more"));
+  EXPECT_THAT(done.out, HasSubstr("a3 has failed"));
   EXPECT_THAT(done.out, HasSubstr("waits for a3"));
   EXPECT_TRUE(std::filesystem::exists(directory_ / "page.html"));
 }
@@ -165,7 +165,7 @@ TEST_F(ExecuteCommand, RefusesInvalidOptionsAndPlans) {
   EXPECT_THAT(complaint(execute({"--stop", "a1@x=3"})), HasSubstr("--stop"));
   EXPECT_THAT(complaint(execute({"--dies", "a1"})), HasSubstr("ROBOT@TIME"));
   EXPECT_THAT(complaint(execute({"--delays", "2"})), HasSubstr("--delays"));
-  EXPECT_THAT(complaint(execute({"--delay-steps", "2"})), HasSubstr("expected only with --delays"));
+  EXPECT_THAT(complaint(execute({"--delay-steps", "2"})), HasSubstr("allowed only with --delays"));
   json plan = json::parse(std::ifstream(plan_));
   plan["agents"][0]["path"][1] = {0, 0};
   std::ofstream(directory_ / "bad.json") << plan;

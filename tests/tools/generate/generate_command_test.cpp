@@ -208,8 +208,8 @@ TEST(GenerateCommand, RefusesIncompatibleOptions) {
   };
   EXPECT_EQ(said("roadmap"), "--kind is required");
   EXPECT_EQ(said("roadmap --kind x"), "--kind: found 'x'; expected one of planar, warehouse");
-  EXPECT_EQ(said("roadmap --kind warehouse --seed 1"), "--seed: expected only with --kind planar");
-  EXPECT_EQ(said("roadmap --kind planar --bays 1"), "--bays: expected only with --kind warehouse");
+  EXPECT_EQ(said("roadmap --kind warehouse --seed 1"), "--seed: allowed only with --kind planar");
+  EXPECT_EQ(said("roadmap --kind planar --bays 1"), "--bays: allowed only with --kind warehouse");
   EXPECT_EQ(said("roadmap --kind planar --one-way 101"),
             "--one-way: found '101'; expected an integer from 0 to 100");
   EXPECT_TRUE(said("roadmap --kind planar --vertices 9000")
@@ -220,18 +220,17 @@ TEST(GenerateCommand, RefusesIncompatibleOptions) {
             "--metres-per-step: found '0'; expected a number from 0.01 to 1000");
   const std::string sizes = "instance --agents 5 --tasks 5 ";
   EXPECT_EQ(said(sizes), "--map or --roadmap is required");
-  EXPECT_EQ(said(sizes + "--map my.map --roadmap w.json"),
-            "--map: expected only without --roadmap");
-  EXPECT_EQ(said(sizes + "--scen s --roadmap w.json"), "--scen: expected only with --map");
+  EXPECT_EQ(said(sizes + "--map my.map --roadmap w.json"), "--map: allowed only without --roadmap");
+  EXPECT_EQ(said(sizes + "--scen s --roadmap w.json"), "--scen: allowed only with --map");
   EXPECT_EQ(said(sizes + "--turning --roadmap w.json"),
-            "--turning: expected only with --map: headings are those of a grid");
-  EXPECT_EQ(said(sizes + "--map my.map --tasks-on a"), "--tasks-on: expected only with --roadmap");
+            "--turning: allowed only with --map, because only agents on grids have headings");
+  EXPECT_EQ(said(sizes + "--map my.map --tasks-on a"), "--tasks-on: allowed only with --roadmap");
   EXPECT_EQ(said(sizes + "--map my.map --turn-steps 2"),
-            "--turn-steps: expected only with --turning");
+            "--turn-steps: allowed only with --turning");
   EXPECT_EQ(said(sizes + "--map my.map --goal-headings"),
-            "--goal-headings: expected only with --turning");
+            "--goal-headings: allowed only with --turning");
   EXPECT_EQ(said(sizes + "--map my.map --turning --goal-headings --mg"),
-            "--goal-headings: expected only where some agents have destinations");
+            "--goal-headings: allowed only if some agents have destinations");
   EXPECT_EQ(said(sizes + "--map my.map --durations 3-1"),
             "--durations: found '3-1'; expected the smaller number first");
   EXPECT_EQ(said(sizes + "--map my.map --durations 3-"),
@@ -322,13 +321,13 @@ TEST(GeneratePaper, TakesScenariosOfBothKindsFromMovingAi) {
     return complaint(generate(directory, start + more + " --output-dir no"));
   };
   EXPECT_EQ(said("--scenarios 3-4"),
-            "ai/m-1-random-4.scen: is not there; expected it, or --scenarios 3");
-  EXPECT_EQ(said("--scenarios 26"), "ai/m-1-even-1.scen: is not there; expected it");
+            "ai/m-1-random-4.scen: does not exist; expected it, or --scenarios 3");
+  EXPECT_EQ(said("--scenarios 26"), "ai/m-1-even-1.scen: does not exist; expected it");
   generate(directory, "scenario --map ai/m-1.map --rows 40 --seed 3 -o ai/m-1-random-2.scen");
   EXPECT_EQ(said("--scenarios 1-27"),
-            "ai/m-1-random-1.scen: is not there; expected it, or --scenarios 2-3,27");
-  EXPECT_TRUE(said("--scenarios 51").starts_with("--scenarios: expected at most 50"));
-  EXPECT_TRUE(said("--maps m-1").starts_with("--maps: expected 'm-1' once"));
+            "ai/m-1-random-1.scen: does not exist; expected it, or --scenarios 2-3,27");
+  EXPECT_TRUE(said("--scenarios 51").starts_with("--scenarios: found more than 50"));
+  EXPECT_TRUE(said("--maps m-1").starts_with("--maps: found 'm-1' more than once"));
   EXPECT_FALSE(fs::exists(directory / "no"));
 }
 
@@ -338,7 +337,7 @@ TEST(GeneratePaper, RefusesInvalidOptions) {
     return complaint(generate(directory, "paper --output-dir out " + more));
   };
   const std::string hint = " (see 'grove generate paper --help')";
-  EXPECT_EQ(said("--maps a"), "--maps: expected only with --movingai" + hint);
+  EXPECT_EQ(said("--maps a"), "--maps: allowed only with --movingai" + hint);
   EXPECT_EQ(said("--problem x"), "--problem: found 'x'; expected one of both, cts, mg" + hint);
   EXPECT_EQ(said("--scenarios 3-1"),
             "--scenarios: found '3-1'; expected the smaller number first" + hint);
@@ -390,7 +389,7 @@ TEST(GenerateCommand, RefusesUnwritableOutputs) {
   EXPECT_EQ(complaint(generate(directory, "map empty -o none/my.map")),
             "none/my.map: cannot be written: No such file or directory");
   EXPECT_EQ(complaint(generate(directory, "map empty -o .")),
-            ".: cannot be written: is a directory; expected a file name");
+            ".: is a directory; expected a file name");
   EXPECT_EQ(complaint(generate(directory, "map empty -o /dev/full")),
             "/dev/full: cannot be written: No space left on device");
   directory.write("file", "");

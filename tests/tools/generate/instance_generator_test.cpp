@@ -165,7 +165,8 @@ TEST(GenerateInstance, RefusesTooLargeCounts) {
       return error.what();
     }
   };
-  EXPECT_EQ(refused(scenario(4), {.agents = 5}), "m.scen: has 4 rows; 5 agents need as many");
+  EXPECT_EQ(refused(scenario(4), {.agents = 5}),
+            "m.scen: has 4 rows; expected at least 5, one for each agent");
   EXPECT_EQ(refused(scenario(25), {.agents = 5, .tasks = 6}),
             "m.scen: has 25 rows, enough for 5 of 6 tasks; they are taken from row 21 on");
   EXPECT_EQ(refused(scenario(), {.agents = 1, .tasks = 70}),

@@ -132,7 +132,7 @@ TEST_F(ReplanCommand, CommittedStepsReplaceACheaperPlan) {
 TEST_F(ReplanCommand, WarnsIfItReplacesAnotherInstance) {
   expect_valid({"--at", "20"});
   EXPECT_THAT(replan({"--at", "20"}).err, Not(HasSubstr("another instance")));
-  EXPECT_THAT(replan({"--at", "21"}).err, HasSubstr("then.cts.json held another instance"));
+  EXPECT_THAT(replan({"--at", "21"}).err, HasSubstr("then.cts.json had another instance"));
 }
 
 TEST_F(ReplanCommand, AddsAndDropsTasks) {
@@ -225,9 +225,9 @@ TEST_F(ReplanCommand, DoesNotOverwriteItsInputs) {
   EXPECT_THAT(refused({"--output-instance", file}), HasSubstr("is a file of new tasks"));
   EXPECT_THAT(refused({"-o", directory_ / "x.plan.json", "--log", file}),
               HasSubstr("is a file of new tasks"));
-  EXPECT_THAT(refused({"-o", plan_}), HasSubstr("is the plan that is being driven"));
+  EXPECT_THAT(refused({"-o", plan_}), HasSubstr("is the plan that is being executed"));
   EXPECT_THAT(refused({"-o", directory_ / "x.plan.json", "--log", plan_}),
-              HasSubstr("is the plan that is being driven"));
+              HasSubstr("is the plan that is being executed"));
 }
 
 TEST_F(ReplanCommand, RefusesTimesBeyondThePlan) {
@@ -250,7 +250,7 @@ TEST_F(ReplanCommand, RefusesToBlockABlockedCell) {
   const std::size_t wall = map.find('@', first) - first;
   const std::string cell = std::to_string(wall % 33) + "," + std::to_string(wall / 33);
   EXPECT_THAT(complaint({"--at", "3", "--blocked", cell}),
-              HasSubstr("--blocked: '" + cell + "': it is blocked on the map already"));
+              HasSubstr("--blocked: '" + cell + "': the map is blocked there already"));
 }
 
 // A robot without a destination may end on any of its remaining tasks.

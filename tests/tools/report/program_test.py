@@ -509,9 +509,8 @@ class Usage(Folder):
 
     def test_without_its_other_half(self):
         program = self.copy()
-        self.assertEqual(self.complaint(run=run, program=program), "bin/grove-report: there is no such file; "
-                         "expected it beside grove (build the target grove), or in "
-                         "../libexec/grove where the Debian package grove is installed")
+        self.assertEqual(self.complaint(run=run, program=program), "bin/grove-report: there is no such program; "
+                         "expected it beside grove (build target grove), or in ../libexec/grove (Debian package grove)")
 
     def test_without_python(self):
         program = self.copy()

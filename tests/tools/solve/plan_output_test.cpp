@@ -93,7 +93,7 @@ TEST_F(PlanOutput, RefutesAFalseBoundByTheExistingPlan) {
 TEST_F(PlanOutput, ReportsKeptAndMissingPlans) {
   const auto output = [](const Solution& solution, std::optional<Cost> kept) {
     ::testing::internal::CaptureStderr();
-    tell_without_plan(solution, "p.json", kept);
+    report_missing_plan(solution, "p.json", kept);
     return ::testing::internal::GetCapturedStderr();
   };
   EXPECT_EQ(output(waiting(1), {}), "");

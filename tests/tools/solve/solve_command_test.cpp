@@ -93,7 +93,7 @@ TEST_F(SolveCommand, FindsTheMapNextToAScenario) {
   EXPECT_THAT(solved.out, HasSubstr("empty-32x32.map: 32 x 32"));
   std::filesystem::copy(data("empty-32x32.scen"), directory_.path());
   EXPECT_THAT(complaint(solve({"empty-32x32.scen", "--agents", "3"})),
-              HasSubstr("does not lie beside the map that it names"));
+              HasSubstr("is not beside the map that it names"));
 }
 
 TEST_F(SolveCommand, ReadsAnInstanceFromStandardInput) {
@@ -560,7 +560,7 @@ TEST_F(SolveCommand, LogsTheRequestedNumberOfNodes) {
   const std::vector<json> log = events(solve(words).out);
   EXPECT_EQ(std::ranges::count(log, "node", [](const json& e) { return e["event"]; }), 5);
   EXPECT_THAT(complaint(solve({"puzzle.json", "--log-tree", "5"})),
-              HasSubstr("--log-tree: expected --log-format jsonl with it"));
+              HasSubstr("--log-tree: requires --log-format jsonl"));
 }
 
 TEST_F(SolveCommand, WritesAJsonLogWithoutPlanAndOnResume) {
@@ -601,7 +601,7 @@ TEST_F(SolveCommand, IgnoresAPlanTruncatedByACrash) {
   directory_.write("kept/incumbent.plan.json", R"({"status": "opt)");
   const ProcessResult solved = solve(words);
   EXPECT_EQ(solved.exit_code, 0);
-  EXPECT_THAT(solved.err, HasSubstr("kept/incumbent.plan.json: ends in the middle"));
+  EXPECT_THAT(solved.err, HasSubstr("kept/incumbent.plan.json: is incomplete"));
   EXPECT_EQ(plan("first.plan.json")["status"], "optimal");
 }
 
@@ -691,7 +691,7 @@ TEST_F(Incumbents, AreRefusedAsStartIfInvalid) {
   json changed = plan("p.json");
   changed["agents"][1]["path"][0] = {1, 1};
   EXPECT_THAT(complaint_about(changed), HasSubstr("bad.json: /agents/1/path/0: "));
-  EXPECT_THAT(complaint_about(changed), HasSubstr("not a plan of this instance"));
+  EXPECT_THAT(complaint_about(changed), HasSubstr("not a valid plan of this instance"));
   changed = plan("p.json");
   changed["cost"] = plan("p.json")["cost"].get<int>() - 1;
   EXPECT_THAT(complaint_about(changed), HasSubstr("bad.json: /cost: "));
@@ -705,7 +705,7 @@ TEST_F(Incumbents, AreRefusedAsStartIfInvalid) {
   changed.erase("agents");
   changed.erase("cost");
   changed["status"] = "unknown";
-  EXPECT_THAT(complaint_about(changed), HasSubstr("no plan (status unknown)"));
+  EXPECT_THAT(complaint_about(changed), HasSubstr("found no plan (status unknown)"));
   EXPECT_THAT(complaint(solve({"doors.json", "--start", "nowhere.json"})),
               HasSubstr("nowhere.json"));
   EXPECT_FALSE(exists("doors.plan.json"));

@@ -196,7 +196,7 @@ TEST_F(ViewCommand, WarnsOfOmittedPlans) {
   EXPECT_EQ(done.exit_code, 0);
   EXPECT_THAT(
       done.err,
-      HasSubstr("warning: a page shows 2 plans; first.plan.json and those after it are left out"));
+      HasSubstr("warning: a page shows 2 plans; first.plan.json and later ones are left out"));
 }
 
 TEST_F(ViewCommand, RefusesMalformedLogs) {
@@ -236,7 +236,8 @@ TEST_F(ViewCommand, RefusesMalformedExecutionLogs) {
     return complaint({"view", instance, plan, "--drive", log});
   };
   for (const char* text : {"", "red\n", "{\"format\": \"grove drive 2\"}\n", "{\"format\": 1}\n"})
-    EXPECT_THAT(of(text), HasSubstr("drive.jsonl: line 1: expected the log of a drive")) << text;
+    EXPECT_THAT(of(text), HasSubstr("drive.jsonl: line 1: expected the log of an execution"))
+        << text;
   EXPECT_THAT(of("{\"format\": \"grove drive 1\", \"order\": \"o\", \"robots\": [], "
                  "\"seconds_per_step\": 1}\n{\"t\": 1}\n"),
               HasSubstr("drive.jsonl: line 2: /: key 'robot' is missing"));
@@ -244,7 +245,7 @@ TEST_F(ViewCommand, RefusesMalformedExecutionLogs) {
               HasSubstr("drive.jsonl"));
   EXPECT_THAT(read("drive.jsonl"), HasSubstr("grove drive 1"));
   EXPECT_THAT(complaint({"view", instance, "--drive", log}),
-              HasSubstr("--drive requires PLAN, the one that is driven"));
+              HasSubstr("--drive requires PLAN, the plan that is executed"));
   EXPECT_THAT(complaint({"view", instance, plan, plan, "--drive", log}), HasSubstr("PLAN"));
   EXPECT_THAT(complaint({"view", instance, plan, "--drive", log, "--svg", "x"}),
               HasSubstr("--svg"));
@@ -296,7 +297,7 @@ TEST_F(ViewCommand, RefusesCertificatesOfOtherInstances) {
               HasSubstr("c.proof: is the certificate; expected another file to write to"));
   EXPECT_EQ(read("c.proof"), certificate);
   EXPECT_THAT(complaint_of({"view", instance, plan, plan, "--proof", proof}),
-              HasSubstr("--proof: expected one PLAN at most with it"));
+              HasSubstr("--proof: found several plans; expected at most one PLAN"));
   EXPECT_THAT(complaint_of({"view", instance, "--proof", proof, "--svg", "x.svg"}),
               HasSubstr("--proof excludes --svg"));
   EXPECT_THAT(complaint_of({"view", "--run", "x", "--proof", proof}),
@@ -308,7 +309,7 @@ TEST_F(ViewCommand, RefusesCertificatesOfOtherInstances) {
               HasSubstr("bad.plan.json"));
   // A plan in which one robot follows another.
   EXPECT_THAT(complaint_of({"view", instance, plan, "--proof", proof}),
-              HasSubstr("expected a plan valid without following, as the certificate has it"));
+              HasSubstr("expected a plan valid without following, as the certificate requires"));
 }
 
 TEST_F(ViewCommand, RefusesInvalidArguments) {

@@ -15,20 +15,20 @@
 namespace grove::detail {
 namespace {
 
-// The page's measures (page/world.ts, robots.ts, scenery.ts, tasks_canvas.ts), in steps.
+// Measures of the page (page/world.ts, robots.ts, scenery.ts, tasks_canvas.ts), in steps.
 constexpr double kBend = 0.35;    // between roads that join the same vertices
 constexpr double kMargin = 1.5;   // of a roadmap
 constexpr double kRadius = 0.34;  // of a robot
 constexpr double kGoalRadius = 0.4;
 constexpr double kTaskRadius = 0.42;
 
-constexpr double kLeastLabeled = 16.0;  // pixels of a step from which on robots have their ids
-constexpr std::size_t kMostTags = 40;   // robots that have them beside, if steps are smaller
+constexpr double kLeastLabeled = 16.0;  // minimum size of a step for ids on robots, pixels
+constexpr std::size_t kMostTags = 40;   // maximum number of ids beside robots, if steps are smaller
 constexpr double kTagSize = 9.0;        // pixels
-constexpr double kRoomOfName = 5000.0;  // square pixels of a vertex that has its name
-constexpr int kMostStacked = 3;         // diamonds seen of several tasks on one place
+constexpr double kRoomOfName = 5000.0;  // area per vertex for names of vertices, square pixels
+constexpr int kMostStacked = 3;         // maximum number of diamonds for tasks on one place
 
-// The time from which on it stays: after its last step and its last work.
+// The time from which the agent rests: after its last step and its last task execution.
 Time rest_of(const AgentPlan& plan) {
   Time rest = 0;
   for (std::size_t t = 1; t < plan.path.size(); ++t)
@@ -57,7 +57,7 @@ Drawing::Drawing(const Instance& instance, const Plan* plan)
   }
 }
 
-// As far as its places reach: roads may lie outside of all vertices.
+// Includes all places, because roads may be outside of all vertices.
 void Drawing::measure_roadmap(const Roadmap& roadmap) {
   double length = 0;
   double steps = 0;
@@ -113,8 +113,8 @@ Point Drawing::point(Place place) const {
   return {at.x + 0.5, at.y + 0.5};
 }
 
-// Roads that join the same vertices lie beside each other, and a road from a vertex to itself is a
-// circle, as on the page (page/world.ts).
+// Roads that join the same vertices are drawn beside each other, and a road from a vertex to itself
+// as a circle, as on the page (page/world.ts).
 Point Drawing::beside(Point at, const Roadmap::Spot& spot) const {
   const Roadmap& roadmap = *instance_.roadmap();
   const Road& road = roadmap.roads()[static_cast<std::size_t>(spot.road)];
@@ -184,8 +184,8 @@ std::vector<Drawing::Robot> Drawing::robots(double time) const {
   return all;
 }
 
-// On one place at this step, or, between two steps, exchanging places or coming to one. At a whole
-// step, who has exchanged places in the step before it.
+// Marks robots that are on one place at this step or, between two steps, exchange places or move to
+// one place. At a whole step, marks robots that exchanged places in the step before.
 void Drawing::mark_collisions(std::vector<Robot>& robots, double time) const {
   const auto step = static_cast<Time>(std::floor(time));
   const double part = time - step;
@@ -238,7 +238,7 @@ void Drawing::draw(cairo_t* cairo, double width, double time) const {
   cairo_restore(cairo);
 }
 
-// How long it is, in the world's units.
+// Returns the length of a pixel in units of the world.
 double Drawing::pixel(cairo_t* cairo) const {
   double length = 1;
   double none = 0;
@@ -259,7 +259,7 @@ void Drawing::draw_grid(cairo_t* cairo) const {
     cairo_line_to(cairo, grid.width(), y);
   }
   cairo_stroke(cairo);
-  // Runs of blocked cells: fewer shapes.
+  // Merges runs of blocked cells into fewer shapes.
   set(cairo, kWall);
   for (int y = 0; y < grid.height(); ++y)
     for (int x = 0; x < grid.width();) {
@@ -297,7 +297,7 @@ void Drawing::draw_roads(cairo_t* cairo) const {
   }
 }
 
-// In the middle of a road, in its direction.
+// Draws an arrow in the middle of a road, in its direction.
 void Drawing::draw_arrow(cairo_t* cairo, int road) const {
   const Roadmap& roadmap = *instance_.roadmap();
   const Time middle = (roadmap.roads()[static_cast<std::size_t>(road)].steps - 1) / 2;
@@ -326,8 +326,8 @@ void Drawing::draw_goals(cairo_t* cairo) const {
   cairo_stroke(cairo);
 }
 
-// Tasks on one place are a stack of diamonds, with their number: pale, yellow once begun, grey all
-// over when done.
+// Tasks on one place are a stack of diamonds with their number: pale, yellow after the start, and
+// completely grey when done.
 void Drawing::draw_tasks(cairo_t* cairo, double time) const {
   struct Progress {
     int tasks = 0;
@@ -356,7 +356,7 @@ void Drawing::draw_tasks(cairo_t* cairo, double time) const {
   }
 }
 
-// Below what stands there; of those that would cover each other, the first.
+// Names are below the vertices. Of names that would cover each other, only the first is drawn.
 void Drawing::draw_vertex_names(cairo_t* cairo) const {
   const double size = kTagSize * pixel(cairo);
   const auto& vertices = instance_.roadmap()->vertices();
@@ -402,7 +402,7 @@ void Drawing::draw_robot(cairo_t* cairo, const Robot& robot) const {
   }
 }
 
-// On it, or beside it where it is small.
+// On the robot, or beside it if it is small.
 void Drawing::draw_name(cairo_t* cairo, const Robot& robot, const std::string& id) const {
   const double r = kRadius * unit_;
   if (unit_ >= kLeastLabeled * pixel(cairo)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/bench/judge.h"
+#include "tools/bench/run_outcome.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove::detail::bench {
-namespace judge_test {
+namespace run_outcome_test {
 
 using batch::Outcome;
 
@@ -33,7 +33,7 @@ class Judges : public ::testing::Test {
     return verdict_on_what_is_there(end);
   }
   Outcome verdict_on_what_is_there(const ChildEnd& end = {}) {
-    return judged(end, 60, instance_, directory_ / "plan", directory_ / "said");
+    return outcome_of_run(end, 60, instance_, directory_ / "plan", directory_ / "said");
   }
 
   const Instance instance_ =
@@ -74,11 +74,12 @@ TEST_F(Judges, ReportTheCauseOfAFailure) {
             "did not end; killed after 76 s");
   EXPECT_TRUE(verdict({ChildEnd::Kind::kTooLong, SIGKILL, 76.4}).failed());
   directory_.write("plan", "{");
-  const Outcome outcome = judged({}, 60, instance_, directory_ / "plan", directory_ / "said");
+  const Outcome outcome =
+      outcome_of_run({}, 60, instance_, directory_ / "plan", directory_ / "said");
   EXPECT_TRUE(outcome.failed());
   EXPECT_TRUE(outcome.error.starts_with("the plan file is wrong: ")) << outcome.error;
-  EXPECT_TRUE(judged({}, 60, instance_, directory_ / "none", directory_ / "none").failed());
+  EXPECT_TRUE(outcome_of_run({}, 60, instance_, directory_ / "none", directory_ / "none").failed());
 }
 
-}  // namespace judge_test
+}  // namespace run_outcome_test
 }  // namespace grove::detail::bench

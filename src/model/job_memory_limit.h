@@ -16,9 +16,9 @@ using Environment = std::function<const char*(const char* name)>;
 // and of its Slurm job (SLURM_MEM_PER_NODE, or SLURM_MEM_PER_CPU times SLURM_CPUS_ON_NODE). Slurm
 // and containers kill a process that needs more. Returns nullopt without a limit. Reads
 // /proc/self/cgroup and below /sys/fs/cgroup, both under `root`.
-std::optional<std::uint64_t> memory_granted(const std::filesystem::path& root,
-                                            const Environment& environment);
+std::optional<std::uint64_t> job_memory_limit(const std::filesystem::path& root,
+                                              const Environment& environment);
 // Those of this process.
-std::optional<std::uint64_t> memory_granted();
+std::optional<std::uint64_t> job_memory_limit();
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/bench/rehearsal.h"
+#include "tools/bench/method_support.h"
 
 #include <fmt/format.h>
 #include <stdlib.h>
@@ -11,21 +11,21 @@
 
 #include "io/input_error.h"
 #include "tools/bench/child_process.h"
-#include "tools/bench/judge.h"
+#include "tools/bench/run_outcome.h"
 
 namespace grove::detail::bench {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kPatience_s = 60;  // to read an instance
+constexpr double kDryRunLimit_s = 60;  // time limit of a dry run; it only reads the instance
 
 class Scratch {
  public:
   Scratch() {
     std::string name = (fs::temp_directory_path() / "grove-bench-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr)
-      throw InputError(name, "", "cannot be made: " + std::generic_category().message(errno));
+      throw InputError(name, "", "cannot be created: " + std::generic_category().message(errno));
     folder_ = name;
   }
   ~Scratch() {
@@ -42,8 +42,8 @@ class Scratch {
 
 }  // namespace
 
-void rehearse(const std::vector<BenchInstance>& instances, const std::vector<Method>& methods,
-              const BenchOptions& options) {
+void check_method_support(const std::vector<BenchInstance>& instances,
+                          const std::vector<Method>& methods, const BenchOptions& options) {
   std::map<std::string, const BenchInstance*> first;  // of each kind
   for (const BenchInstance& instance : instances)
     if (instance.error.empty()) first.emplace(instance.kind, &instance);
@@ -53,21 +53,22 @@ void rehearse(const std::vector<BenchInstance>& instances, const std::vector<Met
     const BenchInstance* refused = nullptr;
     std::string why;
     for (const auto& [kind, instance] : first) {
-      const ChildEnd end =
-          run_child(solve_command(options.program, instance->entry, method, 0, scratch / "plan"),
-                    scratch / "said", {.seconds = kPatience_s, .cancelled = options.stopped});
+      const ChildEnd end = run_child(
+          solve_command(options.program, instance->entry, method, 0, scratch / "plan"),
+          scratch / "output_file", {.seconds = kDryRunLimit_s, .cancelled = options.stopped});
       if (!is_refusal(end)) {
         refused = nullptr;
         break;
       }
       if (refused == nullptr) {
         refused = instance;
-        why = refusal(scratch / "said", instance->entry.path);
+        why = refusal(scratch / "output_file", instance->entry.path);
       }
     }
     if (refused != nullptr)
       throw InputError(refused->entry.path, "",
-                       fmt::format("is not for the run '{}': {}", method.settings.method, why));
+                       fmt::format("the method of run '{}' does not accept it: {}",
+                                   method.settings.method, why));
   }
 }
 

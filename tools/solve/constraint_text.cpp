@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/solve/demand_text.h"
+#include "tools/solve/constraint_text.h"
 
 #include <fmt/format.h>
 
@@ -35,10 +35,10 @@ std::string text_of(const Conflict& conflict, const Instance& instance) {
                      name_of(instance, conflict.from), place, conflict.time);
 }
 
-std::string text_of(const AgentConstraint& demand, const Instance& instance) {
-  if (demand.agent < 0) return "";
-  const Constraint& c = demand.constraint;
-  const std::string& agent = instance.agent(demand.agent).id;
+std::string text_of(const AgentConstraint& constraint, const Instance& instance) {
+  if (constraint.agent < 0) return "";
+  const Constraint& c = constraint.constraint;
+  const std::string& agent = instance.agent(constraint.agent).id;
   const std::string place = name_of(instance, c.cell);
   switch (c.kind) {
     case ConstraintKind::kVertexOrEdge:
@@ -48,7 +48,7 @@ std::string text_of(const AgentConstraint& demand, const Instance& instance) {
     case ConstraintKind::kNoRestBy:
       return fmt::format("{} not at rest on {} by {}", agent, place, c.end);
     case ConstraintKind::kRestBy:
-      return fmt::format("{} at rest on {} by {}, nobody else there from then on", agent, place,
+      return fmt::format("{} at rest on {} by {}, no other agent there from then on", agent, place,
                          c.end);
     case ConstraintKind::kNoTraversal:
       return fmt::format("{} not through the passage by {} to {}, arriving {}", agent,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "model/memory_granted.h"
+#include "model/job_memory_limit.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -74,11 +74,12 @@ std::uint64_t limit_of_slurm(const Environment& environment) {
 
 }  // namespace
 
-std::optional<std::uint64_t> memory_granted() {
-  return memory_granted("/", [](const char* name) -> const char* { return std::getenv(name); });
+std::optional<std::uint64_t> job_memory_limit() {
+  return job_memory_limit("/", [](const char* name) -> const char* { return std::getenv(name); });
 }
 
-std::optional<std::uint64_t> memory_granted(const fs::path& root, const Environment& environment) {
+std::optional<std::uint64_t> job_memory_limit(const fs::path& root,
+                                              const Environment& environment) {
   const fs::path groups = root / "sys/fs/cgroup";
   std::uint64_t least = limit_of_slurm(environment);
   std::ifstream file(root / "proc/self/cgroup");

@@ -22,7 +22,7 @@ ANYTIME = {"name": "fake-anytime", "anytime": True,
 WIDTH = 8
 
 
-class Foreign(Program):
+class ExternalSolverTests(Program):
     def setUp(self):
         super().setUp()
         for adapter in (ADAPTER, ANYTIME):
@@ -69,7 +69,7 @@ class Foreign(Program):
         return {row[0]: dict(zip(header, row)) for row in cells}
 
 
-class Solvers(Foreign):
+class Solvers(ExternalSolverTests):
     def test_an_honest_one(self):
         row = self.row_of("honest", "--keep-plans")
         self.assertEqual((row["status"], row["solved"], row["cost"], row["error"]), ("feasible", True, 14, None))
@@ -95,7 +95,7 @@ class Solvers(Foreign):
         self.assertEqual(row["claimed_cost"], 14)
         self.assertEqual(self.summary()["collides"]["invalid"], "1")
         self.assertEqual(self.summary()["grove"]["invalid"], "0")
-        self.assertIn("invalid: the plan is invalid", self.said)
+        self.assertIn("invalid: invalid plans", self.said)
         self.assertIn("Agent 0:", (self.folder / "out" / row["plan_file"]).read_text())
 
     def test_one_that_claims_without_a_plan(self):
@@ -156,7 +156,7 @@ class Solvers(Foreign):
         running.send_signal(signal.SIGINT)
         _, err = running.communicate(timeout=HANG_S)
         self.assertEqual((running.returncode, err),
-                         (130, "grove: stopped with 1 run left; the same command goes on\n"))
+                         (130, "grove: stopped with 1 run left; repeat the command to resume\n"))
         self.assertEqual(self.lines(), [])
         wait_until("it is gone", lambda: not self.lives(child))
 
@@ -189,7 +189,7 @@ class Solvers(Foreign):
         (self.folder / "fake-late.json").write_text(json.dumps(adapter))
         row = self.row_of("late", limit=1, adapter="fake-late.json")
         self.assertEqual((row["solved"], row["cost"]), (False, 14), row)
-        self.assertRegex(row["error"], r"after the time limit it went on; when it had a plan only it says")
+        self.assertRegex(row["error"], r"after the time limit; only its own claim says when it had a plan")
 
     def test_groves_own_trace_ends_with_its_plan(self):
         self.row_of("honest")
@@ -198,7 +198,7 @@ class Solvers(Foreign):
         self.assertGreaterEqual(row["first_plan_s"], 0)
 
 
-class Commands(Foreign):
+class Commands(ExternalSolverTests):
     def test_a_command_with_places(self):
         """Grove as a program of someone else: it is given instances, and its proofs are claims."""
         self.add_scenario("open-random-1", 3)
@@ -271,7 +271,7 @@ class Commands(Foreign):
                                   "--output-dir", "out", "--quiet")
         row = self.rows()["easy_s1_n3_m4", "honest"]
         self.assertEqual(row["status"], "unsupported")
-        self.assertIn("task 't0' cannot be said in a .scen file", row["error"])
+        self.assertIn("task 't0' cannot be represented in a .scen file", row["error"])
         self.assertEqual(self.summary()["honest"]["unsupported"], "1")
         self.assertEqual(self.summary()["honest"]["solved/run"], "0/0")
 
@@ -285,10 +285,10 @@ class Commands(Foreign):
                                ("x=/bin/true", "no adapter is called 'x'", "eecbs, ita-cbs2, lacam3"),
                                ("eecbs=/nowhere/eecbs", "there is no program /nowhere/eecbs"),
                                ("eecbs=nowhere", "there is no program nowhere in the folders of PATH"),
-                               ("eecbs=./text", "may not be run"),
+                               ("eecbs=./text", "is not executable"),
                                (f"x={fake} {{maps}}", "found {maps}; expected one of {program}"),
                                (f"x={fake} {{map}} {{output}}", "expected {map} and {scenario}"),
-                               (f"x={fake} {{map}} {{scenario}}", "writes no plan to {output}"),
+                               (f"x={fake} {{map}} {{scenario}}", "has no {output} for a plan"),
                                (f"x={fake} {{instance}} {{map}} {{output}}", "and not both"),
                                (f"x=broken.json:{fake}", "broken.json: /", "command"),
                                (f"x=missing.json:{fake}", "missing.json")):
@@ -302,7 +302,7 @@ class Commands(Foreign):
         self.assertFalse((self.folder / "out").exists())
 
 
-class Sweeps(Foreign):
+class Sweeps(ExternalSolverTests):
     def test_scenarios_agents_and_seeds(self):
         for name in ("open-random-1", "open-random-2", "open-even-1"):
             self.add_scenario(name, 4)
@@ -351,16 +351,16 @@ class Sweeps(Foreign):
         self.add_scenario("open-random-2", 2)
         running = self.start(*self.sweep(agents="2,3"))
         _, err = running.communicate(timeout=HANG_S)
-        self.assertEqual(err, "grove: warning: 1 scenario has fewer rows than the most of --agents; what there is "
-                              "not is left out\n")
+        self.assertEqual(err, "grove: warning: 1 scenario has fewer rows than the maximum of --agents; "
+                              "instances with more agents than rows are left out\n")
         self.assertEqual(len(self.rows()), 3)
 
     def test_refusals(self):
         self.add_scenario("open-random-1", 3)
-        for agents, text in (("3:1", "the smaller number first"), ("0:3", "from 1 to"), ("2,2", "rising"),
+        for agents, text in (("3:1", "the smaller number first"), ("0:3", "from 1 to"), ("2,2", "increasing"),
                              ("1:2:3:4", "FIRST:LAST:STEP"), ("1:9:0", "from 1 to"), ("x", "'x'"), ("9", "9 rows")):
             self.refuses(self.sweep(agents=agents), text)
-        self.refuses(self.sweep("--scenarios", "closed*"), "holds no scenario 'closed*.scen'")
+        self.refuses(self.sweep("--scenarios", "closed*"), "has no scenario 'closed*.scen'")
         self.refuses(["bench", "maps", "--run", "grove:", "--output-dir", "out"], "--agents", "10:100:10")
         self.easy(1)
         self.refuses(["bench", "instances", "--run", "grove:", "--output-dir", "out", "--scenarios", "x*"],

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Conflicts and demands of constraint trees in words.
+// Conflicts and constraints of constraint trees as text.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace grove::detail {
 
 // "a1 and a4 on [3,4] at 7".
 std::string text_of(const Conflict& conflict, const Instance& instance);
-// "a1 not on [3,4] at 7"; empty where nobody is forbidden anything.
-std::string text_of(const AgentConstraint& demand, const Instance& instance);
+// "a1 not on [3,4] at 7"; "" without an agent.
+std::string text_of(const AgentConstraint& constraint, const Instance& instance);
 
 }  // namespace grove::detail

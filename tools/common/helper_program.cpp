@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/common/companion.h"
+#include "tools/common/helper_program.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -16,18 +16,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where this program itself lies, however it was called.
+// The folder of this program, independent of how it was called.
 fs::path own_folder() {
   return fs::read_symlink("/proc/self/exe").parent_path();
 }
 
-// In a build folder all lie beside each other; where Grove is installed, apart.
-fs::path place_of(const std::string& companion) {
-  const fs::path installed = own_folder().parent_path() / "libexec/grove" / companion;
-  return fs::exists(installed) ? installed : own_folder() / companion;
+// The installed program if there is one, else the one in the folder of this program (build folder).
+fs::path place_of(const std::string& program) {
+  const fs::path installed = own_folder().parent_path() / "libexec/grove" / program;
+  return fs::exists(installed) ? installed : own_folder() / program;
 }
 
-// Only if it fails does it return.
+// Returns only on failure.
 void replace_process(const std::string& program, std::vector<std::string> arguments) {
   std::vector<char*> argv{const_cast<char*>(program.c_str())};
   for (std::string& argument : arguments) argv.push_back(argument.data());
@@ -37,8 +37,8 @@ void replace_process(const std::string& program, std::vector<std::string> argume
 
 }  // namespace
 
-void become_standard_input(std::string_view text) {
-  // A file without a name: nothing is left behind, however this ends.
+void replace_standard_input(std::string_view text) {
+  // A file without a name, so that it disappears with the process.
   std::FILE* file = std::tmpfile();
   const bool is_written = file != nullptr &&
                           std::fwrite(text.data(), 1, text.size(), file) == text.size() &&
@@ -52,23 +52,22 @@ void become_standard_input(std::string_view text) {
 
 std::string program_beside(const std::string& name) {
   const fs::path program = own_folder() / name;
-  if (!fs::exists(program)) throw InputError(program.string(), "", "there is no such program");
+  if (!fs::exists(program))
+    throw InputError(program.string(), "", "there is no such program; expected it beside grove");
   return program.string();
 }
 
-void become(const std::string& companion, const std::vector<std::string>& arguments,
-            const std::string& package) {
-  const std::string program = place_of(companion).string();
+void exec_program(const std::string& name, const std::vector<std::string>& arguments,
+                  const std::string& package) {
+  const std::string program = place_of(name).string();
   if (!fs::exists(program))
-    throw InputError(
-        program, "",
-        fmt::format("there is no such file; expected it beside grove (build the target "
-                    "grove), or in ../libexec/grove where the Debian package {} is "
-                    "installed",
-                    package));
+    throw InputError(program, "",
+                     fmt::format("there is no such program; expected it beside grove (build target "
+                                 "grove), or in ../libexec/grove (Debian package {})",
+                                 package));
   replace_process(program, arguments);
   const int error = errno;
-  // It is there, so what is not is its interpreter.
+  // The program exists, so the missing file is its interpreter.
   if (error == ENOENT)
     throw InputError(program, "",
                      "there is no /usr/bin/python3; expected the Debian package python3");

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Commands that are Python programs beside this one. Options and help are theirs, so that there is
-// one text of them.
+// Commands that are Python programs beside this one. They parse their own options and print their
+// own help.
 #include "tools/common/commands.h"
-#include "tools/common/companion.h"
+#include "tools/common/helper_program.h"
 
 namespace grove::detail {
 namespace {
 
-// grove NAME hands over to grove-NAME.
+// grove NAME executes grove-NAME.
 void add(CLI::App& app, const std::string& name, const std::string& description) {
   CLI::App* command = app.add_subcommand(name, description);
   command->set_help_flag();
   command->prefix_command();
-  command->callback([command, name] { become("grove-" + name, command->remaining()); });
+  command->callback([command, name] { exec_program("grove-" + name, command->remaining()); });
 }
 
 }  // namespace
 
-void add_companion_commands(CLI::App& app) {
-  add(app, "report", "Tables and figures from results, as a page");
+void add_helper_commands(CLI::App& app) {
+  add(app, "report", "Make a page with tables and figures from benchmark results");
   add(app, "vda5050", "Drive vehicles along a passing order by VDA 5050, over MQTT");
   add(app, "toio", "Drive toio cubes, real or simulated, along a passing order");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/bench/judge.h"
+#include "tools/bench/run_outcome.h"
 
 #include <fmt/format.h>
 
@@ -20,11 +20,11 @@ namespace {
 
 constexpr std::string_view kErrorMark = "grove: error: ";
 
-std::string why_failed(const ChildEnd& end, const std::filesystem::path& said) {
+std::string why_failed(const ChildEnd& end, const std::filesystem::path& output_file) {
   switch (end.kind) {
     case ChildEnd::Kind::kExited:
       if (end.code == 0) return "";
-      return fmt::format("ended with exit code {}{}", end.code, last_words(said));
+      return fmt::format("ended with exit code {}{}", end.code, last_output_line(output_file));
     case ChildEnd::Kind::kSignalled:
       return fmt::format("ended by signal {} ({})", end.code, ::strsignal(end.code));
     case ChildEnd::Kind::kTooLong:
@@ -37,9 +37,9 @@ std::string why_failed(const ChildEnd& end, const std::filesystem::path& said) {
 
 }  // namespace
 
-std::string last_words(const std::filesystem::path& said) {
+std::string last_output_line(const std::filesystem::path& output_file) {
   try {
-    const std::string text = read_text(said);
+    const std::string text = read_text(output_file);
     const auto lines = split_lines(text);
     if (lines.empty()) return "";
     std::string_view last = lines.back();
@@ -54,18 +54,19 @@ bool is_refusal(const ChildEnd& end) {
   return end.kind == ChildEnd::Kind::kExited && end.code == kExitBadInput;
 }
 
-std::string refusal(const std::filesystem::path& said, const std::string& instance) {
-  std::string words = last_words(said);
+std::string refusal(const std::filesystem::path& output_file, const std::string& instance) {
+  std::string words = last_output_line(output_file);
   for (const std::string& told : {std::string(), instance})
     if (words.starts_with(told + ": ")) words.erase(0, told.size() + 2);
   return words;
 }
 
-bool is_verified(batch::Outcome& outcome, const ChildEnd& end, const std::filesystem::path& said) {
+bool is_verified(batch::Outcome& outcome, const ChildEnd& end,
+                 const std::filesystem::path& output_file) {
   constexpr std::string_view kCost = "verified: no plan costs less than ";
   std::string why = end.kind == ChildEnd::Kind::kTooLong ? "takes too long" : "is not verified";
   if (end.kind == ChildEnd::Kind::kExited && end.code == 0) {
-    const std::string text = read_text(said);
+    const std::string text = read_text(output_file);
     if (text.starts_with("verified: there is no plan")) return true;
     if (text.starts_with(kCost)) {
       const Cost cost = std::atoll(text.c_str() + kCost.size());
@@ -74,7 +75,7 @@ bool is_verified(batch::Outcome& outcome, const ChildEnd& end, const std::filesy
       why = fmt::format("proves no more than {}", cost);
     }
   } else {
-    why += last_words(said);
+    why += last_output_line(output_file);
   }
   if (outcome.error.empty()) outcome.error = "the certificate " + why;
   return false;
@@ -96,10 +97,11 @@ std::vector<batch::TracePoint> trace_of_log(const std::filesystem::path& log) {
   return trace;
 }
 
-batch::Outcome judged(const ChildEnd& end, double time_limit_s, const Instance& instance,
-                      const std::filesystem::path& plan_file, const std::filesystem::path& said) {
+batch::Outcome outcome_of_run(const ChildEnd& end, double time_limit_s, const Instance& instance,
+                              const std::filesystem::path& plan_file,
+                              const std::filesystem::path& output_file) {
   batch::Outcome outcome;
-  outcome.error = why_failed(end, said);
+  outcome.error = why_failed(end, output_file);
   if (!outcome.error.empty()) return outcome;
   try {
     outcome = batch::outcome_of(instance, read_solution(plan_file, instance));
