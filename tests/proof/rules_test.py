@@ -100,7 +100,7 @@ class Rules(unittest.TestCase):
     def test_who_rests_bars_others(self):
         lemma = ["lemma inf 1", "demand 1 bar 2 2 inf", "leaf"]
         self.verified(PASSER, *lemma, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf", "leaf 0")
-        self.refused(6, "demand 0 of lemma 0 is not in force", PASSER, *lemma, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf 0")
+        self.refused(6, "constraint 0 of lemma 0 is not in force", PASSER, *lemma, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf 0")
         # Not in the demands of a lemma that say so, and not later than that side.
         self.refused(3, "costs 5", PASSER, "lemma 7 0 1", "demand 0 rest 2 2", "leaf")
         self.refused(4, "costs 7", PASSER, "theorem 8", "split 0 rest 2 2 | 0 norest 2 2", "leaf", "leaf")
@@ -216,8 +216,8 @@ class Rules(unittest.TestCase):
         self.refused(4, "prices prove 3", SWAP, "theorem 4", "prices", "edge 0 1 1 1024", "end")
         self.refused(3, "do not ascend", SWAP, "theorem 3", "prices", "edge 1 0 1 1024", "end")
         self.refused(2, "prices are of all agents", CROSS, "lemma 2 0", *place)
-        self.refused(3, "without demands", CROSS, "lemma 4 0 1", "demand 0 bar 4 1 1", *place)
-        self.refused(3, "without demands", CROSS, "theorem 5", CROSSED[0], *place, "leaf")
+        self.refused(3, "without constraints", CROSS, "lemma 4 0 1", "demand 0 bar 4 1 1", *place)
+        self.refused(3, "without constraints", CROSS, "theorem 5", CROSSED[0], *place, "leaf")
 
     def test_who_stays_on_the_lesser_place_uses_an_edge(self):
         # To 1 and back, and somebody far away, for seven steps.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! One agent as searches see it: its poses, its stops, and what remains at least, were there no demands but on the order of stops.
+//! One agent as searches see it: its poses, its stops, and what remains at least, were there no constraints but on the order of stops.
 use crate::instance::{Agent, Instance, Place, World};
 use crate::orders::{After, Bound, Orders};
 use crate::words::Map;

@@ -5,7 +5,7 @@ use crate::instance::Instance;
 use crate::joint::{Joint, Layers};
 use crate::prices::{Prices, UNIT};
 use crate::reader::Lines;
-use crate::rules::{Chains, Demand, Kind, Rules};
+use crate::rules::{Chains, Constraint, Kind, Rules};
 use crate::search::{surely_meets, Path, Search};
 use crate::walk::Walk;
 use crate::words::{hold, unreadable, Fault, Words};
@@ -18,12 +18,12 @@ const INFINITE: u64 = u64::MAX;
 struct Lemma {
     agents: Vec<u32>,
     bound: u64,
-    demands: Vec<Demand>,
+    constraints: Vec<Constraint>,
 }
 
-/// The cost of an agent under the first so many of its demands, and a path that has it.
+/// The cost of an agent under the first so many of its constraints, and a path that has it.
 struct Known {
-    demands: usize,
+    constraints: usize,
     cost: u32,
     path: Path,
 }
@@ -38,10 +38,10 @@ pub struct Verifier {
     lines: Lines,
     following: bool,
     lemmas: Vec<Lemma>,
-    /// Whose demands were added, in order; those of each agent; how often each is there.
+    /// Whose constraints were added, in order; those of each agent; how often each is there.
     trail: Vec<u32>,
-    demands: Vec<Vec<Demand>>,
-    present: HashMap<Demand, u32>,
+    constraints: Vec<Vec<Constraint>>,
+    present: HashMap<Constraint, u32>,
     known: Vec<Vec<Known>>,
     nodes: u64,
 }
@@ -51,10 +51,10 @@ fn text(bound: u64) -> String { if bound == INFINITE { "inf".to_string() } else 
 impl Verifier {
     pub fn new(instance: Instance, lines: Lines) -> Verifier {
         let (agents, chains, rules) = (instance.agents.len(), Chains::of(&instance.world), Rules::new(instance.world.links.len()));
-        let (demands, known, bodies) = ((0..agents).map(|_| vec![]), (0..agents).map(|_| vec![]), (0..agents).map(|_| None));
-        let (demands, known, bodies) = (demands.collect(), known.collect(), bodies.collect());
+        let (constraints, known, bodies) = ((0..agents).map(|_| vec![]), (0..agents).map(|_| vec![]), (0..agents).map(|_| None));
+        let (constraints, known, bodies) = (constraints.collect(), known.collect(), bodies.collect());
         let (poses, search, lemmas, trail, present) = Default::default();
-        Verifier { instance, chains, poses, bodies, rules, search, lines, following: true, lemmas, trail, demands, present, known, nodes: 0 }
+        Verifier { instance, chains, poses, bodies, rules, search, lines, following: true, lemmas, trail, constraints, present, known, nodes: 0 }
     }
 
     pub fn statistics(&self) -> String {
@@ -93,7 +93,7 @@ impl Verifier {
                     let (bound, all) = (words.or_inf()?.map_or(INFINITE, u64::from), (0..self.bodies.len() as u32).collect());
                     words.end()?;
                     let first = self.line()?;
-                    self.proof(first, &Lemma { agents: all, bound, demands: Vec::new() })?;
+                    self.proof(first, &Lemma { agents: all, bound, constraints: Vec::new() })?;
                     let ended = self.line()? == "end" && self.lines.next().map_err(unreadable)?.is_none();
                     return if ended { Ok(Some(bound).filter(|&bound| bound < INFINITE)) } else { Err(unreadable("expected 'end', the last line")) };
                 }
@@ -104,7 +104,7 @@ impl Verifier {
 
     fn lemma(&mut self, mut words: Words) -> Result<Lemma, Fault> {
         let bound = words.or_inf()?.map_or(INFINITE, u64::from);
-        let mut lemma = Lemma { bound, agents: Vec::new(), demands: Vec::new() };
+        let mut lemma = Lemma { bound, agents: Vec::new(), constraints: Vec::new() };
         while lemma.agents.is_empty() || words.more() {
             let agent = words.index(self.bodies.len(), "agent")?;
             hold(lemma.agents.last().map_or(true, |&last| last < agent), "agents that do not ascend")?;
@@ -113,7 +113,7 @@ impl Verifier {
         loop {
             let line = self.line()?;
             match line.strip_prefix("demand ") {
-                Some(text) => lemma.demands.push(self.demand(text, &lemma)?),
+                Some(text) => lemma.constraints.push(self.constraint(text, &lemma)?),
                 None => return self.proof(line, &lemma).map(|_| lemma),
             }
         }
@@ -128,62 +128,62 @@ impl Verifier {
         })
     }
 
-    fn demand(&mut self, text: &str, of: &Lemma) -> Result<Demand, Fault> {
+    fn constraint(&mut self, text: &str, of: &Lemma) -> Result<Constraint, Fault> {
         let mut words = Words::of(text);
         let agent = words.number()?;
         hold(of.agents.binary_search(&agent).is_ok(), format!("agent {} is not among those of whom this is", agent))?;
         let names = ["bar", "move", "norest", "rest", "pass", "stop", "nostop"];
         let kinds = [Kind::Bar, Kind::Move, Kind::NoRest, Kind::Rest, Kind::Pass, Kind::Stop, Kind::NoStop];
         let name = words.word()?;
-        let kind = kinds[names.iter().position(|&known| known == name).ok_or_else(|| unreadable("expected a demand"))?];
-        let mut demand = Demand { agent, kind, p: words.number()?, q: 0, s: 0, e: 0 };
-        if matches!(kind, Kind::Move | Kind::Pass | Kind::Stop | Kind::NoStop) { demand.q = words.number()?; }
+        let kind = kinds[names.iter().position(|&known| known == name).ok_or_else(|| unreadable("expected a constraint"))?];
+        let mut constraint = Constraint { agent, kind, p: words.number()?, q: 0, s: 0, e: 0 };
+        if matches!(kind, Kind::Move | Kind::Pass | Kind::Stop | Kind::NoStop) { constraint.q = words.number()?; }
         if matches!(kind, Kind::Stop | Kind::NoStop) {
             let stops = &self.body(agent).stops;
-            let known = (demand.p as usize) < stops.len() && stops.iter().any(|stop| stop.task == demand.q);
+            let known = (constraint.p as usize) < stops.len() && stops.iter().any(|stop| stop.task == constraint.q);
             hold(known, "no such number, or no such stop of this agent")?;
         } else {
             let places = self.instance.world.links.len() as u32;
-            hold(demand.p < places && demand.q < places, format!("there is no place {}", demand.p.max(demand.q)))?;
-            let moves = kind == Kind::Move && demand.p != demand.q || kind == Kind::Pass && self.chains.exit(demand.p, demand.q).is_some();
+            hold(constraint.p < places && constraint.q < places, format!("there is no place {}", constraint.p.max(constraint.q)))?;
+            let moves = kind == Kind::Move && constraint.p != constraint.q || kind == Kind::Pass && self.chains.exit(constraint.p, constraint.q).is_some();
             hold(moves || !matches!(kind, Kind::Move | Kind::Pass), "expected two places, for 'pass' the last of a chain and the end next to it")?;
-            demand.s = words.number()?;
+            constraint.s = words.number()?;
             let ends = !matches!(kind, Kind::Rest | Kind::NoRest);
-            demand.e = if ends { words.or_inf()?.unwrap_or(NEVER) } else { demand.s };
+            constraint.e = if ends { words.or_inf()?.unwrap_or(NEVER) } else { constraint.s };
         }
-        words.end().map(|_| demand)
+        words.end().map(|_| constraint)
     }
 
-    fn push(&mut self, demand: Demand) {
-        self.demands[demand.agent as usize].push(demand);
-        self.trail.push(demand.agent);
-        *self.present.entry(demand).or_insert(0) += 1;
+    fn push(&mut self, constraint: Constraint) {
+        self.constraints[constraint.agent as usize].push(constraint);
+        self.trail.push(constraint.agent);
+        *self.present.entry(constraint).or_insert(0) += 1;
     }
 
-    /// Adds what one side of a split demands: who rests on a place for ever has it for itself.
-    fn assume(&mut self, demand: Demand, agents: &[u32]) {
-        self.push(demand);
-        for &agent in agents.iter().filter(|&&agent| demand.kind == Kind::Rest && agent != demand.agent) {
-            self.push(Demand { agent, kind: Kind::Bar, e: NEVER, ..demand });
+    /// Adds the constraint of one branch of a split. An agent that rests on a place for ever bars it for all other agents.
+    fn assume(&mut self, constraint: Constraint, agents: &[u32]) {
+        self.push(constraint);
+        for &agent in agents.iter().filter(|&&agent| constraint.kind == Kind::Rest && agent != constraint.agent) {
+            self.push(Constraint { agent, kind: Kind::Bar, e: NEVER, ..constraint });
         }
     }
 
     fn undo(&mut self, trail: usize) {
         for agent in self.trail.drain(trail..).rev().map(|agent| agent as usize) {
-            let demand = self.demands[agent].pop().expect("a demand");
-            let count = self.present.get_mut(&demand).expect("a demand");
+            let constraint = self.constraints[agent].pop().expect("a constraint");
+            let count = self.present.get_mut(&constraint).expect("a constraint");
             *count -= 1;
-            if *count == 0 { self.present.remove(&demand); }
-            let left = self.demands[agent].len();
-            while self.known[agent].last().map_or(false, |known| known.demands > left) { self.known[agent].pop(); }
+            if *count == 0 { self.present.remove(&constraint); }
+            let left = self.constraints[agent].len();
+            while self.known[agent].last().map_or(false, |known| known.constraints > left) { self.known[agent].pop(); }
         }
     }
 
     /// Reads the proof of a statement; its first line is read already.
     fn proof(&mut self, mut line: String, of: &Lemma) -> Result<(), Fault> {
-        of.demands.iter().for_each(|&demand| self.push(demand));
-        // Of each split on the way: where its demands begin, and its second side, if that is still to come.
-        let mut splits: Vec<(usize, Option<Demand>)> = Vec::new();
+        of.constraints.iter().for_each(|&constraint| self.push(constraint));
+        // Of each split on the way: where its constraints begin, and its second side, if that is still to come.
+        let mut splits: Vec<(usize, Option<Constraint>)> = Vec::new();
         loop {
             self.nodes += 1;
             let (rule, rest) = line.split_once(' ').unwrap_or((line.as_str(), ""));
@@ -205,14 +205,14 @@ impl Verifier {
                 self.undo(splits.last().map_or(0, |split| split.0));
                 second
             };
-            match next { Some(demand) => self.assume(demand, &of.agents), None => return Ok(()) }
+            match next { Some(constraint) => self.assume(constraint, &of.agents), None => return Ok(()) }
             line = self.line()?;
         }
     }
 
-    fn split(&mut self, text: &str, of: &Lemma) -> Result<(Demand, Demand), Fault> {
-        let (one, two) = text.split_once(" | ").ok_or_else(|| unreadable("expected two demands"))?;
-        let (one, two) = (self.demand(one, of)?, self.demand(two, of)?);
+    fn split(&mut self, text: &str, of: &Lemma) -> Result<(Constraint, Constraint), Fault> {
+        let (one, two) = text.split_once(" | ").ok_or_else(|| unreadable("expected two constraints"))?;
+        let (one, two) = (self.constraint(one, of)?, self.constraint(two, of)?);
         let same = (one.p, one.q, one.s) == (two.p, two.q, two.s);
         let at_once = one.s == one.e && two.s == two.e;
         let permitted = match (one.kind, two.kind, one.agent == two.agent) {
@@ -227,7 +227,7 @@ impl Verifier {
             }
             _ => false,
         };
-        hold(permitted, "a plan may meet neither of these demands").map(|_| (one, two))
+        hold(permitted, "a plan may meet neither of these constraints").map(|_| (one, two))
     }
 
     /// A lemma that may be used here.
@@ -236,17 +236,17 @@ impl Verifier {
         let lemma = &self.lemmas[number as usize];
         let other = lemma.agents.iter().find(|agent| of.agents.binary_search(agent).is_err());
         hold(other.is_none(), format!("lemma {} is of agent {}, too", number, other.unwrap_or(&0)))?;
-        let missing = lemma.demands.iter().position(|demand| !self.present.contains_key(demand));
-        hold(missing.is_none(), format!("demand {} of lemma {} is not in force", missing.unwrap_or(0), number)).map(|_| lemma)
+        let missing = lemma.constraints.iter().position(|constraint| !self.present.contains_key(constraint));
+        hold(missing.is_none(), format!("constraint {} of lemma {} is not in force", missing.unwrap_or(0), number)).map(|_| lemma)
     }
 
-    fn later(&mut self, text: &str, of: &Lemma) -> Result<(Demand, Demand), Fault> {
+    fn later(&mut self, text: &str, of: &Lemma) -> Result<(Constraint, Constraint), Fault> {
         let mut words = Words::of(text);
         let mut side = |words: &mut Words| {
             let (agent, time) = (words.index(self.bodies.len(), "agent")?, words.number()?);
             let goal = self.body(agent).plain_goal;
             hold(goal.is_some(), format!("agent {} has no plain goal", agent))?;
-            Ok::<_, Fault>(Demand { agent, kind: Kind::NoRest, p: goal.unwrap_or(0), q: 0, s: time, e: time })
+            Ok::<_, Fault>(Constraint { agent, kind: Kind::NoRest, p: goal.unwrap_or(0), q: 0, s: time, e: time })
         };
         let (one, two) = (side(&mut words)?, side(&mut words)?);
         let lemma = self.usable(&mut words, of)?;
@@ -260,20 +260,20 @@ impl Verifier {
     fn cost(&mut self, agent: u32, exact: bool) -> u32 {
         self.body(agent);
         let number = agent as usize;
-        let (demands, known) = (&self.demands[number], &mut self.known[number]);
+        let (constraints, known) = (&self.constraints[number], &mut self.known[number]);
         if let Some(last) = known.last() {
-            let holds = !exact || last.path.is_empty() || demands[last.demands..].iter().all(|demand| surely_meets(&last.path, demand));
+            let holds = !exact || last.path.is_empty() || constraints[last.constraints..].iter().all(|constraint| surely_meets(&last.path, constraint));
             if holds { return last.cost; }
         }
         let body = self.bodies[number].as_mut().expect("made above");
-        let met = self.rules.set(body, &self.chains, demands);
+        let met = self.rules.set(body, &self.chains, constraints);
         let limit = if met { body.limit() } else { NEVER };
         let mut walk = Walk { body, chains: &self.chains, rules: &self.rules };
         let found = if met { self.search.least(&mut walk) } else { None };
         // Beyond the limit of orders it is not known how much, but that it is more.
         let beyond = if limit < NEVER { limit + 1 } else { NEVER };
         let (cost, path) = found.filter(|found| found.0 <= limit).unwrap_or((beyond, Vec::new()));
-        known.push(Known { demands: demands.len(), cost, path });
+        known.push(Known { constraints: constraints.len(), cost, path });
         cost
     }
 
@@ -325,7 +325,7 @@ impl Verifier {
     fn walk(&mut self, agent: u32) -> (bool, Walk<'_>) {
         self.body(agent);
         let body = self.bodies[agent as usize].as_mut().expect("made above");
-        let met = self.rules.set(body, &self.chains, &self.demands[agent as usize]);
+        let met = self.rules.set(body, &self.chains, &self.constraints[agent as usize]);
         (met, Walk { body, chains: &self.chains, rules: &self.rules })
     }
 
@@ -343,7 +343,7 @@ impl Verifier {
 
     fn prices(&mut self, of: &Lemma) -> Result<(), Fault> {
         let (agents, places) = (self.bodies.len(), self.instance.world.links.len());
-        hold(of.agents.len() == agents && self.trail.is_empty(), "prices are of all agents, without demands")?;
+        hold(of.agents.len() == agents && self.trail.is_empty(), "prices are of all agents, without constraints")?;
         let mut prices = Prices::default();
         let price = |words: &mut Words| words.number().map(u64::from);  // so small that no sum overflows
         loop {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! Demands (docs/proof.md, 2), and what those on one agent say of its steps.
+//! Constraints (docs/proof.md, 2), and what those on one agent say of its steps.
 use crate::body::{Body, NEVER};
 use crate::instance::{Place, World};
 
@@ -8,7 +8,7 @@ pub enum Kind { Bar, Move, NoRest, Rest, Pass, Stop, NoStop }
 
 /// `p` and `q` are places, or number and task of a stop; `s` and `e` times.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub struct Demand {
+pub struct Constraint {
     pub agent: u32,
     pub kind: Kind,
     pub p: u32,
@@ -92,12 +92,12 @@ pub struct Rules {
     stamp: u32,
     marks: Vec<Mark>,
     safe: Vec<(u32, u32)>,
-    moves: Vec<Demand>,
+    moves: Vec<Constraint>,
     passes: Vec<(u32, u8, u32, u32)>,
     /// Which stops may have which number, and whether that says anything.
     pub allowed: Vec<u64>,
     pub ordered: bool,
-    /// After all finite times of demands.
+    /// After all finite times of constraints.
     pub settled: u32,
 }
 
@@ -114,8 +114,8 @@ impl Rules {
         Some(&self.marks[place as usize]).filter(|mark| mark.stamp == self.stamp)
     }
 
-    /// False: nobody meets these demands.
-    pub fn set(&mut self, body: &mut Body, chains: &Chains, demands: &[Demand]) -> bool {
+    /// False: nobody meets these constraints.
+    pub fn set(&mut self, body: &mut Body, chains: &Chains, constraints: &[Constraint]) -> bool {
         self.stamp += 1;
         self.moves.clear();
         self.passes.clear();
@@ -125,15 +125,15 @@ impl Rules {
         self.settled = 1;
         let mut bars: Vec<(Place, u32, u32)> = Vec::new();
         let mut rest: Option<(Place, u32)> = None;
-        for demand in demands {
-            let Demand { kind, p, q, s, e, .. } = *demand;
+        for constraint in constraints {
+            let Constraint { kind, p, q, s, e, .. } = *constraint;
             let last = if e == NEVER { s } else { e };
             self.settled = self.settled.max(last + 1);
             match kind {
                 Kind::Bar => bars.push((p, s, e)),
                 Kind::Move => {
                     self.mark(p).leaves = true;
-                    self.moves.push(*demand);
+                    self.moves.push(*constraint);
                 }
                 Kind::NoRest => self.mark(p).rest = self.mark(p).rest.max(s + 1),
                 Kind::Rest if rest.map_or(false, |(place, _)| place != p) => return false,

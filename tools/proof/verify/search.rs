@@ -3,7 +3,7 @@
 //! do what later ones can: wait.
 use crate::body::NEVER;
 use crate::instance::Place;
-use crate::rules::{Demand, Kind};
+use crate::rules::{Constraint, Kind};
 use crate::walk::{Arrival, State, Walk};
 
 /// An arrival, and the number of that before.
@@ -102,9 +102,9 @@ impl Search {
     }
 }
 
-/// Whether a path, known to meet others, surely meets this demand.
-pub fn surely_meets(path: &Path, demand: &Demand) -> bool {
-    let Demand { kind, p, q, s, e, .. } = *demand;
+/// Whether a path, known to meet others, surely meets this constraint.
+pub fn surely_meets(path: &Path, constraint: &Constraint) -> bool {
+    let Constraint { kind, p, q, s, e, .. } = *constraint;
     let (arrival, last) = path[path.len() - 1];
     let within = |time: u32| s <= time && time <= e;
     match kind {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! One agent under demands: what it may be in, and its steps.
+//! One agent under constraints: what it may be in, and its steps.
 use crate::body::{Body, NEVER};
 use crate::instance::Place;
 use crate::rules::{Chains, Rules, Way, EARLY};
