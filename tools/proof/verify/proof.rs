@@ -8,7 +8,7 @@ use crate::reader::Lines;
 use crate::rules::{Chains, Constraint, Kind, Rules};
 use crate::search::{surely_meets, Path, Search};
 use crate::walk::Walk;
-use crate::words::{hold, unreadable, Fault, Words};
+use crate::words::{ensure, unreadable, Fault, Words};
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -77,7 +77,7 @@ impl Verifier {
         let line = self.line()?;
         let sum = line.strip_prefix("instance ").filter(|sum| sum.len() == 16).and_then(|sum| u64::from_str_radix(sum, 16).ok());
         let sum = sum.ok_or_else(|| unreadable("expected 'instance' and 16 digits"))?;
-        hold(sum == self.instance.checksum, "it is of another instance")?;
+        ensure(sum == self.instance.checksum, "it is of another instance")?;
         let line = self.line()?;
         self.following = line == "following yes";
         if !self.following && line != "following no" { return Err(unreadable("expected 'following yes' or 'following no'")); }
@@ -107,7 +107,7 @@ impl Verifier {
         let mut lemma = Lemma { bound, agents: Vec::new(), constraints: Vec::new() };
         while lemma.agents.is_empty() || words.more() {
             let agent = words.index(self.bodies.len(), "agent")?;
-            hold(lemma.agents.last().map_or(true, |&last| last < agent), "agents that do not ascend")?;
+            ensure(lemma.agents.last().map_or(true, |&last| last < agent), "agents that do not ascend")?;
             lemma.agents.push(agent);
         }
         loop {
@@ -131,7 +131,7 @@ impl Verifier {
     fn constraint(&mut self, text: &str, of: &Lemma) -> Result<Constraint, Fault> {
         let mut words = Words::of(text);
         let agent = words.number()?;
-        hold(of.agents.binary_search(&agent).is_ok(), format!("agent {} is not among those of whom this is", agent))?;
+        ensure(of.agents.binary_search(&agent).is_ok(), format!("agent {} is not among those of whom this is", agent))?;
         let names = ["bar", "move", "norest", "rest", "pass", "stop", "nostop"];
         let kinds = [Kind::Bar, Kind::Move, Kind::NoRest, Kind::Rest, Kind::Pass, Kind::Stop, Kind::NoStop];
         let name = words.word()?;
@@ -141,12 +141,12 @@ impl Verifier {
         if matches!(kind, Kind::Stop | Kind::NoStop) {
             let stops = &self.body(agent).stops;
             let known = (constraint.p as usize) < stops.len() && stops.iter().any(|stop| stop.task == constraint.q);
-            hold(known, "no such number, or no such stop of this agent")?;
+            ensure(known, "no such number, or no such stop of this agent")?;
         } else {
             let places = self.instance.world.links.len() as u32;
-            hold(constraint.p < places && constraint.q < places, format!("there is no place {}", constraint.p.max(constraint.q)))?;
+            ensure(constraint.p < places && constraint.q < places, format!("there is no place {}", constraint.p.max(constraint.q)))?;
             let moves = kind == Kind::Move && constraint.p != constraint.q || kind == Kind::Pass && self.chains.exit(constraint.p, constraint.q).is_some();
-            hold(moves || !matches!(kind, Kind::Move | Kind::Pass), "expected two places, for 'pass' the last of a chain and the end next to it")?;
+            ensure(moves || !matches!(kind, Kind::Move | Kind::Pass), "expected two places, for 'pass' the last of a chain and the end next to it")?;
             constraint.s = words.number()?;
             let ends = !matches!(kind, Kind::Rest | Kind::NoRest);
             constraint.e = if ends { words.or_inf()?.unwrap_or(NEVER) } else { constraint.s };
@@ -227,7 +227,7 @@ impl Verifier {
             }
             _ => false,
         };
-        hold(permitted, "a plan may meet neither of these constraints").map(|_| (one, two))
+        ensure(permitted, "a plan may meet neither of these constraints").map(|_| (one, two))
     }
 
     /// A lemma that may be used here.
@@ -235,9 +235,9 @@ impl Verifier {
         let number = words.index(self.lemmas.len(), "lemma")?;
         let lemma = &self.lemmas[number as usize];
         let other = lemma.agents.iter().find(|agent| of.agents.binary_search(agent).is_err());
-        hold(other.is_none(), format!("lemma {} is of agent {}, too", number, other.unwrap_or(&0)))?;
+        ensure(other.is_none(), format!("lemma {} is of agent {}, too", number, other.unwrap_or(&0)))?;
         let missing = lemma.constraints.iter().position(|constraint| !self.present.contains_key(constraint));
-        hold(missing.is_none(), format!("constraint {} of lemma {} is not in force", missing.unwrap_or(0), number)).map(|_| lemma)
+        ensure(missing.is_none(), format!("constraint {} of lemma {} is not in force", missing.unwrap_or(0), number)).map(|_| lemma)
     }
 
     fn later(&mut self, text: &str, of: &Lemma) -> Result<(Constraint, Constraint), Fault> {
@@ -245,7 +245,7 @@ impl Verifier {
         let mut side = |words: &mut Words| {
             let (agent, time) = (words.index(self.bodies.len(), "agent")?, words.number()?);
             let goal = self.body(agent).plain_goal;
-            hold(goal.is_some(), format!("agent {} has no plain goal", agent))?;
+            ensure(goal.is_some(), format!("agent {} has no plain goal", agent))?;
             Ok::<_, Fault>(Constraint { agent, kind: Kind::NoRest, p: goal.unwrap_or(0), q: 0, s: time, e: time })
         };
         let (one, two) = (side(&mut words)?, side(&mut words)?);
@@ -253,7 +253,7 @@ impl Verifier {
         words.end()?;
         let pair = [one.agent.min(two.agent), one.agent.max(two.agent)];
         let said = one.agent != two.agent && lemma.agents == pair && lemma.bound > u64::from(one.s) + u64::from(two.s);
-        hold(said, "the lemma is not of these two, or says less").map(|_| (one, two))
+        ensure(said, "the lemma is not of these two, or says less").map(|_| (one, two))
     }
 
     /// c(A, D), or a lower bound of it that is known already.
@@ -308,7 +308,7 @@ impl Verifier {
         let more = crate::cover::least(named.into_iter().map(more_than_costs).collect());
         let proven = costs.contains(&NEVER) || sum + more >= of.bound;
         if !proven && of.agents.iter().filter(|&&agent| self.look_further(agent)).count() > 0 { return self.leaf(names, of); }
-        hold(proven, format!("costs {} and {} by lemmas, expected {}", sum, more, text(of.bound)))
+        ensure(proven, format!("costs {} and {} by lemmas, expected {}", sum, more, text(of.bound)))
     }
 
     fn joint(&mut self, of: &Lemma) -> Result<(), Fault> {
@@ -319,7 +319,7 @@ impl Verifier {
         let cap = |&cost: &u32| if of.bound == INFINITE { NEVER } else { (u64::from(cost) + spare).min(u64::from(NEVER) - 1) as u32 };
         let caps: Vec<u32> = costs.iter().map(cap).collect();
         let none = self.none_joint(&of.agents, &caps, Some(of.bound).filter(|&bound| bound < INFINITE));
-        hold(none, "joint search finds a plan that costs less")
+        ensure(none, "joint search finds a plan that costs less")
     }
 
     fn walk(&mut self, agent: u32) -> (bool, Walk<'_>) {
@@ -343,7 +343,7 @@ impl Verifier {
 
     fn prices(&mut self, of: &Lemma) -> Result<(), Fault> {
         let (agents, places) = (self.bodies.len(), self.instance.world.links.len());
-        hold(of.agents.len() == agents && self.trail.is_empty(), "prices are of all agents, without constraints")?;
+        ensure(of.agents.len() == agents && self.trail.is_empty(), "prices are of all agents, without constraints")?;
         let mut prices = Prices::default();
         let price = |words: &mut Words| words.number().map(u64::from);  // so small that no sum overflows
         loop {
@@ -353,14 +353,14 @@ impl Verifier {
                 "place" => prices.place(words.index(places, "place")?, words.number()?, price(&mut words)?),
                 "edge" => {
                     let (from, to) = (words.index(places, "place")?, words.index(places, "place")?);
-                    hold(from < to, "places of an edge that do not ascend")?;
+                    ensure(from < to, "places of an edge that do not ascend")?;
                     prices.edge(from, to, words.number()?, price(&mut words)?);
                 }
                 "finish" => {
                     let mut side = || Ok::<_, Fault>((words.index(agents, "agent")?, words.number()?));
                     let (one, two) = (side()?, side()?);
                     let none = one.0 < two.0 && self.none_joint(&[one.0, two.0], &[one.1, two.1], Some(INFINITE));
-                    hold(none, "these agents may both have finished by then")?;
+                    ensure(none, "these agents may both have finished by then")?;
                     prices.finish([one, two], price(&mut words)?);
                 }
                 "end" => break,
@@ -374,6 +374,6 @@ impl Verifier {
             match prices.of(agent, &mut self.walk(agent).1) { Some(price) => sum += price, None => return Ok(()) }
         }
         let bound = (sum.saturating_sub(prices.sum) + UNIT - 1) / UNIT;
-        hold(bound >= of.bound, format!("prices prove {}, expected {}", bound, text(of.bound)))
+        ensure(bound >= of.bound, format!("prices prove {}, expected {}", bound, text(of.bound)))
     }
 }

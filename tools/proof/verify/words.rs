@@ -10,7 +10,7 @@ pub type Fault = (i32, String);
 pub fn unreadable(reason: impl Into<String>) -> Fault { (2, reason.into()) }
 
 /// Refuses what does not hold.
-pub fn hold(good: bool, reason: impl Into<String>) -> Result<(), Fault> { if good { Ok(()) } else { Err((1, reason.into())) } }
+pub fn ensure(good: bool, reason: impl Into<String>) -> Result<(), Fault> { if good { Ok(()) } else { Err((1, reason.into())) } }
 
 /// A hash that is quick: for what searches make, not for what a file says.
 #[derive(Default)]
@@ -46,12 +46,12 @@ impl<'a> Words<'a> {
 
     pub fn number(&mut self) -> Result<u32, Fault> {
         let value = self.whole()?;
-        hold(value < u64::from(NEVER), "a number that is too large").map(|_| value as u32)
+        ensure(value < u64::from(NEVER), "a number that is too large").map(|_| value as u32)
     }
 
     pub fn index(&mut self, count: usize, what: &str) -> Result<u32, Fault> {
         let value = self.number()?;
-        hold((value as usize) < count, format!("there is no {} {}", what, value)).map(|_| value)
+        ensure((value as usize) < count, format!("there is no {} {}", what, value)).map(|_| value)
     }
 
     /// A number or `inf`.
