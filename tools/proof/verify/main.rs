@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //! grove-verify: whether a certificate proves its bound (docs/proof.md, which it is written from).
 mod body;
-mod cover;
+mod covering;
 mod instance;
 mod joint;
 mod json;

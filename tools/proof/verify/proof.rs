@@ -305,7 +305,7 @@ impl Verifier {
             let more = bound.saturating_sub(agents.iter().map(cost_of).sum());
             (agents, more)
         };
-        let more = crate::cover::least(named.into_iter().map(more_than_costs).collect());
+        let more = crate::covering::least(named.into_iter().map(more_than_costs).collect());
         let proven = costs.contains(&NEVER) || sum + more >= of.bound;
         if !proven && of.agents.iter().filter(|&&agent| self.look_further(agent)).count() > 0 { return self.leaf(names, of); }
         ensure(proven, format!("costs {} and {} by lemmas, expected {}", sum, more, text(of.bound)))
