@@ -2,7 +2,7 @@
 //! Joint search: for each agent what it may be in at each time, in layers; then sets of such, one for each agent, from time to time.
 use crate::body::NEVER;
 use crate::instance::Place;
-use crate::walk::{State, Walk};
+use crate::successors::{State, Successors};
 use crate::words::{Map, Set};
 
 struct Point {
@@ -17,14 +17,14 @@ struct Point {
 pub struct Layers(Vec<Vec<Point>>);
 
 impl Layers {
-    pub fn of(walk: &mut Walk, cap: u32, settled: u32) -> Layers {
-        assert!(walk.body.reach(cap), "orders of many tasks, too far from the best one");
+    pub fn of(successors: &mut Successors, cap: u32, settled: u32) -> Layers {
+        assert!(successors.body.reach(cap), "orders of many tasks, too far from the best one");
         let (mut layers, mut time) = (Vec::new(), 0);
-        let keep = |walk: &Walk, state: &State, time: u32| {
-            let remains = walk.remains(state);
+        let keep = |successors: &Successors, state: &State, time: u32| {
+            let remains = successors.remains(state);
             remains < NEVER && (cap == NEVER || time + remains <= cap)
         };
-        let mut states: Vec<State> = walk.starts().into_iter().filter(|state| keep(walk, state, 0)).collect();
+        let mut states: Vec<State> = successors.starts().into_iter().filter(|state| keep(successors, state, 0)).collect();
         let mut known: Map<State, u32> = states.iter().copied().zip(0..).collect();
         loop {
             let steady = cap == NEVER && time == settled;
@@ -32,8 +32,8 @@ impl Layers {
             while points.len() < states.len() {
                 let state = states[points.len()];
                 let mut next = Vec::new();
-                for step in walk.steps(state, time) {
-                    if keep(walk, &step, time + 1) {
+                for step in successors.steps(state, time) {
+                    if keep(successors, &step, time + 1) {
                         let (list, known) = if steady { (&mut states, &mut known) } else { (&mut later, &mut found) };
                         next.push(*known.entry(step).or_insert(list.len() as u32));
                         if list.len() < known.len() { list.push(step); }
@@ -41,8 +41,8 @@ impl Layers {
                 }
                 next.sort_unstable();
                 next.dedup();
-                let ends = walk.may_end(&state, time);
-                points.push(Point { place: walk.place(&state), next, ends, least: if cap == NEVER { 0 } else { NEVER } });
+                let ends = successors.may_end(&state, time);
+                points.push(Point { place: successors.place(&state), next, ends, least: if cap == NEVER { 0 } else { NEVER } });
             }
             layers.push(points);
             if steady || later.is_empty() { break; }

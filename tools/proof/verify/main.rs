@@ -12,7 +12,7 @@ mod proof;
 mod reader;
 mod rules;
 mod search;
-mod walk;
+mod successors;
 mod words;
 
 use std::alloc::{GlobalAlloc, Layout, System};

@@ -2,7 +2,7 @@
 //! Prices (docs/proof.md, 4): what a path costs with the rows that it uses.
 use crate::body::NEVER;
 use crate::instance::Place;
-use crate::walk::{State, Walk};
+use crate::successors::{State, Successors};
 use crate::words::Map;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -68,40 +68,40 @@ impl Prices {
     }
 
     /// The price of an agent; None: there is no path.
-    pub fn of(&self, agent: u32, walk: &mut Walk) -> Option<u64> {
-        let limit = walk.body.limit();
+    pub fn of(&self, agent: u32, successors: &mut Successors) -> Option<u64> {
+        let limit = successors.body.limit();
         let beyond = UNIT * (u64::from(limit) + 1);
         let mut waiting = BinaryHeap::new();
         let mut known: Map<(State, u32), u64> = Map::default();
-        let place = walk.body.poses.place(walk.body.start);
-        let steps: Vec<(State, u64)> = walk.starts().into_iter().map(|state| (state, *self.at.get(&(place, 0)).unwrap_or(&0))).collect();
-        let mut push = |walk: &Walk, waiting: &mut BinaryHeap<_>, state: State, time: u32, used: u64| {
+        let place = successors.body.poses.place(successors.body.start);
+        let steps: Vec<(State, u64)> = successors.starts().into_iter().map(|state| (state, *self.at.get(&(place, 0)).unwrap_or(&0))).collect();
+        let mut push = |successors: &Successors, waiting: &mut BinaryHeap<_>, state: State, time: u32, used: u64| {
             let best = known.entry((state, time)).or_insert(u64::MAX);
-            let remains = walk.remains(&state);
+            let remains = successors.remains(&state);
             if used < *best && remains < NEVER {
                 *best = used;
                 waiting.push(Reverse((UNIT * u64::from(time + remains) + used, u32::MAX - time, used, Some(state))));
             }
         };
-        let end = |walk: &Walk, waiting: &mut BinaryHeap<_>, state: &State, time: u32, used: u64| {
-            if !walk.may_end(state, time) { return; }
-            waiting.push(Reverse((UNIT * u64::from(time) + used + self.end(agent, walk.place(state), time), u32::MAX - time, used, None)));
+        let end = |successors: &Successors, waiting: &mut BinaryHeap<_>, state: &State, time: u32, used: u64| {
+            if !successors.may_end(state, time) { return; }
+            waiting.push(Reverse((UNIT * u64::from(time) + used + self.end(agent, successors.place(state), time), u32::MAX - time, used, None)));
         };
         for (state, used) in steps {
-            end(walk, &mut waiting, &state, 0, used);
-            push(walk, &mut waiting, state, 0, used);
+            end(successors, &mut waiting, &state, 0, used);
+            push(successors, &mut waiting, state, 0, used);
         }
         while let Some(Reverse((total, late, used, state))) = waiting.pop() {
             let (time, state) = match state {
                 Some(state) => (u32::MAX - late, state),
                 None => return Some(total.min(beyond)),
             };
-            let place = walk.place(&state);
-            for step in walk.steps(state, time) {
-                let used = used + self.step(place, walk.place(&step), time + 1);
+            let place = successors.place(&state);
+            for step in successors.steps(state, time) {
+                let used = used + self.step(place, successors.place(&step), time + 1);
                 // Who stays as it is has come to its end before: that is what its path costs.
-                if step != state { end(walk, &mut waiting, &step, time + 1, used); }
-                push(walk, &mut waiting, step, time + 1, used);
+                if step != state { end(successors, &mut waiting, &step, time + 1, used); }
+                push(successors, &mut waiting, step, time + 1, used);
             }
         }
         Some(beyond).filter(|_| limit < NEVER)

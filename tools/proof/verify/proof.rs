@@ -7,7 +7,7 @@ use crate::prices::{Prices, UNIT};
 use crate::reader::Lines;
 use crate::rules::{Chains, Constraint, Kind, Rules};
 use crate::search::{surely_meets, Path, Search};
-use crate::walk::Walk;
+use crate::successors::Successors;
 use crate::words::{ensure, unreadable, Fault, Words};
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -268,8 +268,8 @@ impl Verifier {
         let body = self.bodies[number].as_mut().expect("made above");
         let met = self.rules.set(body, &self.chains, constraints);
         let limit = if met { body.limit() } else { NEVER };
-        let mut walk = Walk { body, chains: &self.chains, rules: &self.rules };
-        let found = if met { self.search.least(&mut walk) } else { None };
+        let mut successors = Successors { body, chains: &self.chains, rules: &self.rules };
+        let found = if met { self.search.least(&mut successors) } else { None };
         // Beyond the limit of orders it is not known how much, but that it is more.
         let beyond = if limit < NEVER { limit + 1 } else { NEVER };
         let (cost, path) = found.filter(|found| found.0 <= limit).unwrap_or((beyond, Vec::new()));
@@ -282,7 +282,7 @@ impl Verifier {
         let last = self.known[agent as usize].last().map_or(NEVER, |last| if last.path.is_empty() { last.cost } else { NEVER });
         if last == NEVER { return false; }
         self.known[agent as usize].retain(|known| !known.path.is_empty());
-        self.walk(agent).1.body.reach(last)
+        self.successors(agent).1.body.reach(last)
     }
 
     fn leaf(&mut self, names: &str, of: &Lemma) -> Result<(), Fault> {
@@ -322,22 +322,22 @@ impl Verifier {
         ensure(none, "joint search finds a plan that costs less")
     }
 
-    fn walk(&mut self, agent: u32) -> (bool, Walk<'_>) {
+    fn successors(&mut self, agent: u32) -> (bool, Successors<'_>) {
         self.body(agent);
         let body = self.bodies[agent as usize].as_mut().expect("made above");
         let met = self.rules.set(body, &self.chains, &self.constraints[agent as usize]);
-        (met, Walk { body, chains: &self.chains, rules: &self.rules })
+        (met, Successors { body, chains: &self.chains, rules: &self.rules })
     }
 
     /// No joint paths of these agents cost up to so much each, and less than a limit together.
     fn none_joint(&mut self, agents: &[u32], caps: &[u32], limit: Option<u64>) -> bool {
         let (mut settled, mut layers) = (1, Vec::new());
         for &agent in agents {
-            let (met, walk) = self.walk(agent);
+            let (met, successors) = self.successors(agent);
             if !met { return true; }
-            settled = settled.max(walk.rules.settled);
+            settled = settled.max(successors.rules.settled);
         }
-        for (&agent, &cap) in agents.iter().zip(caps) { layers.push(Layers::of(&mut self.walk(agent).1, cap, settled)); }
+        for (&agent, &cap) in agents.iter().zip(caps) { layers.push(Layers::of(&mut self.successors(agent).1, cap, settled)); }
         Joint { layers, limit, settled, following: self.following }.finds_none()
     }
 
@@ -371,7 +371,7 @@ impl Verifier {
         prices.close();
         let mut sum = 0u64;
         for agent in 0..agents as u32 {
-            match prices.of(agent, &mut self.walk(agent).1) { Some(price) => sum += price, None => return Ok(()) }
+            match prices.of(agent, &mut self.successors(agent).1) { Some(price) => sum += price, None => return Ok(()) }
         }
         let bound = (sum.saturating_sub(prices.sum) + UNIT - 1) / UNIT;
         ensure(bound >= of.bound, format!("prices prove {}, expected {}", bound, text(of.bound)))

@@ -4,7 +4,7 @@
 use crate::body::NEVER;
 use crate::instance::Place;
 use crate::rules::{Constraint, Kind};
-use crate::walk::{Arrival, State, Walk};
+use crate::successors::{Arrival, State, Successors};
 
 /// An arrival, and the number of that before.
 type Label = (Arrival, u32);
@@ -24,20 +24,20 @@ pub struct Search {
 
 impl Search {
     /// The least cost, with a path that has it.
-    pub fn least(&mut self, walk: &mut Walk) -> Option<(u32, Path)> {
+    pub fn least(&mut self, successors: &mut Successors) -> Option<(u32, Path)> {
         self.searches += 1;
         assert!(self.searches < 1 << 28, "fewer searches");
         self.labels.clear();
         self.waiting.iter_mut().for_each(Vec::clear);
-        let (mut found, mut now, mut before, limit) = (Vec::new(), 0, u32::MAX, walk.body.limit());
-        for state in walk.starts() {
-            let interval = walk.rules.holding(walk.place(&state), 0).expect("it may be there");
-            if state.left <= walk.rules.interval(interval).1 { found.push((State { left: 0, ..state }, interval, state.left)); }
+        let (mut found, mut now, mut before, limit) = (Vec::new(), 0, u32::MAX, successors.body.limit());
+        for state in successors.starts() {
+            let interval = successors.rules.holding(successors.place(&state), 0).expect("it may be there");
+            if state.left <= successors.rules.interval(interval).1 { found.push((State { left: 0, ..state }, interval, state.left)); }
         }
-        let least = found.first().map_or(0, |(state, _, time)| time + walk.remains(state));
+        let least = found.first().map_or(0, |(state, _, time)| time + successors.remains(state));
         loop {
             for (state, interval, time) in found.drain(..) {
-                let remains = walk.remains(&state);
+                let remains = successors.remains(&state);
                 if remains >= NEVER || time + remains > limit.min(NEVER - 1) {
                     assert!(remains >= NEVER || limit < NEVER, "a cost below 2^30");
                     continue;
@@ -53,12 +53,12 @@ impl Search {
             before = self.labels.len() as u32;
             self.labels.push(label);
             let (state, interval, time) = label.0;
-            let end = walk.rules.interval(interval).1;
-            if end == NEVER && walk.rests(&state) { return Some((time, self.path(walk))); }
-            if walk.over(&state) { continue; }
-            let work = walk.choices(state).into_iter().map(|next| (State { left: 0, ..next }, interval, time + next.left));
+            let end = successors.rules.interval(interval).1;
+            if end == NEVER && successors.rests(&state) { return Some((time, self.path(successors))); }
+            if successors.over(&state) { continue; }
+            let work = successors.choices(state).into_iter().map(|next| (State { left: 0, ..next }, interval, time + next.left));
             found.extend(work.filter(|next| next.2 <= end));
-            walk.go(label.0, (end, end), &mut found);
+            successors.go(label.0, (end, end), &mut found);
         }
     }
 
@@ -85,11 +85,11 @@ impl Search {
     }
 
     /// That of the last label.
-    fn path(&self, walk: &Walk) -> Path {
+    fn path(&self, successors: &Successors) -> Path {
         let (mut path, mut number) = (Path::new(), self.labels.len() as u32 - 1);
         while number != u32::MAX {
             let ((state, _, time), before) = self.labels[number as usize];
-            let place = walk.place(&state);
+            let place = successors.place(&state);
             match path.last_mut() {
                 Some(last) if last.1 == place => last.0 = time,
                 _ => path.push((time, place)),

@@ -16,13 +16,13 @@ pub struct State {
 /// A state at a time, with the interval of time in which its place is free.
 pub type Arrival = (State, u32, u32);
 
-pub struct Walk<'a> {
+pub struct Successors<'a> {
     pub body: &'a mut Body,
     pub chains: &'a Chains,
     pub rules: &'a Rules,
 }
 
-impl Walk<'_> {
+impl Successors<'_> {
     pub fn place(&self, state: &State) -> Place { self.body.poses.place(state.pose) }
 
     fn full(&self, state: &State) -> bool { self.body.done(state.done) == self.body.all() }
