@@ -2,7 +2,7 @@
 //! One agent as searches see it: its poses, its stops, and what remains at least, were there no constraints but on the order of stops.
 use crate::instance::{Agent, Instance, Place, World};
 use crate::orders::{After, Bound, Orders};
-use crate::words::Map;
+use crate::tokens::Map;
 use std::rc::Rc;
 
 /// Later than all times of a certificate: `inf`.

@@ -3,7 +3,7 @@
 use crate::body::NEVER;
 use crate::instance::Place;
 use crate::successors::{State, Successors};
-use crate::words::{Map, Set};
+use crate::tokens::{Map, Set};
 
 struct Point {
     place: Place,

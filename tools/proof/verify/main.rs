@@ -13,7 +13,7 @@ mod reader;
 mod rules;
 mod search;
 mod successors;
-mod words;
+mod tokens;
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::Path;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //! Orders of stops: what remains at least when some are done. Of many stops only for what is not far from the best order.
 use crate::body::NEVER;
-use crate::words::Map;
+use crate::tokens::Map;
 
 /// How much more than the best order, at first.
 const SLACK: u32 = 2;

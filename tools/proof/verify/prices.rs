@@ -3,7 +3,7 @@
 use crate::body::NEVER;
 use crate::instance::Place;
 use crate::successors::{State, Successors};
-use crate::words::Map;
+use crate::tokens::Map;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 

@@ -8,7 +8,7 @@ use crate::reader::Lines;
 use crate::rules::{Chains, Constraint, Kind, Rules};
 use crate::search::{surely_meets, Path, Search};
 use crate::successors::Successors;
-use crate::words::{ensure, unreadable, Fault, Words};
+use crate::tokens::{ensure, unreadable, Fault, Tokens};
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -83,15 +83,15 @@ impl Verifier {
         if !self.following && line != "following no" { return Err(unreadable("expected 'following yes' or 'following no'")); }
         loop {
             let line = self.line()?;
-            let mut words = Words::of(&line);
-            match words.word()? {
+            let mut tokens = Tokens::of(&line);
+            match tokens.token()? {
                 "lemma" => {
-                    let lemma = self.lemma(words)?;
+                    let lemma = self.lemma(tokens)?;
                     self.lemmas.push(lemma);
                 }
                 "theorem" => {
-                    let (bound, all) = (words.or_inf()?.map_or(INFINITE, u64::from), (0..self.bodies.len() as u32).collect());
-                    words.end()?;
+                    let (bound, all) = (tokens.or_inf()?.map_or(INFINITE, u64::from), (0..self.bodies.len() as u32).collect());
+                    tokens.end()?;
                     let first = self.line()?;
                     self.proof(first, &Lemma { agents: all, bound, constraints: Vec::new() })?;
                     let ended = self.line()? == "end" && self.lines.next().map_err(unreadable)?.is_none();
@@ -102,11 +102,11 @@ impl Verifier {
         }
     }
 
-    fn lemma(&mut self, mut words: Words) -> Result<Lemma, Fault> {
-        let bound = words.or_inf()?.map_or(INFINITE, u64::from);
+    fn lemma(&mut self, mut tokens: Tokens) -> Result<Lemma, Fault> {
+        let bound = tokens.or_inf()?.map_or(INFINITE, u64::from);
         let mut lemma = Lemma { bound, agents: Vec::new(), constraints: Vec::new() };
-        while lemma.agents.is_empty() || words.more() {
-            let agent = words.index(self.bodies.len(), "agent")?;
+        while lemma.agents.is_empty() || tokens.more() {
+            let agent = tokens.index(self.bodies.len(), "agent")?;
             ensure(lemma.agents.last().map_or(true, |&last| last < agent), "agents that do not ascend")?;
             lemma.agents.push(agent);
         }
@@ -129,15 +129,15 @@ impl Verifier {
     }
 
     fn constraint(&mut self, text: &str, of: &Lemma) -> Result<Constraint, Fault> {
-        let mut words = Words::of(text);
-        let agent = words.number()?;
+        let mut tokens = Tokens::of(text);
+        let agent = tokens.number()?;
         ensure(of.agents.binary_search(&agent).is_ok(), format!("agent {} is not among those of whom this is", agent))?;
         let names = ["bar", "move", "norest", "rest", "pass", "stop", "nostop"];
         let kinds = [Kind::Bar, Kind::Move, Kind::NoRest, Kind::Rest, Kind::Pass, Kind::Stop, Kind::NoStop];
-        let name = words.word()?;
+        let name = tokens.token()?;
         let kind = kinds[names.iter().position(|&known| known == name).ok_or_else(|| unreadable("expected a constraint"))?];
-        let mut constraint = Constraint { agent, kind, p: words.number()?, q: 0, s: 0, e: 0 };
-        if matches!(kind, Kind::Move | Kind::Pass | Kind::Stop | Kind::NoStop) { constraint.q = words.number()?; }
+        let mut constraint = Constraint { agent, kind, p: tokens.number()?, q: 0, s: 0, e: 0 };
+        if matches!(kind, Kind::Move | Kind::Pass | Kind::Stop | Kind::NoStop) { constraint.q = tokens.number()?; }
         if matches!(kind, Kind::Stop | Kind::NoStop) {
             let stops = &self.body(agent).stops;
             let known = (constraint.p as usize) < stops.len() && stops.iter().any(|stop| stop.task == constraint.q);
@@ -147,11 +147,11 @@ impl Verifier {
             ensure(constraint.p < places && constraint.q < places, format!("there is no place {}", constraint.p.max(constraint.q)))?;
             let moves = kind == Kind::Move && constraint.p != constraint.q || kind == Kind::Pass && self.chains.exit(constraint.p, constraint.q).is_some();
             ensure(moves || !matches!(kind, Kind::Move | Kind::Pass), "expected two places, for 'pass' the last of a chain and the end next to it")?;
-            constraint.s = words.number()?;
+            constraint.s = tokens.number()?;
             let ends = !matches!(kind, Kind::Rest | Kind::NoRest);
-            constraint.e = if ends { words.or_inf()?.unwrap_or(NEVER) } else { constraint.s };
+            constraint.e = if ends { tokens.or_inf()?.unwrap_or(NEVER) } else { constraint.s };
         }
-        words.end().map(|_| constraint)
+        tokens.end().map(|_| constraint)
     }
 
     fn push(&mut self, constraint: Constraint) {
@@ -231,8 +231,8 @@ impl Verifier {
     }
 
     /// A lemma that may be used here.
-    fn usable(&self, words: &mut Words, of: &Lemma) -> Result<&Lemma, Fault> {
-        let number = words.index(self.lemmas.len(), "lemma")?;
+    fn usable(&self, tokens: &mut Tokens, of: &Lemma) -> Result<&Lemma, Fault> {
+        let number = tokens.index(self.lemmas.len(), "lemma")?;
         let lemma = &self.lemmas[number as usize];
         let other = lemma.agents.iter().find(|agent| of.agents.binary_search(agent).is_err());
         ensure(other.is_none(), format!("lemma {} is of agent {}, too", number, other.unwrap_or(&0)))?;
@@ -241,16 +241,16 @@ impl Verifier {
     }
 
     fn later(&mut self, text: &str, of: &Lemma) -> Result<(Constraint, Constraint), Fault> {
-        let mut words = Words::of(text);
-        let mut side = |words: &mut Words| {
-            let (agent, time) = (words.index(self.bodies.len(), "agent")?, words.number()?);
+        let mut tokens = Tokens::of(text);
+        let mut side = |tokens: &mut Tokens| {
+            let (agent, time) = (tokens.index(self.bodies.len(), "agent")?, tokens.number()?);
             let goal = self.body(agent).plain_goal;
             ensure(goal.is_some(), format!("agent {} has no plain goal", agent))?;
             Ok::<_, Fault>(Constraint { agent, kind: Kind::NoRest, p: goal.unwrap_or(0), q: 0, s: time, e: time })
         };
-        let (one, two) = (side(&mut words)?, side(&mut words)?);
-        let lemma = self.usable(&mut words, of)?;
-        words.end()?;
+        let (one, two) = (side(&mut tokens)?, side(&mut tokens)?);
+        let lemma = self.usable(&mut tokens, of)?;
+        tokens.end()?;
         let pair = [one.agent.min(two.agent), one.agent.max(two.agent)];
         let said = one.agent != two.agent && lemma.agents == pair && lemma.bound > u64::from(one.s) + u64::from(two.s);
         ensure(said, "the lemma is not of these two, or says less").map(|_| (one, two))
@@ -286,9 +286,9 @@ impl Verifier {
     }
 
     fn leaf(&mut self, names: &str, of: &Lemma) -> Result<(), Fault> {
-        let (mut words, mut named) = (Words::of(names), Vec::new());
-        while !names.is_empty() && words.more() {
-            let lemma = self.usable(&mut words, of)?;
+        let (mut tokens, mut named) = (Tokens::of(names), Vec::new());
+        while !names.is_empty() && tokens.more() {
+            let lemma = self.usable(&mut tokens, of)?;
             if lemma.bound == INFINITE { return Ok(()); }
             named.push((lemma.agents.clone(), lemma.bound));
         }
@@ -345,28 +345,28 @@ impl Verifier {
         let (agents, places) = (self.bodies.len(), self.instance.world.links.len());
         ensure(of.agents.len() == agents && self.trail.is_empty(), "prices are of all agents, without constraints")?;
         let mut prices = Prices::default();
-        let price = |words: &mut Words| words.number().map(u64::from);  // so small that no sum overflows
+        let price = |tokens: &mut Tokens| tokens.number().map(u64::from);  // so small that no sum overflows
         loop {
             let line = self.line()?;
-            let mut words = Words::of(&line);
-            match words.word()? {
-                "place" => prices.place(words.index(places, "place")?, words.number()?, price(&mut words)?),
+            let mut tokens = Tokens::of(&line);
+            match tokens.token()? {
+                "place" => prices.place(tokens.index(places, "place")?, tokens.number()?, price(&mut tokens)?),
                 "edge" => {
-                    let (from, to) = (words.index(places, "place")?, words.index(places, "place")?);
+                    let (from, to) = (tokens.index(places, "place")?, tokens.index(places, "place")?);
                     ensure(from < to, "places of an edge that do not ascend")?;
-                    prices.edge(from, to, words.number()?, price(&mut words)?);
+                    prices.edge(from, to, tokens.number()?, price(&mut tokens)?);
                 }
                 "finish" => {
-                    let mut side = || Ok::<_, Fault>((words.index(agents, "agent")?, words.number()?));
+                    let mut side = || Ok::<_, Fault>((tokens.index(agents, "agent")?, tokens.number()?));
                     let (one, two) = (side()?, side()?);
                     let none = one.0 < two.0 && self.none_joint(&[one.0, two.0], &[one.1, two.1], Some(INFINITE));
                     ensure(none, "these agents may both have finished by then")?;
-                    prices.finish([one, two], price(&mut words)?);
+                    prices.finish([one, two], price(&mut tokens)?);
                 }
                 "end" => break,
                 _ => return Err(unreadable("expected a row, or 'end'")),
             }
-            words.end()?;
+            tokens.end()?;
         }
         prices.close();
         let mut sum = 0u64;

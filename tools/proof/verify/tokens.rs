@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! The words of a line, and what is wrong with a certificate.
+//! The tokens of a line, and what is wrong with a certificate.
 use crate::body::NEVER;
 use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasherDefault, Hasher};
@@ -26,21 +26,21 @@ impl Hasher for Quick {
 pub type Map<K, V> = HashMap<K, V, BuildHasherDefault<Quick>>;
 pub type Set<K> = HashSet<K, BuildHasherDefault<Quick>>;
 
-pub struct Words<'a>(std::str::Split<'a, char>);
+pub struct Tokens<'a>(std::str::Split<'a, char>);
 
-impl<'a> Words<'a> {
-    pub fn of(line: &'a str) -> Words<'a> { Words(line.split(' ')) }
+impl<'a> Tokens<'a> {
+    pub fn of(line: &'a str) -> Tokens<'a> { Tokens(line.split(' ')) }
 
     pub fn more(&self) -> bool { self.0.clone().next().is_some() }
 
-    pub fn word(&mut self) -> Result<&'a str, Fault> {
-        self.0.next().filter(|word| !word.is_empty()).ok_or_else(|| unreadable("expected another word"))
+    pub fn token(&mut self) -> Result<&'a str, Fault> {
+        self.0.next().filter(|token| !token.is_empty()).ok_or_else(|| unreadable("expected another word"))
     }
 
     pub fn whole(&mut self) -> Result<u64, Fault> {
-        let word = self.word()?;
-        let digits = Some(word).filter(|word| word.bytes().all(|byte| byte.is_ascii_digit()));
-        let digits = digits.ok_or_else(|| unreadable(format!("expected a number, not '{:.20}'", word)))?;
+        let token = self.token()?;
+        let digits = Some(token).filter(|token| token.bytes().all(|byte| byte.is_ascii_digit()));
+        let digits = digits.ok_or_else(|| unreadable(format!("expected a number, not '{:.20}'", token)))?;
         digits.parse().map_err(|_| (1, "a number that is too large".to_string()))
     }
 
