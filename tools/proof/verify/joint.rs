@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //! Joint search: for each agent what it may be in at each time, in layers; then sets of such, one for each agent, from time to time.
-use crate::body::NEVER;
+use crate::agent::NEVER;
 use crate::instance::Place;
 use crate::successors::{State, Successors};
 use crate::tokens::{Map, Set};
@@ -18,7 +18,7 @@ pub struct Layers(Vec<Vec<Point>>);
 
 impl Layers {
     pub fn of(successors: &mut Successors, cap: u32, settled: u32) -> Layers {
-        assert!(successors.body.reach(cap), "orders of many tasks, too far from the best one");
+        assert!(successors.model.reach(cap), "orders of many tasks, too far from the best one");
         let (mut layers, mut time) = (Vec::new(), 0);
         let keep = |successors: &Successors, state: &State, time: u32| {
             let remains = successors.remains(state);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //! grove-verify: whether a certificate proves its bound (docs/proof.md, which it is written from).
-mod body;
+mod agent;
 mod covering;
 mod instance;
 mod joint;

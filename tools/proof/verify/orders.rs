@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //! Orders of stops: what remains at least when some are done. Of many stops only for what is not far from the best order.
-use crate::body::NEVER;
+use crate::agent::NEVER;
 use crate::tokens::Map;
 
 /// How much more than the best order, at first.

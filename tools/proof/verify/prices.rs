@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //! Prices (docs/proof.md, 4): what a path costs with the rows that it uses.
-use crate::body::NEVER;
+use crate::agent::NEVER;
 use crate::instance::Place;
 use crate::successors::{State, Successors};
 use crate::tokens::Map;
@@ -69,11 +69,11 @@ impl Prices {
 
     /// The price of an agent; None: there is no path.
     pub fn of(&self, agent: u32, successors: &mut Successors) -> Option<u64> {
-        let limit = successors.body.limit();
+        let limit = successors.model.limit();
         let beyond = UNIT * (u64::from(limit) + 1);
         let mut waiting = BinaryHeap::new();
         let mut known: Map<(State, u32), u64> = Map::default();
-        let place = successors.body.poses.place(successors.body.start);
+        let place = successors.model.poses.place(successors.model.start);
         let steps: Vec<(State, u64)> = successors.starts().into_iter().map(|state| (state, *self.at.get(&(place, 0)).unwrap_or(&0))).collect();
         let mut push = |successors: &Successors, waiting: &mut BinaryHeap<_>, state: State, time: u32, used: u64| {
             let best = known.entry((state, time)).or_insert(u64::MAX);

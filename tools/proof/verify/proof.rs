@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //! The certificate: lemmas, the theorem, and the rules of their proofs (docs/proof.md, 3 and 4).
-use crate::body::{Body, Poses, NEVER};
+use crate::agent::{AgentModel, Poses, NEVER};
 use crate::instance::Instance;
 use crate::joint::{Joint, Layers};
 use crate::prices::{Prices, UNIT};
@@ -32,7 +32,7 @@ pub struct Verifier {
     instance: Instance,
     chains: Chains,
     poses: HashMap<u32, Rc<Poses>>,
-    bodies: Vec<Option<Body>>,
+    models: Vec<Option<AgentModel>>,
     rules: Rules,
     search: Search,
     lines: Lines,
@@ -51,10 +51,10 @@ fn text(bound: u64) -> String { if bound == INFINITE { "inf".to_string() } else 
 impl Verifier {
     pub fn new(instance: Instance, lines: Lines) -> Verifier {
         let (agents, chains, rules) = (instance.agents.len(), Chains::of(&instance.world), Rules::new(instance.world.links.len()));
-        let (constraints, known, bodies) = ((0..agents).map(|_| vec![]), (0..agents).map(|_| vec![]), (0..agents).map(|_| None));
-        let (constraints, known, bodies) = (constraints.collect(), known.collect(), bodies.collect());
+        let (constraints, known, models) = ((0..agents).map(|_| vec![]), (0..agents).map(|_| vec![]), (0..agents).map(|_| None));
+        let (constraints, known, models) = (constraints.collect(), known.collect(), models.collect());
         let (poses, search, lemmas, trail, present) = Default::default();
-        Verifier { instance, chains, poses, bodies, rules, search, lines, following: true, lemmas, trail, constraints, present, known, nodes: 0 }
+        Verifier { instance, chains, poses, models, rules, search, lines, following: true, lemmas, trail, constraints, present, known, nodes: 0 }
     }
 
     pub fn statistics(&self) -> String {
@@ -90,7 +90,7 @@ impl Verifier {
                     self.lemmas.push(lemma);
                 }
                 "theorem" => {
-                    let (bound, all) = (tokens.or_inf()?.map_or(INFINITE, u64::from), (0..self.bodies.len() as u32).collect());
+                    let (bound, all) = (tokens.or_inf()?.map_or(INFINITE, u64::from), (0..self.models.len() as u32).collect());
                     tokens.end()?;
                     let first = self.line()?;
                     self.proof(first, &Lemma { agents: all, bound, constraints: Vec::new() })?;
@@ -106,7 +106,7 @@ impl Verifier {
         let bound = tokens.or_inf()?.map_or(INFINITE, u64::from);
         let mut lemma = Lemma { bound, agents: Vec::new(), constraints: Vec::new() };
         while lemma.agents.is_empty() || tokens.more() {
-            let agent = tokens.index(self.bodies.len(), "agent")?;
+            let agent = tokens.index(self.models.len(), "agent")?;
             ensure(lemma.agents.last().map_or(true, |&last| last < agent), "agents that do not ascend")?;
             lemma.agents.push(agent);
         }
@@ -119,12 +119,12 @@ impl Verifier {
         }
     }
 
-    fn body(&mut self, agent: u32) -> &mut Body {
+    fn model(&mut self, agent: u32) -> &mut AgentModel {
         let (instance, poses) = (&self.instance, &mut self.poses);
-        self.bodies[agent as usize].get_or_insert_with(|| {
+        self.models[agent as usize].get_or_insert_with(|| {
             let found = &instance.agents[agent as usize];
             let poses = poses.entry(found.turn).or_insert_with(|| Rc::new(Poses::of(&instance.world, found.turn)));
-            Body::of(instance, found, poses.clone())
+            AgentModel::of(instance, found, poses.clone())
         })
     }
 
@@ -139,7 +139,7 @@ impl Verifier {
         let mut constraint = Constraint { agent, kind, p: tokens.number()?, q: 0, s: 0, e: 0 };
         if matches!(kind, Kind::Move | Kind::Pass | Kind::Stop | Kind::NoStop) { constraint.q = tokens.number()?; }
         if matches!(kind, Kind::Stop | Kind::NoStop) {
-            let stops = &self.body(agent).stops;
+            let stops = &self.model(agent).stops;
             let known = (constraint.p as usize) < stops.len() && stops.iter().any(|stop| stop.task == constraint.q);
             ensure(known, "no such number, or no such stop of this agent")?;
         } else {
@@ -243,8 +243,8 @@ impl Verifier {
     fn later(&mut self, text: &str, of: &Lemma) -> Result<(Constraint, Constraint), Fault> {
         let mut tokens = Tokens::of(text);
         let mut side = |tokens: &mut Tokens| {
-            let (agent, time) = (tokens.index(self.bodies.len(), "agent")?, tokens.number()?);
-            let goal = self.body(agent).plain_goal;
+            let (agent, time) = (tokens.index(self.models.len(), "agent")?, tokens.number()?);
+            let goal = self.model(agent).plain_goal;
             ensure(goal.is_some(), format!("agent {} has no plain goal", agent))?;
             Ok::<_, Fault>(Constraint { agent, kind: Kind::NoRest, p: goal.unwrap_or(0), q: 0, s: time, e: time })
         };
@@ -258,17 +258,17 @@ impl Verifier {
 
     /// c(A, D), or a lower bound of it that is known already.
     fn cost(&mut self, agent: u32, exact: bool) -> u32 {
-        self.body(agent);
+        self.model(agent);
         let number = agent as usize;
         let (constraints, known) = (&self.constraints[number], &mut self.known[number]);
         if let Some(last) = known.last() {
             let holds = !exact || last.path.is_empty() || constraints[last.constraints..].iter().all(|constraint| surely_meets(&last.path, constraint));
             if holds { return last.cost; }
         }
-        let body = self.bodies[number].as_mut().expect("made above");
-        let met = self.rules.set(body, &self.chains, constraints);
-        let limit = if met { body.limit() } else { NEVER };
-        let mut successors = Successors { body, chains: &self.chains, rules: &self.rules };
+        let model = self.models[number].as_mut().expect("made above");
+        let met = self.rules.set(model, &self.chains, constraints);
+        let limit = if met { model.limit() } else { NEVER };
+        let mut successors = Successors { model, chains: &self.chains, rules: &self.rules };
         let found = if met { self.search.least(&mut successors) } else { None };
         // Beyond the limit of orders it is not known how much, but that it is more.
         let beyond = if limit < NEVER { limit + 1 } else { NEVER };
@@ -282,7 +282,7 @@ impl Verifier {
         let last = self.known[agent as usize].last().map_or(NEVER, |last| if last.path.is_empty() { last.cost } else { NEVER });
         if last == NEVER { return false; }
         self.known[agent as usize].retain(|known| !known.path.is_empty());
-        self.successors(agent).1.body.reach(last)
+        self.successors(agent).1.model.reach(last)
     }
 
     fn leaf(&mut self, names: &str, of: &Lemma) -> Result<(), Fault> {
@@ -323,10 +323,10 @@ impl Verifier {
     }
 
     fn successors(&mut self, agent: u32) -> (bool, Successors<'_>) {
-        self.body(agent);
-        let body = self.bodies[agent as usize].as_mut().expect("made above");
-        let met = self.rules.set(body, &self.chains, &self.constraints[agent as usize]);
-        (met, Successors { body, chains: &self.chains, rules: &self.rules })
+        self.model(agent);
+        let model = self.models[agent as usize].as_mut().expect("made above");
+        let met = self.rules.set(model, &self.chains, &self.constraints[agent as usize]);
+        (met, Successors { model, chains: &self.chains, rules: &self.rules })
     }
 
     /// No joint paths of these agents cost up to so much each, and less than a limit together.
@@ -342,7 +342,7 @@ impl Verifier {
     }
 
     fn prices(&mut self, of: &Lemma) -> Result<(), Fault> {
-        let (agents, places) = (self.bodies.len(), self.instance.world.links.len());
+        let (agents, places) = (self.models.len(), self.instance.world.links.len());
         ensure(of.agents.len() == agents && self.trail.is_empty(), "prices are of all agents, without constraints")?;
         let mut prices = Prices::default();
         let price = |tokens: &mut Tokens| tokens.number().map(u64::from);  // so small that no sum overflows

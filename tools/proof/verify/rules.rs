@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //! Constraints (docs/proof.md, 2), and what those on one agent say of its steps.
-use crate::body::{Body, NEVER};
+use crate::agent::{AgentModel, NEVER};
 use crate::instance::{Place, World};
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
@@ -115,12 +115,12 @@ impl Rules {
     }
 
     /// False: nobody meets these constraints.
-    pub fn set(&mut self, body: &mut Body, chains: &Chains, constraints: &[Constraint]) -> bool {
+    pub fn set(&mut self, model: &mut AgentModel, chains: &Chains, constraints: &[Constraint]) -> bool {
         self.stamp += 1;
         self.moves.clear();
         self.passes.clear();
         self.allowed.clear();
-        self.allowed.resize(body.stops.len(), body.all());
+        self.allowed.resize(model.stops.len(), model.all());
         self.ordered = false;
         self.settled = 1;
         let mut bars: Vec<(Place, u32, u32)> = Vec::new();
@@ -140,7 +140,7 @@ impl Rules {
                 Kind::Rest => rest = Some((p, rest.map_or(s, |(_, time)| time.min(s)))),
                 Kind::Pass => self.passes.extend(chains.exit(p, q).map(|(chain, side, _)| (chain, side, s, e))),
                 Kind::Stop | Kind::NoStop => {
-                    let stop = body.stops.iter().position(|stop| stop.task == q).expect("a stop");
+                    let stop = model.stops.iter().position(|stop| stop.task == q).expect("a stop");
                     self.allowed[p as usize] &= if kind == Kind::Stop { 1 << stop } else { !(1 << stop) };
                     self.ordered = true;
                 }
@@ -169,7 +169,7 @@ impl Rules {
             let count = self.safe.len() as u32 - first;
             *self.mark(place) = Mark { first, count, ..*self.mark(place) };
         }
-        body.choose(&self.allowed);
+        model.choose(&self.allowed);
         true
     }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //! Least costs of one agent: A* whose labels are a state, and an interval of time in which its place is free. The earliest of these can
 //! do what later ones can: wait.
-use crate::body::NEVER;
+use crate::agent::NEVER;
 use crate::instance::Place;
 use crate::rules::{Constraint, Kind};
 use crate::successors::{Arrival, State, Successors};
@@ -29,7 +29,7 @@ impl Search {
         assert!(self.searches < 1 << 28, "fewer searches");
         self.labels.clear();
         self.waiting.iter_mut().for_each(Vec::clear);
-        let (mut found, mut now, mut before, limit) = (Vec::new(), 0, u32::MAX, successors.body.limit());
+        let (mut found, mut now, mut before, limit) = (Vec::new(), 0, u32::MAX, successors.model.limit());
         for state in successors.starts() {
             let interval = successors.rules.holding(successors.place(&state), 0).expect("it may be there");
             if state.left <= successors.rules.interval(interval).1 { found.push((State { left: 0, ..state }, interval, state.left)); }

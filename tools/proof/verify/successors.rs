@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //! One agent under constraints: what it may be in, and its steps.
-use crate::body::{Body, NEVER};
+use crate::agent::{AgentModel, NEVER};
 use crate::instance::Place;
 use crate::rules::{Chains, Rules, Way, EARLY};
 
@@ -17,23 +17,23 @@ pub struct State {
 pub type Arrival = (State, u32, u32);
 
 pub struct Successors<'a> {
-    pub body: &'a mut Body,
+    pub model: &'a mut AgentModel,
     pub chains: &'a Chains,
     pub rules: &'a Rules,
 }
 
 impl Successors<'_> {
-    pub fn place(&self, state: &State) -> Place { self.body.poses.place(state.pose) }
+    pub fn place(&self, state: &State) -> Place { self.model.poses.place(state.pose) }
 
-    fn full(&self, state: &State) -> bool { self.body.done(state.done) == self.body.all() }
+    fn full(&self, state: &State) -> bool { self.model.done(state.done) == self.model.all() }
 
     pub fn starts(&mut self) -> Vec<State> {
-        let (pose, place, mut found) = (self.body.start, self.body.poses.place(self.body.start), Vec::new());
-        let (stop, left) = self.body.working.map_or((0, 0), |(stop, end)| (1 << stop, end));
+        let (pose, place, mut found) = (self.model.start, self.model.poses.place(self.model.start), Vec::new());
+        let (stop, left) = self.model.working.map_or((0, 0), |(stop, end)| (1 << stop, end));
         let works = stop == 0 || self.rules.allowed[0] & stop != 0;
         if works && self.rules.holding(place, 0).is_some() {
             let done = self.done_on(place, 0) | stop;
-            let state = State { pose, done: self.body.number(done), left, way: self.rules.arrived(place, 0) };
+            let state = State { pose, done: self.model.number(done), left, way: self.rules.arrived(place, 0) };
             self.arrive(state, &mut found);
         }
         found
@@ -41,17 +41,17 @@ impl Successors<'_> {
 
     /// Without an order of stops those that take no time are done on arrival.
     fn done_on(&self, place: Place, done: u64) -> u64 {
-        let here = self.body.stops_at(place) & !done;
-        if here == 0 || self.rules.ordered { done } else { done | self.body.has_no_duration(here) }
+        let here = self.model.stops_at(place) & !done;
+        if here == 0 || self.rules.ordered { done } else { done | self.model.has_no_duration(here) }
     }
 
     /// What it may do next where it is: in an order, or work.
     pub fn choices(&mut self, state: State) -> Vec<State> {
-        let done = self.body.done(state.done);
-        let mut open = self.body.stops_at(self.place(&state)) & !done;
+        let done = self.model.done(state.done);
+        let mut open = self.model.stops_at(self.place(&state)) & !done;
         if open == 0 || state.left > 0 { return Vec::new(); }
         open &= self.rules.allowed[done.count_ones() as usize];
-        let begin = |stop: usize| State { done: self.body.number(done | 1 << stop), left: self.body.stops[stop].duration, ..state };
+        let begin = |stop: usize| State { done: self.model.number(done | 1 << stop), left: self.model.stops[stop].duration, ..state };
         (0..64).filter(|stop| open >> stop & 1 == 1).map(begin).collect()
     }
 
@@ -61,7 +61,7 @@ impl Successors<'_> {
     }
 
     /// Nothing may follow: where the last stop in an order was done it rests.
-    pub fn over(&self, state: &State) -> bool { self.rules.ordered && self.body.rests_on_last && self.full(state) }
+    pub fn over(&self, state: &State) -> bool { self.rules.ordered && self.model.rests_on_last && self.full(state) }
 
     /// The states of the next time.
     pub fn steps(&mut self, state: State, time: u32) -> Vec<State> {
@@ -78,7 +78,7 @@ impl Successors<'_> {
 
     /// The first arrivals in other poses of who may stay to one time, and go on to another place up to one.
     pub fn go(&mut self, (state, interval, time): Arrival, (stays, leaves): (u32, u32), found: &mut Vec<Arrival>) {
-        let (from, poses) = (self.place(&state), self.body.poses.clone());
+        let (from, poses) = (self.place(&state), self.model.poses.clone());
         for &pose in poses.next(state.pose) {
             let to = poses.place(pose);
             if to == from {
@@ -87,9 +87,9 @@ impl Successors<'_> {
             }
             let (way, exit) = self.rules.passing(self.chains, state.way, from, to);
             let mut after = State { pose, way, ..state };
-            if self.body.stops_at(to) != 0 {
-                let done = self.done_on(to, self.body.done(state.done));
-                after.done = self.body.number(done);
+            if self.model.stops_at(to) != 0 {
+                let done = self.done_on(to, self.model.done(state.done));
+                after.done = self.model.number(done);
             }
             for interval in self.rules.ending(to, time + 1)..self.rules.intervals(to).end {
                 let (first, last) = self.rules.interval(interval);
@@ -108,7 +108,7 @@ impl Successors<'_> {
     }
 
     /// What remains at least.
-    pub fn remains(&self, state: &State) -> u32 { state.left + self.body.remains(state.done, state.pose) }
+    pub fn remains(&self, state: &State) -> u32 { state.left + self.model.remains(state.done, state.pose) }
 
     /// Whether it may rest with this state, on a place that is free from then on.
     pub fn rests(&self, state: &State) -> bool { state.way & EARLY == 0 && self.full(state) && self.remains(state) == 0 }

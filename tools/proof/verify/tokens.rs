@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //! The tokens of a line, and what is wrong with a certificate.
-use crate::body::NEVER;
+use crate::agent::NEVER;
 use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasherDefault, Hasher};
 

@@ -129,7 +129,7 @@ const FEWER: usize = 5;
 const FEW: usize = 11;
 const MOST_BEYOND: u32 = 200;
 
-pub struct Body {
+pub struct AgentModel {
     pub poses: Rc<Poses>,
     pub start: u32,
     /// The stop at which it is at work at time 0, and when that ends.
@@ -150,8 +150,8 @@ pub struct Body {
     now: usize,
 }
 
-impl Body {
-    pub fn of(instance: &Instance, agent: &Agent, poses: Rc<Poses>) -> Body {
+impl AgentModel {
+    pub fn of(instance: &Instance, agent: &Agent, poses: Rc<Poses>) -> AgentModel {
         let timed = |place| agent.tasks.iter().any(|&t| instance.tasks[t as usize].place == place && instance.tasks[t as usize].duration > 0);
         let mut stops: Vec<Stop> = Vec::new();
         let mut stops_at = vec![0u64; if agent.tasks.is_empty() { 0 } else { instance.world.links.len() }];
@@ -172,7 +172,7 @@ impl Body {
             (None, _) => stops.iter().flat_map(|stop| poses.on(stop.place)).map(|pose| (0, pose)).collect(),
         };
         let plain = |goal: &Place| agent.goal_heading.is_none() && !timed(*goal);
-        let mut body = Body {
+        let mut model = AgentModel {
             start: poses.pose(agent.start, agent.looks),
             working,
             rests_on_last: agent.goal.is_none() && stops.iter().all(|stop| stop.duration == 0),
@@ -187,11 +187,11 @@ impl Body {
             stops,
             stops_at,
         };
-        let on = |(stop, at): (usize, &Stop)| body.poses.on(at.place).map(move |pose| (stop, pose));
-        body.posts = body.stops.iter().enumerate().flat_map(on).collect();
-        let to: Vec<Vec<u32>> = body.posts.iter().map(|&(_, pose)| body.poses.spread(vec![(0, pose)])).collect();
-        body.ways = (0..body.poses.place.len()).flat_map(|pose| to.iter().map(move |row| row[pose])).collect();
-        body
+        let on = |(stop, at): (usize, &Stop)| model.poses.on(at.place).map(move |pose| (stop, pose));
+        model.posts = model.stops.iter().enumerate().flat_map(on).collect();
+        let to: Vec<Vec<u32>> = model.posts.iter().map(|&(_, pose)| model.poses.spread(vec![(0, pose)])).collect();
+        model.ways = (0..model.poses.place.len()).flat_map(|pose| to.iter().map(move |row| row[pose])).collect();
+        model
     }
 
     fn ways(&self, pose: u32) -> &[u32] { &self.ways[pose as usize * self.posts.len()..][..self.posts.len()] }
