@@ -143,7 +143,7 @@ pub struct AgentModel {
     ends: Vec<u32>,
     /// Stops with the poses in which they may be done; from each pose, the way to each of these.
     posts: Vec<(usize, u32)>,
-    ways: Vec<u32>,
+    distances: Vec<u32>,
     bound: Option<Bound>,
     /// Choices that were looked at, and the one that holds.
     choices: Vec<Choice>,
@@ -179,7 +179,7 @@ impl AgentModel {
             plain_goal: agent.goal.filter(plain),
             ends: poses.spread(ends),
             posts: Vec::new(),
-            ways: Vec::new(),
+            distances: Vec::new(),
             bound: None,
             choices: Vec::new(),
             now: 0,
@@ -190,11 +190,11 @@ impl AgentModel {
         let on = |(stop, at): (usize, &Stop)| model.poses.on(at.place).map(move |pose| (stop, pose));
         model.posts = model.stops.iter().enumerate().flat_map(on).collect();
         let to: Vec<Vec<u32>> = model.posts.iter().map(|&(_, pose)| model.poses.spread(vec![(0, pose)])).collect();
-        model.ways = (0..model.poses.place.len()).flat_map(|pose| to.iter().map(move |row| row[pose])).collect();
+        model.distances = (0..model.poses.place.len()).flat_map(|pose| to.iter().map(move |row| row[pose])).collect();
         model
     }
 
-    fn ways(&self, pose: u32) -> &[u32] { &self.ways[pose as usize * self.posts.len()..][..self.posts.len()] }
+    fn distances(&self, pose: u32) -> &[u32] { &self.distances[pose as usize * self.posts.len()..][..self.posts.len()] }
 
     pub fn all(&self) -> u64 { (1 << self.stops.len()) - 1 }
 
@@ -218,8 +218,8 @@ impl AgentModel {
         if self.choices.iter().map(size).sum::<usize>() > 4_000_000 { self.choices.clear(); }
         let mut bound = self.bound.take();
         let orders = Orders {
-            first: self.ways(self.start),
-            legs: self.posts.iter().flat_map(|&(_, pose)| self.ways(pose)).copied().collect(),
+            first: self.distances(self.start),
+            legs: self.posts.iter().flat_map(|&(_, pose)| self.distances(pose)).copied().collect(),
             last: self.posts.iter().map(|&(_, pose)| self.ends[pose as usize]).collect(),
             durations: self.stops.iter().map(|stop| stop.duration).collect(),
             working: self.working.map(|(stop, end)| (stop as usize, stop * self.poses.each + self.start % self.poses.each, end)),
@@ -266,10 +266,10 @@ impl AgentModel {
     pub fn remains(&self, number: u32, pose: u32) -> u32 {
         let Done { stops, rest } = &self.choices[self.now].done[number as usize];
         if *stops == self.all() { return self.ends[pose as usize]; }
-        let (ways, mut least) = (self.ways(pose), NEVER);
+        let (distances, mut least) = (self.distances(pose), NEVER);
         for &(rest, post) in rest.iter().take_while(|rest| rest.0 < NEVER) {
             if rest >= least { break; }
-            least = least.min(rest + ways[post as usize]);
+            least = least.min(rest + distances[post as usize]);
         }
         least
     }

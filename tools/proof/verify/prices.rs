@@ -55,8 +55,8 @@ impl Prices {
 
     /// Of a step that arrives at a time.
     fn step(&self, from: Place, to: Place, time: u32) -> u64 {
-        let way = if from == to { self.stay.get(&(from, time)) } else { self.go.get(&(from.min(to), from.max(to), time)) };
-        way.unwrap_or(&0) + self.at.get(&(to, time)).unwrap_or(&0)
+        let edge = if from == to { self.stay.get(&(from, time)) } else { self.go.get(&(from.min(to), from.max(to), time)) };
+        edge.unwrap_or(&0) + self.at.get(&(to, time)).unwrap_or(&0)
     }
 
     /// Of the end, there and then, for ever.

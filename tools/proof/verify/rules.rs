@@ -84,8 +84,8 @@ struct Mark {
 }
 
 /// How an agent stands where it is: whether it came too early to rest there; 4 or 8: by which side it entered the chain.
-pub type Way = u8;
-pub const EARLY: Way = 1;
+pub type Flags = u8;
+pub const EARLY: Flags = 1;
 
 #[derive(Default)]
 pub struct Rules {
@@ -200,16 +200,16 @@ impl Rules {
     /// Before this time one does not arrive on the place to rest there.
     pub fn rest_from(&self, place: Place) -> u32 { self.marked(place).map_or(0, |mark| mark.rest) }
 
-    pub fn arrived(&self, place: Place, time: u32) -> Way { if time < self.rest_from(place) { EARLY } else { 0 } }
+    pub fn arrived(&self, place: Place, time: u32) -> Flags { if time < self.rest_from(place) { EARLY } else { 0 } }
 
     /// How it stands in chains after a step between two places, and the chain and side by which it leaves after a traverse.
-    pub fn passing(&self, chains: &Chains, way: Way, from: Place, to: Place) -> (Way, Option<(u32, u8)>) {
+    pub fn passing(&self, chains: &Chains, flags: Flags, from: Place, to: Place) -> (Flags, Option<(u32, u8)>) {
         let known = |place: Place| Some(chains.of[place as usize]).filter(|&chain| self.passes.iter().any(|pass| pass.0 == chain));
         if self.passes.is_empty() { return (0, None); }
         let (of, into) = (known(from), known(to));
-        if into.is_some() { return (if of == into { way & !EARLY } else { chains.side(to, from) << 2 }, None); }
+        if into.is_some() { return (if of == into { flags & !EARLY } else { chains.side(to, from) << 2 }, None); }
         let exit = of.map(|chain| (chain, chains.side(from, to)));
-        (0, exit.filter(|&(_, side)| way >> 2 != 0 && way >> 2 != side))
+        (0, exit.filter(|&(_, side)| flags >> 2 != 0 && flags >> 2 != side))
     }
 
     /// The first time from `lo` to `hi` at which it may arrive by this step.

@@ -69,7 +69,7 @@ impl Search {
             self.table = vec![[0; 4]; (4 * self.labels.len() + 2048).next_power_of_two()];
             for kind in old { if kind[3] >> 4 == self.searches { self.put(kind); } }
         }
-        self.put([state.pose, state.done, interval, self.searches << 4 | u32::from(state.way)])
+        self.put([state.pose, state.done, interval, self.searches << 4 | u32::from(state.flags)])
     }
 
     fn put(&mut self, kind: [u32; 4]) -> bool {

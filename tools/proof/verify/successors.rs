@@ -2,7 +2,7 @@
 //! One agent under constraints: what it may be in, and its steps.
 use crate::agent::{AgentModel, NEVER};
 use crate::instance::Place;
-use crate::rules::{Chains, Rules, Way, EARLY};
+use crate::rules::{Chains, Rules, Flags, EARLY};
 
 /// A pose, the number of the set of stops done, how it stands, and for how long it is still at work on the last of these.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -10,7 +10,7 @@ pub struct State {
     pub pose: u32,
     pub done: u32,
     pub left: u32,
-    pub way: Way,
+    pub flags: Flags,
 }
 
 /// A state at a time, with the interval of time in which its place is free.
@@ -33,7 +33,7 @@ impl Successors<'_> {
         let works = stop == 0 || self.rules.allowed[0] & stop != 0;
         if works && self.rules.holding(place, 0).is_some() {
             let done = self.done_on(place, 0) | stop;
-            let state = State { pose, done: self.model.number(done), left, way: self.rules.arrived(place, 0) };
+            let state = State { pose, done: self.model.number(done), left, flags: self.rules.arrived(place, 0) };
             self.arrive(state, &mut found);
         }
         found
@@ -85,8 +85,8 @@ impl Successors<'_> {
                 if time < stays { found.push((State { pose, ..state }, interval, time + 1)); }
                 continue;
             }
-            let (way, exit) = self.rules.passing(self.chains, state.way, from, to);
-            let mut after = State { pose, way, ..state };
+            let (flags, exit) = self.rules.passing(self.chains, state.flags, from, to);
+            let mut after = State { pose, flags, ..state };
             if self.model.stops_at(to) != 0 {
                 let done = self.done_on(to, self.model.done(state.done));
                 after.done = self.model.number(done);
@@ -97,7 +97,7 @@ impl Successors<'_> {
                 let (first, last) = (first.max(time + 1), last.min(leaves + 1));
                 if let Some(time) = self.rules.arrival(from, to, exit, first, last) {
                     let early = self.rules.arrived(to, time);
-                    found.push((State { way: way | early, ..after }, interval, time));
+                    found.push((State { flags: flags | early, ..after }, interval, time));
                     if early != 0 {
                         let time = self.rules.arrival(from, to, exit, self.rules.rest_from(to).max(first), last);
                         found.extend(time.map(|time| (after, interval, time)));
@@ -111,7 +111,7 @@ impl Successors<'_> {
     pub fn remains(&self, state: &State) -> u32 { state.left + self.model.remains(state.done, state.pose) }
 
     /// Whether it may rest with this state, on a place that is free from then on.
-    pub fn rests(&self, state: &State) -> bool { state.way & EARLY == 0 && self.full(state) && self.remains(state) == 0 }
+    pub fn rests(&self, state: &State) -> bool { state.flags & EARLY == 0 && self.full(state) && self.remains(state) == 0 }
 
     pub fn may_end(&self, state: &State, time: u32) -> bool {
         let holding = self.rules.holding(self.place(state), time);
