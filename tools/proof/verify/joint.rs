@@ -13,11 +13,11 @@ struct Point {
     least: u32,
 }
 
-/// Of each time the points of one agent; where the cost has no cap, all times from `settled` on are one.
+/// Of each time the points of one agent; where the cost has no cap, all times from `horizon` on are one.
 pub struct Layers(Vec<Vec<Point>>);
 
 impl Layers {
-    pub fn of(successors: &mut Successors, cap: u32, settled: u32) -> Layers {
+    pub fn of(successors: &mut Successors, cap: u32, horizon: u32) -> Layers {
         assert!(successors.model.reach(cap), "orders of many tasks, too far from the best one");
         let (mut layers, mut time) = (Vec::new(), 0);
         let keep = |successors: &Successors, state: &State, time: u32| {
@@ -27,7 +27,7 @@ impl Layers {
         let mut states: Vec<State> = successors.starts().into_iter().filter(|state| keep(successors, state, 0)).collect();
         let mut known: Map<State, u32> = states.iter().copied().zip(0..).collect();
         loop {
-            let steady = cap == NEVER && time == settled;
+            let steady = cap == NEVER && time == horizon;
             let (mut points, mut later, mut found) = (Vec::new(), Vec::new(), Map::default());
             while points.len() < states.len() {
                 let state = states[points.len()];
@@ -73,7 +73,7 @@ pub struct Joint {
     pub layers: Vec<Layers>,
     /// Only sums of costs below this matter; without it, costs do not.
     pub limit: Option<u64>,
-    pub settled: u32,
+    pub horizon: u32,
     pub following: bool,
 }
 
@@ -103,7 +103,7 @@ impl Joint {
                 }
                 if self.extend(&Node { key, time, least }, &mut Vec::new(), (spent, 0), &mut later) { return false; }
             }
-            if self.limit.is_none() && time == self.settled {
+            if self.limit.is_none() && time == self.horizon {
                 later.retain(|key: &Vec<u32>, _| seen.insert(key.clone()));
             } else {
                 time += 1;
@@ -130,7 +130,7 @@ impl Joint {
         let now = node.key[agent];
         if now >= RESTS { return self.choose(node, chosen, (now, now - RESTS, now - RESTS), costs, later); }
         let point = self.point(agent, node.time, now);
-        let to = if self.limit.is_none() { self.settled.min(node.time + 1) } else { node.time + 1 };
+        let to = if self.limit.is_none() { self.horizon.min(node.time + 1) } else { node.time + 1 };
         let end = if self.limit.is_none() { 0 } else { u64::from(node.time) };
         if point.ends && self.choose(node, chosen, (point.place + RESTS, point.place, point.place), (costs.0 + end, costs.1), later) {
             return true;

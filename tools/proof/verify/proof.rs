@@ -331,14 +331,14 @@ impl Verifier {
 
     /// No joint paths of these agents cost up to so much each, and less than a limit together.
     fn none_joint(&mut self, agents: &[u32], caps: &[u32], limit: Option<u64>) -> bool {
-        let (mut settled, mut layers) = (1, Vec::new());
+        let (mut horizon, mut layers) = (1, Vec::new());
         for &agent in agents {
             let (met, successors) = self.successors(agent);
             if !met { return true; }
-            settled = settled.max(successors.rules.settled);
+            horizon = horizon.max(successors.rules.horizon);
         }
-        for (&agent, &cap) in agents.iter().zip(caps) { layers.push(Layers::of(&mut self.successors(agent).1, cap, settled)); }
-        Joint { layers, limit, settled, following: self.following }.finds_none()
+        for (&agent, &cap) in agents.iter().zip(caps) { layers.push(Layers::of(&mut self.successors(agent).1, cap, horizon)); }
+        Joint { layers, limit, horizon, following: self.following }.finds_none()
     }
 
     fn prices(&mut self, of: &Lemma) -> Result<(), Fault> {

@@ -98,7 +98,7 @@ pub struct Rules {
     pub allowed: Vec<u64>,
     pub ordered: bool,
     /// After all finite times of constraints.
-    pub settled: u32,
+    pub horizon: u32,
 }
 
 impl Rules {
@@ -122,13 +122,13 @@ impl Rules {
         self.allowed.clear();
         self.allowed.resize(model.stops.len(), model.all());
         self.ordered = false;
-        self.settled = 1;
+        self.horizon = 1;
         let mut bars: Vec<(Place, u32, u32)> = Vec::new();
         let mut rest: Option<(Place, u32)> = None;
         for constraint in constraints {
             let Constraint { kind, p, q, s, e, .. } = *constraint;
             let last = if e == NEVER { s } else { e };
-            self.settled = self.settled.max(last + 1);
+            self.horizon = self.horizon.max(last + 1);
             match kind {
                 Kind::Bar => bars.push((p, s, e)),
                 Kind::Move => {
