@@ -125,9 +125,9 @@ struct Choice {
 }
 
 /// Of up to so many stops all sets are looked at, at once or when need be; of more, only what costs not much more than the best order.
-const FEWER: usize = 5;
-const FEW: usize = 11;
-const MOST_BEYOND: u32 = 200;
+const MAX_STOPS_AT_ONCE: usize = 5;
+const MAX_STOPS_COMPLETE: usize = 11;
+const MAX_EXCESS: u32 = 200;
 
 pub struct AgentModel {
     pub poses: Rc<Poses>,
@@ -208,7 +208,7 @@ impl AgentModel {
     pub fn choose(&mut self, allowed: &[u64]) {
         match self.choices.iter().position(|choice| choice.allowed == allowed) {
             Some(known) => self.now = known,
-            None => self.look(allowed.to_vec(), if self.stops.len() <= FEWER { NEVER } else { 0 }),
+            None => self.look(allowed.to_vec(), if self.stops.len() <= MAX_STOPS_AT_ONCE { NEVER } else { 0 }),
         }
     }
 
@@ -237,8 +237,8 @@ impl AgentModel {
 
     /// Raises the limit to a cost, if that is not too much.
     pub fn reach(&mut self, cost: u32) -> bool {
-        let few = self.stops.len() <= FEW;
-        if self.limit() < cost && (few || cost < self.choices[self.now].least + MOST_BEYOND) {
+        let few = self.stops.len() <= MAX_STOPS_COMPLETE;
+        if self.limit() < cost && (few || cost < self.choices[self.now].least + MAX_EXCESS) {
             let Choice { allowed, limit, least, .. } = self.choices.swap_remove(self.now);
             self.look(allowed, if few { NEVER } else { cost.max(limit + ((limit - least) / 4).max(2)) });
         }

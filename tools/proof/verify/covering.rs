@@ -5,7 +5,7 @@
 pub type Need = (Vec<u32>, u64);
 
 /// More nodes of a search than this are too many: then what is found at once must do.
-const MOST_NODES: u32 = 200_000;
+const MAX_NODES: u32 = 200_000;
 
 /// A lower bound of the sum of all numbers: the least, if that is not too hard to find.
 pub fn least(mut needs: Vec<Need>) -> u64 {
@@ -23,7 +23,7 @@ pub fn least(mut needs: Vec<Need>) -> u64 {
         part.sort_unstable_by(|one, two| two.1.cmp(&one.1));
         let mut search = Search { best: u64::MAX, nodes: 0 };
         search.descend(&part, 0);
-        sum += if search.nodes <= MOST_NODES { search.best } else { packing(&part) };
+        sum += if search.nodes <= MAX_NODES { search.best } else { packing(&part) };
     }
     sum
 }
@@ -45,7 +45,7 @@ struct Search {
 impl Search {
     fn descend(&mut self, needs: &[Need], spent: u64) {
         self.nodes += 1;
-        if self.nodes > MOST_NODES || spent + packing(needs) >= self.best { return; }
+        if self.nodes > MAX_NODES || spent + packing(needs) >= self.best { return; }
         if needs.is_empty() {
             self.best = spent;
             return;

@@ -47,8 +47,8 @@ struct Road {
 }
 
 const HEADINGS: &str = "NESW";
-const MOST_PLACES: u64 = 1 << 26;
-const MOST_TASKS: usize = 64;
+const MAX_PLACES: u64 = 1 << 26;
+const MAX_TASKS: usize = 64;
 
 fn need<T>(value: Option<T>, at: &str, what: &str) -> Result<T, String> {
     value.ok_or_else(|| format!("{}: expected {}", at, what))
@@ -95,7 +95,7 @@ impl World {
         let side = |name: &str| sides.iter().find_map(|line| line.strip_prefix(name)).and_then(whole).filter(|&n| n > 0);
         let (height, width) = need(side("height ").zip(side("width ")).filter(|_| octile), "its head", "type octile, height, width")?;
         need(Some(()).filter(|_| head() == "map"), "line 4", "map")?;
-        let places = need(u64::from(height).checked_mul(u64::from(width)).filter(|&n| n <= MOST_PLACES), "its head", "fewer cells")?;
+        let places = need(u64::from(height).checked_mul(u64::from(width)).filter(|&n| n <= MAX_PLACES), "its head", "fewer cells")?;
         let mut world = World::of(places, (width, height));
         *sum += &format!("grid {} {}\n", width, height);
         for y in 0..height {
@@ -158,7 +158,7 @@ impl Names {
             let one_way = match edge.get("one_way") { None => Some(false), Some(Json::Bool(value)) => Some(*value), _ => None };
             both_ways.push(!need(one_way, &at, "one_way true or false")?);
             names.roads.push(Road { from, to, steps, inner: places as u32 });
-            places = need(Some(places + u64::from(steps) - 1).filter(|&n| n <= MOST_PLACES), &at, "fewer places")?;
+            places = need(Some(places + u64::from(steps) - 1).filter(|&n| n <= MAX_PLACES), &at, "fewer places")?;
             *sum += &format!("{} {} {} {}\n", from, to, steps, u32::from(!both_ways[number]));
         }
         let mut world = World::of(places, (0, 0));
@@ -326,7 +326,7 @@ impl Instance {
                 let agent = *need(id.text().and_then(|id| agent_ids.get(id)), &at, "ids of agents")?;
                 let own: &mut Vec<u32> = &mut agents[agent as usize].tasks;
                 need(Some(()).filter(|_| own.last() != Some(&(number as u32))), &at, "no agent twice")?;
-                need(Some(()).filter(|_| own.len() < MOST_TASKS), &at, "64 tasks of an agent at most")?;
+                need(Some(()).filter(|_| own.len() < MAX_TASKS), &at, "64 tasks of an agent at most")?;
                 own.push(number as u32);
                 ends += &format!(" {}", agent);
             }

@@ -12,7 +12,7 @@ pub enum Json {
 }
 
 /// Objects and lists within each other, at most.
-const DEPTH: usize = 32;
+const MAX_DEPTH: usize = 32;
 
 impl Json {
     pub fn parse(bytes: &[u8]) -> Result<Json, String> {
@@ -65,7 +65,7 @@ impl Parser<'_> {
     fn value(&mut self, depth: usize) -> Option<Json> {
         self.blanks();
         match self.peek() {
-            b'{' | b'[' if depth >= DEPTH => None,
+            b'{' | b'[' if depth >= MAX_DEPTH => None,
             b'{' => {
                 let mut members: Vec<(String, Json)> = Vec::new();
                 self.items("}", |parser| {

@@ -78,9 +78,9 @@ fn arguments() -> Result<Arguments, String> {
     let mut found = Arguments { files: Vec::new(), agents: None, map: None, seconds: None, confine: false, stats: false };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
-        let mut number = |most: f64| {
-            let value = words.next().and_then(|word| word.parse().ok()).filter(|&value: &f64| value > 0.0 && value <= most);
-            value.ok_or_else(|| format!("{}: expected a number above 0, at most {}", word, most))
+        let mut number = |max: f64| {
+            let value = words.next().and_then(|word| word.parse().ok()).filter(|&value: &f64| value > 0.0 && value <= max);
+            value.ok_or_else(|| format!("{}: expected a number above 0, at most {}", word, max))
         };
         match word.as_str() {
             "--time-limit" => found.seconds = Some(number(1e9)?),

@@ -7,7 +7,7 @@ use crate::tokens::Map;
 const SLACK: u32 = 2;
 
 /// With more of them known it begins anew.
-const MOST_TREES: usize = 4_000_000;
+const MAX_TREES: usize = 4_000_000;
 
 /// Stops may be done in several poses each: these are posts, (stop, pose).
 pub struct Orders<'a> {
@@ -30,7 +30,7 @@ impl Orders<'_> {
     pub fn after(&self, bound: &mut Option<Bound>, wanted: u32) -> (After, u32, u32) {
         if wanted == NEVER { return (self.within(NEVER, None).0, NEVER, 0); }
         let bound = bound.get_or_insert_with(|| Bound::of(self));
-        if bound.trees.len() > MOST_TREES { bound.trees = Map::default(); }
+        if bound.trees.len() > MAX_TREES { bound.trees = Map::default(); }
         let mut limit = wanted.max(bound.root + SLACK);
         loop {
             let (after, least, dropped) = self.within(limit, Some(bound));
@@ -102,7 +102,7 @@ pub struct Bound {
 }
 
 /// There is no way; sums of what there is stay below.
-const NO_WAY: i64 = 1 << 50;
+const UNREACHABLE: i64 = 1 << 50;
 
 /// Whole steps, of 64ths.
 fn whole(value: i64) -> u32 { ((value.max(0) + 63) / 64).min(i64::from(NEVER) - 1) as u32 }
@@ -120,9 +120,9 @@ impl Bound {
     fn of(orders: &Orders) -> Bound {
         let count = orders.durations.len();
         let (nodes, end, start, all) = (count + 2, count, count + 1, (1 << count) - 1);
-        let mut plain = vec![NO_WAY; nodes * nodes];
+        let mut plain = vec![UNREACHABLE; nodes * nodes];
         let mut put = |one: usize, two: usize, cost: u32| {
-            let cost = if cost < NEVER { i64::from(cost) * 64 } else { NO_WAY };
+            let cost = if cost < NEVER { i64::from(cost) * 64 } else { UNREACHABLE };
             for at in [one * nodes + two, two * nodes + one] { plain[at] = cost.min(plain[at]); }
         };
         for (from, &(one, _)) in orders.posts.iter().enumerate() {
@@ -144,7 +144,7 @@ impl Bound {
         }
         bound.prices = best.1;
         bound.set_costs(&plain);
-        bound.root = if best.0 < NO_WAY / 2 { whole(best.0) + orders.durations.iter().sum::<u32>() } else { 0 };
+        bound.root = if best.0 < UNREACHABLE / 2 { whole(best.0) + orders.durations.iter().sum::<u32>() } else { 0 };
         bound
     }
 
@@ -201,6 +201,6 @@ impl Bound {
             });
         }
         value += edge - self.prices[last];
-        if value < NO_WAY / 2 { whole(value) } else { NEVER }
+        if value < UNREACHABLE / 2 { whole(value) } else { NEVER }
     }
 }

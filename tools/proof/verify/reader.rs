@@ -47,7 +47,7 @@ impl<R: BufRead> Read for Zstd<R> {
     }
 }
 
-const LONGEST_LINE: u64 = 1 << 22;
+const MAX_LINE: u64 = 1 << 22;
 
 pub struct Lines {
     source: Box<dyn BufRead>,
@@ -72,7 +72,7 @@ impl Lines {
     pub fn next(&mut self) -> Result<Option<&str>, String> {
         self.number += 1;
         self.line.clear();
-        let read = self.source.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut self.line);
+        let read = self.source.by_ref().take(MAX_LINE).read_until(b'\n', &mut self.line);
         match read.map_err(|error| error.to_string())? {
             0 => Ok(None),
             _ if self.line.pop() != Some(b'\n') => Err("expected the end of a line".to_string()),
