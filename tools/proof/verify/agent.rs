@@ -208,12 +208,12 @@ impl AgentModel {
     pub fn choose(&mut self, allowed: &[u64]) {
         match self.choices.iter().position(|choice| choice.allowed == allowed) {
             Some(known) => self.now = known,
-            None => self.look(allowed.to_vec(), if self.stops.len() <= MAX_STOPS_AT_ONCE { NEVER } else { 0 }),
+            None => self.add_choice(allowed.to_vec(), if self.stops.len() <= MAX_STOPS_AT_ONCE { NEVER } else { 0 }),
         }
     }
 
     /// What remains with this choice, in paths up to a limit at least.
-    fn look(&mut self, allowed: Vec<u64>, wanted: u32) {
+    fn add_choice(&mut self, allowed: Vec<u64>, wanted: u32) {
         let size = |choice: &Choice| 10_000 + choice.after.len() + 5 * choice.done.len();
         if self.choices.iter().map(size).sum::<usize>() > 4_000_000 { self.choices.clear(); }
         let mut bound = self.bound.take();
@@ -236,11 +236,11 @@ impl AgentModel {
     pub fn limit(&self) -> u32 { self.choices[self.now].limit }
 
     /// Raises the limit to a cost, if that is not too much.
-    pub fn reach(&mut self, cost: u32) -> bool {
+    pub fn raise_limit(&mut self, cost: u32) -> bool {
         let few = self.stops.len() <= MAX_STOPS_COMPLETE;
         if self.limit() < cost && (few || cost < self.choices[self.now].least + MAX_EXCESS) {
             let Choice { allowed, limit, least, .. } = self.choices.swap_remove(self.now);
-            self.look(allowed, if few { NEVER } else { cost.max(limit + ((limit - least) / 4).max(2)) });
+            self.add_choice(allowed, if few { NEVER } else { cost.max(limit + ((limit - least) / 4).max(2)) });
         }
         self.limit() >= cost
     }

@@ -18,7 +18,7 @@ pub struct Layers(Vec<Vec<Point>>);
 
 impl Layers {
     pub fn of(successors: &mut Successors, cap: u32, horizon: u32) -> Layers {
-        assert!(successors.model.reach(cap), "orders of many tasks, too far from the best one");
+        assert!(successors.model.raise_limit(cap), "orders of many tasks, too far from the best one");
         let (mut layers, mut time) = (Vec::new(), 0);
         let keep = |successors: &Successors, state: &State, time: u32| {
             let remains = successors.remains(state);

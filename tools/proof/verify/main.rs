@@ -32,17 +32,17 @@ Exit code 0, 'verified: ...': no valid plan of the instance costs less than the 
 static LINE: AtomicU64 = AtomicU64::new(0);
 static USED: AtomicU64 = AtomicU64::new(0);
 static LIMIT: AtomicU64 = AtomicU64::new(4_000_000_000);
-static SAID: AtomicBool = AtomicBool::new(false);
+static ENDED: AtomicBool = AtomicBool::new(false);
 
 /// Ends the program with its verdict: whoever is first.
-fn say(code: i32, text: &str) -> ! {
-    if SAID.swap(true, Ordering::SeqCst) { std::thread::sleep(Duration::from_secs(60)); }
+fn end(code: i32, text: &str) -> ! {
+    if ENDED.swap(true, Ordering::SeqCst) { std::thread::sleep(Duration::from_secs(60)); }
     use std::io::Write;
     let _ = writeln!(std::io::stdout(), "{}", text);
     std::process::exit(code)
 }
 
-fn refuse(reason: &str) -> ! { say(1, &format!("refused: line {}: {}", LINE.load(Ordering::Relaxed), reason)) }
+fn refuse(reason: &str) -> ! { end(1, &format!("refused: line {}: {}", LINE.load(Ordering::Relaxed), reason)) }
 
 /// Counts what is allocated.
 struct Counting;
@@ -143,5 +143,5 @@ fn main() {
     // Its own stack: the least cover and joint search call themselves for each agent.
     let worker = std::thread::Builder::new().stack_size(1 << 29).spawn(move || verify(&arguments));
     let (code, text) = worker.expect("a thread").join().unwrap_or_else(|_| refuse("it could not be checked"));
-    say(code, &text)
+    end(code, &text)
 }

@@ -278,11 +278,11 @@ impl Verifier {
     }
 
     /// If it is not known what an agent costs, but that it is more than a limit: raises that.
-    fn look_further(&mut self, agent: u32) -> bool {
+    fn raise_limit(&mut self, agent: u32) -> bool {
         let last = self.known[agent as usize].last().map_or(NEVER, |last| if last.path.is_empty() { last.cost } else { NEVER });
         if last == NEVER { return false; }
         self.known[agent as usize].retain(|known| !known.path.is_empty());
-        self.successors(agent).1.model.reach(last)
+        self.successors(agent).1.model.raise_limit(last)
     }
 
     fn leaf(&mut self, names: &str, of: &Lemma) -> Result<(), Fault> {
@@ -307,7 +307,7 @@ impl Verifier {
         };
         let more = crate::covering::least(named.into_iter().map(more_than_costs).collect());
         let proven = costs.contains(&NEVER) || sum + more >= of.bound;
-        if !proven && of.agents.iter().filter(|&&agent| self.look_further(agent)).count() > 0 { return self.leaf(names, of); }
+        if !proven && of.agents.iter().filter(|&&agent| self.raise_limit(agent)).count() > 0 { return self.leaf(names, of); }
         ensure(proven, format!("costs {} and {} by lemmas, expected {}", sum, more, text(of.bound)))
     }
 
