@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-//! Covering (docs/proof.md, 4, leaf): whole numbers, one for each agent, of which some sums must reach what lemmas say.
+//! Covering problem of a leaf (docs/proof.md, section 4): a whole number for each agent, so that for each lemma the numbers of its agents
+//! sum up to at least the bound of the lemma. The sum of all numbers is minimised.
 
-/// Agents whose numbers together are at least so much.
+/// Agents, and a lower bound on the sum of their numbers.
 pub type Row = (Vec<u32>, u64);
 
-/// More nodes of a search than this are too many: then what is found at once must do.
+/// Node limit of a search. If it is exceeded, the bound of packing() is used.
 const MAX_NODES: u32 = 200_000;
 
-/// A lower bound of the sum of all numbers: the least, if that is not too hard to find.
+/// Returns a lower bound on the sum of all numbers. It is the minimum, unless a search exceeds MAX_NODES.
 pub fn least(mut rows: Vec<Row>) -> u64 {
     rows.retain(|row| row.1 > 0);
     rows.sort_unstable_by(|one, two| two.1.cmp(&one.1));
@@ -28,7 +29,7 @@ pub fn least(mut rows: Vec<Row>) -> u64 {
     sum
 }
 
-/// What rows without a common agent add up to.
+/// Returns the sum of the bounds of rows without common agents, chosen greedily.
 fn packing(rows: &[Row]) -> u64 {
     let mut taken: Vec<&Row> = Vec::new();
     for row in rows {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! Instances with their maps and roadmaps (docs/formats.md), places and links, and the checksum of it all (docs/proof.md, 1 and 6).
+//! Instances with their maps and roadmaps (docs/formats.md), places and links, and the checksum (docs/proof.md, sections 1 and 6).
 use crate::json::Json;
 use crate::keys;
 use std::collections::{HashMap, HashSet};
@@ -20,9 +20,10 @@ pub struct Agent {
     pub start: Place,
     pub goal: Option<Place>,
     pub turn: u32,
-    /// Heading at the start, the one it turns to, steps of that done: 0..4 are N, E, S, W.
+    /// Heading at the start, the heading that the agent turns to, and the steps of this turn that are done. 0 to 3: N, E, S, W.
     pub looks: (u32, u32, u32),
     pub goal_heading: Option<u32>,
+    /// The task that the agent works on at the start, and the steps of it that are done.
     pub working: Option<(u32, u32)>,
     pub tasks: Vec<u32>,
 }
@@ -58,7 +59,7 @@ fn heading(value: &Json) -> Option<u32> {
     value.text().filter(|text| text.len() == 1).and_then(|text| HEADINGS.find(text)).map(|found| found as u32)
 }
 
-/// A number in digits alone.
+/// Parses a number that consists of digits only.
 fn whole(word: &str) -> Option<u32> { word.parse().ok().filter(|_| word.bytes().all(|byte| byte.is_ascii_digit())) }
 
 impl World {
@@ -74,7 +75,7 @@ impl World {
         add(&mut self.neighbours[to as usize], from);
     }
 
-    /// The cell ahead of one, if it is there and passable.
+    /// Returns the next cell in a direction. Returns None at the edge of the map, or if that cell is blocked.
     pub fn ahead(&self, cell: Place, heading: u32) -> Option<Place> {
         let (width, height) = self.size;
         let next = match heading {
@@ -121,7 +122,7 @@ impl Road {
     }
 }
 
-/// The ids of a list, with their numbers.
+/// Returns the number of each id in a list.
 fn ids(json: &Json, key: &str) -> Result<HashMap<String, u32>, String> {
     let mut ids = HashMap::new();
     for (number, value) in require(json.get(key).and_then(Json::list), key, "a list")?.iter().enumerate() {
@@ -131,7 +132,7 @@ fn ids(json: &Json, key: &str) -> Result<HashMap<String, u32>, String> {
     Ok(ids)
 }
 
-/// What names of places mean: on a map, none have one.
+/// Named places of a roadmap. Places of a map have no names.
 #[derive(Default)]
 struct Names {
     vertices: HashMap<String, Place>,
@@ -172,13 +173,13 @@ impl Names {
         Ok((world, names))
     }
 
-    /// "A" or ["A"].
+    /// Parses a vertex: "A" or ["A"].
     fn vertex(&self, value: &Json) -> Option<Place> {
         let id = value.list().filter(|parts| parts.len() == 1).map_or(value, |parts| &parts[0]);
         self.vertices.get(id.text()?).copied()
     }
 
-    /// A vertex, or a place within a road: ["A", "B", steps], and the road's number where several join the two.
+    /// Parses a vertex, or a place within a road: ["A", "B", steps], with the road's number as fourth element if several roads join A and B.
     fn place(&self, value: &Json) -> Option<Place> {
         let (parts, number) = match value.list() {
             Some(parts @ [_, _, _]) => (parts, None),
@@ -193,14 +194,14 @@ impl Names {
         Some(road.place(if road.from == from { step } else { road.steps - step }))
     }
 
-    /// Where tasks and goals are: a cell, or a vertex.
+    /// Parses the place of a task or a goal: a cell or a vertex.
     fn end(&self, world: &World, value: Option<&Json>, at: &str) -> Result<Place, String> {
         if world.size.0 == 0 { return require(value.and_then(|value| self.vertex(value)), at, "a vertex"); }
         let (place, looks) = self.find(world, value, at)?;
         require(Some(place).filter(|_| looks.is_none()), at, "a cell without a heading")
     }
 
-    /// The place that is named, and headings if there are any.
+    /// Parses a place, and headings if it has any.
     fn find(&self, world: &World, value: Option<&Json>, at: &str) -> Result<(Place, Option<(u32, u32, u32)>), String> {
         let (width, height) = world.size;
         if width == 0 { return Ok((require(value.and_then(|value| self.place(value)), at, "a vertex, or a place on a road")?, None)); }
@@ -236,7 +237,7 @@ impl Names {
     }
 }
 
-/// The first rows of a scenario, all of one map, as an instance.
+/// Converts the first `count` rows of a scenario to an instance. All rows must name one map.
 fn scenario(text: &str, count: u32) -> Result<Json, String> {
     let (mut lines, mut agents, mut same) = (text.lines().zip(1..), Vec::new(), None);
     let mut row = |what: &str| -> Result<(Vec<&str>, String), String> {
@@ -262,7 +263,7 @@ fn scenario(text: &str, count: u32) -> Result<Json, String> {
     Ok(object(map.into_iter().chain([("agents", Json::List(agents)), ("tasks", Json::List(Vec::new()))]).collect()))
 }
 
-/// The file of this name in the folder of `path` or below it, wherever links lead.
+/// Returns the file `name` with all symbolic links resolved, if it is in the folder of `path` or below.
 fn confined(path: &Path, name: &str) -> Result<PathBuf, String> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let inside = |folder: PathBuf| folder.join(name).canonicalize().ok().filter(|real| !Path::new(name).is_absolute() && real.starts_with(&folder) && real.is_file());
@@ -270,7 +271,8 @@ fn confined(path: &Path, name: &str) -> Result<PathBuf, String> {
 }
 
 impl Instance {
-    /// Of a file; a scenario's first rows are so many agents, on this map or that which they name.
+    /// Reads an instance. With `agents`, the file is a scenario and its first `agents` rows are the agents. `map` replaces the map that
+    /// the file names.
     pub fn read(path: &Path, agents: Option<u32>, map: Option<&Path>, confine: bool) -> Result<Instance, String> {
         let read = |path: &Path| {
             let bytes = std::fs::read(path).map_err(|error| format!("{}: {}", path.display(), error))?;

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
-//! Joint search: for each agent what it may be in at each time, in layers; then sets of such, one for each agent, from time to time.
+//! Joint search. For each agent, layers hold the states that it may be in at each time. The search goes through sets of states, one for
+//! each agent, from one time to the next.
 use crate::agent::NEVER;
 use crate::instance::Place;
 use crate::successors::{State, Successors};
 use crate::tokens::{Map, Set};
 
+/// A state of an agent at a time: its place, the points of the next time that may follow, and whether a path may end here.
 struct Point {
     place: Place,
     next: Vec<u32>,
     ends: bool,
-    /// The least cost of a path through it, if costs matter.
+    /// The least cost of a path through this point; 0 if costs have no cap.
     least: u32,
 }
 
-/// Of each time the points of one agent; where the cost has no cap, all times from `horizon` on are one.
+/// The points of one agent at each time. If costs have no cap, the last layer stands for all times from `horizon` on.
 pub struct Layers(Vec<Vec<Point>>);
 
 impl Layers {
@@ -66,26 +68,27 @@ impl Layers {
     }
 }
 
-/// In a set of points: an agent that rests on this place for ever.
+/// In a set of points: RESTS + place stands for an agent that rests on this place for ever.
 const RESTS: u32 = 1 << 31;
 
 pub struct Joint {
     pub layers: Vec<Layers>,
-    /// Only sums of costs below this matter; without it, costs do not.
+    /// Only plans with a sum of costs below this limit are searched for. None: costs do not matter.
     pub limit: Option<u64>,
     pub horizon: u32,
     pub following: bool,
 }
 
-/// A set of points at a time.
+/// A set of points at a time, one for each agent.
 struct Node<'a> {
     key: &'a [u32],
     time: u32,
-    /// Of agents from each on: the least that those cost that are not at rest.
+    /// For each agent: a lower bound on the costs of this agent and those after it, without agents at rest.
     least: Vec<u64>,
 }
 
 impl Joint {
+    /// Whether there is no plan.
     pub fn finds_none(&self) -> bool {
         let mut nodes: Map<Vec<u32>, u64> = Map::from_iter([(Vec::new(), 0)]);
         for layers in &self.layers {
@@ -115,8 +118,9 @@ impl Joint {
 
     fn point(&self, agent: usize, time: u32, number: u32) -> &Point { &self.layers[agent].0[time as usize][number as usize] }
 
-    /// Adds what the next agent may do to what those before do (point, place before, place after), and at last the set to
-    /// `later`. `costs`: of those at rest, and the least of the others. True: all rest, there is a plan.
+    /// Extends `chosen` (point, place before, place after; one for each agent so far) by each option of the next agent, and adds complete
+    /// sets to `later`. `costs`: costs of the agents at rest, and a lower bound on those of the others. Returns true if there is a plan:
+    /// all agents rest.
     fn extend(
         &self, node: &Node, chosen: &mut Vec<(u32, Place, Place)>, costs: (u64, u64), later: &mut Map<Vec<u32>, u64>,
     ) -> bool {

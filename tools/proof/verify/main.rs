@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! grove-verify: whether a certificate proves its bound (docs/proof.md, which it is written from).
+//! grove-verify: verifies that a certificate proves its bound. Written from docs/proof.md.
 mod agent;
 mod covering;
 mod instance;
@@ -28,13 +28,13 @@ Exit code 0, 'verified: ...': no valid plan of the instance costs less than the 
 --confine refuses an instance that names a map outside of its own folder. Without options: no limit of time, 4 GB and
 128 MiB for the window of zstd; the map of a scenario is the one beside it that its rows name. --stats says on standard error what it took.";
 
-/// The line that is read, for who refuses from outside.
+/// The number of the line being read, for refusals outside the verifier.
 static LINE: AtomicU64 = AtomicU64::new(0);
 static USED: AtomicU64 = AtomicU64::new(0);
 static LIMIT: AtomicU64 = AtomicU64::new(4_000_000_000);
 static ENDED: AtomicBool = AtomicBool::new(false);
 
-/// Ends the program with its verdict: whoever is first.
+/// Ends the program with a verdict. Only the first call does; later calls wait for it.
 fn end(code: i32, text: &str) -> ! {
     if ENDED.swap(true, Ordering::SeqCst) { std::thread::sleep(Duration::from_secs(60)); }
     use std::io::Write;
@@ -44,7 +44,7 @@ fn end(code: i32, text: &str) -> ! {
 
 fn refuse(reason: &str) -> ! { end(1, &format!("refused: line {}: {}", LINE.load(Ordering::Relaxed), reason)) }
 
-/// Counts what is allocated.
+/// Allocator that counts the bytes in use, and refuses when they exceed LIMIT.
 struct Counting;
 
 unsafe impl GlobalAlloc for Counting {
@@ -140,7 +140,7 @@ fn main() {
         let what = what.downcast_ref::<String>().map(String::as_str).or_else(|| what.downcast_ref::<&str>().copied());
         refuse(&format!("beyond this checker: {}", what.unwrap_or("it failed")))
     }));
-    // Its own stack: the least cover and joint search call themselves for each agent.
+    // A thread with a large stack: the covering and the joint search recurse for each agent.
     let worker = std::thread::Builder::new().stack_size(1 << 29).spawn(move || verify(&arguments));
     let (code, text) = worker.expect("a thread").join().unwrap_or_else(|_| refuse("it could not be checked"));
     end(code, &text)

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-//! The certificate: lemmas, the theorem, and the rules of their proofs (docs/proof.md, 3 and 4).
+//! The certificate: lemmas, the theorem, and the rules of their proofs (docs/proof.md, sections 3 and 4).
 use crate::agent::{AgentModel, Poses, NEVER};
 use crate::instance::Instance;
 use crate::joint::{Joint, Layers};
 use crate::prices::{Prices, UNIT};
 use crate::reader::Lines;
 use crate::rules::{Chains, Constraint, Kind, Rules};
-use crate::search::{surely_meets, Path, Search};
+use crate::search::{surely_satisfies, Path, Search};
 use crate::successors::Successors;
 use crate::tokens::{ensure, unreadable, Fault, Tokens};
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// A bound that no sum of costs reaches.
+/// The bound `inf`, which no sum of costs reaches.
 const INFINITE: u64 = u64::MAX;
 
 struct Lemma {
@@ -21,7 +21,7 @@ struct Lemma {
     constraints: Vec<Constraint>,
 }
 
-/// The cost of an agent under the first so many of its constraints, and a path that has it.
+/// The cost of an agent under the first `constraints` of its constraints, and a path of this cost.
 struct Known {
     constraints: usize,
     cost: u32,
@@ -38,9 +38,11 @@ pub struct Verifier {
     lines: Lines,
     following: bool,
     lemmas: Vec<Lemma>,
-    /// Whose constraints were added, in order; those of each agent; how often each is there.
+    /// The agents of the constraints in force, in the order in which these were added.
     trail: Vec<u32>,
+    /// The constraints in force on each agent.
     constraints: Vec<Vec<Constraint>>,
+    /// How often each constraint is in force.
     present: HashMap<Constraint, u32>,
     known: Vec<Vec<Known>>,
     nodes: u64,
@@ -68,10 +70,10 @@ impl Verifier {
         if line.ends_with(' ') { Err(unreadable("expected no blank at the end of the line")) } else { Ok(line.to_string()) }
     }
 
-    /// Once it has run: is the claim about all plans, or about those in which nobody follows another?
+    /// After run(): whether the claim is about all plans, or only about those without following conflicts (false).
     pub fn may_follow(&self) -> bool { self.following }
 
-    /// What the theorem says: L, or None for `inf`.
+    /// Verifies the certificate. Returns the bound L of the theorem, or None for `inf`.
     pub fn run(&mut self) -> Result<Option<u64>, Fault> {
         Some(self.line()?).filter(|line| line == "grove-proof 1").ok_or_else(|| unreadable("expected 'grove-proof 1'"))?;
         let line = self.line()?;
@@ -179,10 +181,10 @@ impl Verifier {
         }
     }
 
-    /// Reads the proof of a statement; its first line is read already.
+    /// Reads and verifies the proof of a statement. `line` is its first line.
     fn proof(&mut self, mut line: String, of: &Lemma) -> Result<(), Fault> {
         of.constraints.iter().for_each(|&constraint| self.push(constraint));
-        // Of each split on the way: where its constraints begin, and its second side, if that is still to come.
+        // For each open split: the length of the trail before it, and its second branch if that is not proven yet.
         let mut splits: Vec<(usize, Option<Constraint>)> = Vec::new();
         loop {
             self.nodes += 1;
@@ -199,7 +201,7 @@ impl Verifier {
                 splits.push((self.trail.len(), Some(two)));
                 Some(one)
             } else {
-                // What is proven closes splits, up to one whose second side is still to come.
+                // A proven node closes splits, up to the first one whose second branch is not proven yet.
                 while splits.last().map_or(false, |split| split.1.is_none()) { splits.pop(); }
                 let second = splits.last_mut().and_then(|split| split.1.take());
                 self.undo(splits.last().map_or(0, |split| split.0));
@@ -230,7 +232,7 @@ impl Verifier {
         ensure(permitted, "a plan may meet neither of these constraints").map(|_| (one, two))
     }
 
-    /// A lemma that may be used here.
+    /// Parses the number of a lemma, and refuses a lemma about other agents or with a constraint that is not in force.
     fn usable(&self, tokens: &mut Tokens, of: &Lemma) -> Result<&Lemma, Fault> {
         let number = tokens.index(self.lemmas.len(), "lemma")?;
         let lemma = &self.lemmas[number as usize];
@@ -256,13 +258,13 @@ impl Verifier {
         ensure(said, "the lemma is not of these two, or says less").map(|_| (one, two))
     }
 
-    /// c(A, D), or a lower bound of it that is known already.
+    /// Returns c(A, D), or, unless `exact`, a lower bound on it that is already known.
     fn cost(&mut self, agent: u32, exact: bool) -> u32 {
         self.model(agent);
         let number = agent as usize;
         let (constraints, known) = (&self.constraints[number], &mut self.known[number]);
         if let Some(last) = known.last() {
-            let holds = !exact || last.path.is_empty() || constraints[last.constraints..].iter().all(|constraint| surely_meets(&last.path, constraint));
+            let holds = !exact || last.path.is_empty() || constraints[last.constraints..].iter().all(|constraint| surely_satisfies(&last.path, constraint));
             if holds { return last.cost; }
         }
         let model = self.models[number].as_mut().expect("made above");
@@ -270,14 +272,14 @@ impl Verifier {
         let limit = if met { model.limit() } else { NEVER };
         let mut successors = Successors { model, chains: &self.chains, rules: &self.rules };
         let found = if met { self.search.least(&mut successors) } else { None };
-        // Beyond the limit of orders it is not known how much, but that it is more.
+        // If the cost exceeds the limit of the model, only this is known.
         let beyond = if limit < NEVER { limit + 1 } else { NEVER };
         let (cost, path) = found.filter(|found| found.0 <= limit).unwrap_or((beyond, Vec::new()));
         known.push(Known { constraints: constraints.len(), cost, path });
         cost
     }
 
-    /// If it is not known what an agent costs, but that it is more than a limit: raises that.
+    /// If the cost of an agent is only known to exceed the limit of its model, raises this limit. Returns whether it did.
     fn raise_limit(&mut self, agent: u32) -> bool {
         let last = self.known[agent as usize].last().map_or(NEVER, |last| if last.path.is_empty() { last.cost } else { NEVER });
         if last == NEVER { return false; }
@@ -329,7 +331,7 @@ impl Verifier {
         (met, Successors { model, chains: &self.chains, rules: &self.rules })
     }
 
-    /// No joint paths of these agents cost up to so much each, and less than a limit together.
+    /// Whether no plan of these agents costs at most `caps` each and less than `limit` together.
     fn none_joint(&mut self, agents: &[u32], caps: &[u32], limit: Option<u64>) -> bool {
         let (mut horizon, mut layers) = (1, Vec::new());
         for &agent in agents {

@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: MIT
-//! Least costs of one agent: A* whose labels are a state, and an interval of time in which its place is free. The earliest of these can
-//! do what later ones can: wait.
+//! Least costs of one agent: A* over labels. A label is a state and an interval of time in which its place is free (safe interval). The
+//! earliest label of a state and interval dominates the later ones, because the agent can wait.
 use crate::agent::NEVER;
 use crate::instance::Place;
 use crate::rules::{Constraint, Kind};
 use crate::successors::{Arrival, State, Successors};
 
-/// An arrival, and the number of that before.
+/// An arrival, and the number of the label before it.
 type Label = (Arrival, u32);
 
-/// When an agent arrives where, with the time of the start first.
+/// Times of arrival and places; the start is the first.
 pub type Path = Vec<(u32, Place)>;
 
 #[derive(Default)]
 pub struct Search {
-    /// By what they cost at least, more than the first; and those that were the earliest of their kind.
+    /// Open labels, in buckets: the lower bound of a label minus that of the start.
     waiting: Vec<Vec<Label>>,
+    /// The earliest label of each kind that was taken so far.
     labels: Vec<Label>,
-    /// Kinds of labels, by hash: pose, stops done, interval, and the number of the search with how the agent stands.
+    /// Hash table of kinds of labels: pose, stops done, interval, and the number of the search with the flags.
     table: Vec<[u32; 4]>,
     pub searches: u32,
 }
 
 impl Search {
-    /// The least cost, with a path that has it.
+    /// Returns the least cost and a path of this cost. Returns None if no path costs at most the limit of the model.
     pub fn least(&mut self, successors: &mut Successors) -> Option<(u32, Path)> {
         self.searches += 1;
         assert!(self.searches < 1 << 28, "fewer searches");
@@ -62,7 +63,7 @@ impl Search {
         }
     }
 
-    /// Whether it is the first of its kind, and so the earliest.
+    /// Whether the label is the first of its kind, and therefore the earliest.
     fn is_first(&mut self, &((state, interval, _), _): &Label) -> bool {
         if self.table.len() < 2 * self.labels.len() + 1024 {
             let old = std::mem::take(&mut self.table);
@@ -84,7 +85,7 @@ impl Search {
         true
     }
 
-    /// That of the last label.
+    /// Returns the path to the last label.
     fn path(&self, successors: &Successors) -> Path {
         let (mut path, mut number) = (Path::new(), self.labels.len() as u32 - 1);
         while number != u32::MAX {
@@ -102,8 +103,8 @@ impl Search {
     }
 }
 
-/// Whether a path, known to meet others, surely meets this constraint.
-pub fn surely_meets(path: &Path, constraint: &Constraint) -> bool {
+/// Whether a path certainly satisfies a constraint. False if the path alone does not show this.
+pub fn surely_satisfies(path: &Path, constraint: &Constraint) -> bool {
     let Constraint { kind, p, q, s, e, .. } = *constraint;
     let (arrival, last) = path[path.len() - 1];
     let within = |time: u32| s <= time && time <= e;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-//! One agent under constraints: what it may be in, and its steps.
+//! States of one agent under constraints, and the steps between them, for all searches.
 use crate::agent::{AgentModel, NEVER};
 use crate::instance::Place;
 use crate::rules::{Chains, Rules, Flags, EARLY};
 
-/// A pose, the number of the set of stops done, how it stands, and for how long it is still at work on the last of these.
+/// `done`: number of the set of stops done; `left`: remaining steps of work on the last of them.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct State {
     pub pose: u32,
@@ -13,7 +13,7 @@ pub struct State {
     pub flags: Flags,
 }
 
-/// A state at a time, with the interval of time in which its place is free.
+/// A state, the number of the interval of time in which its place is free, and a time in this interval.
 pub type Arrival = (State, u32, u32);
 
 pub struct Successors<'a> {
@@ -39,13 +39,13 @@ impl Successors<'_> {
         found
     }
 
-    /// Without an order of stops those that take no time are done on arrival.
+    /// Adds the stops on this place that take no time, unless the order of stops is constrained: they are done on arrival.
     fn done_on(&self, place: Place, done: u64) -> u64 {
         let here = self.model.stops_at(place) & !done;
         if here == 0 || self.rules.ordered { done } else { done | self.model.has_no_duration(here) }
     }
 
-    /// What it may do next where it is: in an order, or work.
+    /// Returns the states in which a stop on this place is the next one: it is done, or work on it begins.
     pub fn choices(&mut self, state: State) -> Vec<State> {
         let done = self.model.done(state.done);
         let mut open = self.model.stops_at(self.place(&state)) & !done;
@@ -60,10 +60,10 @@ impl Successors<'_> {
         found.extend(self.choices(state));
     }
 
-    /// Nothing may follow: where the last stop in an order was done it rests.
+    /// Whether the path ends in this state: the order of stops is constrained, and the agent rests where it did the last stop.
     pub fn over(&self, state: &State) -> bool { self.rules.ordered && self.model.rests_on_last && self.full(state) }
 
-    /// The states of the next time.
+    /// Returns the states at `time` + 1 that may follow `state` at `time`.
     pub fn steps(&mut self, state: State, time: u32) -> Vec<State> {
         let (mut found, mut gone) = (Vec::new(), Vec::new());
         let stays = self.rules.holding(self.place(&state), time + 1);
@@ -76,7 +76,8 @@ impl Successors<'_> {
         found
     }
 
-    /// The first arrivals in other poses of who may stay to one time, and go on to another place up to one.
+    /// Appends to `found` the earliest arrivals in other poses. The agent may be on its place until `stays`, and may leave it for another
+    /// place at `leaves` at the latest.
     pub fn go(&mut self, (state, interval, time): Arrival, (stays, leaves): (u32, u32), found: &mut Vec<Arrival>) {
         let (from, poses) = (self.place(&state), self.model.poses.clone());
         for &pose in poses.next(state.pose) {
@@ -107,12 +108,13 @@ impl Successors<'_> {
         }
     }
 
-    /// What remains at least.
+    /// Returns a lower bound on the remaining cost.
     pub fn remains(&self, state: &State) -> u32 { state.left + self.model.remains(state.done, state.pose) }
 
-    /// Whether it may rest with this state, on a place that is free from then on.
+    /// Whether the agent may rest in this state, if its place is free for ever.
     pub fn rests(&self, state: &State) -> bool { state.flags & EARLY == 0 && self.full(state) && self.remains(state) == 0 }
 
+    /// Whether a path may end in this state at this time.
     pub fn may_end(&self, state: &State, time: u32) -> bool {
         let holding = self.rules.holding(self.place(state), time);
         holding.map_or(false, |number| self.rules.interval(number).1 == NEVER) && self.rests(state)

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-//! The tokens of a line, and what is wrong with a certificate.
+//! Tokens of a line, and faults of certificates.
 use crate::agent::NEVER;
 use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// The exit code, 1: refused, or 2: unreadable, and why.
+/// The exit code (1: refused, 2: unreadable) and the reason.
 pub type Fault = (i32, String);
 
 pub fn unreadable(reason: impl Into<String>) -> Fault { (2, reason.into()) }
 
-/// Refuses what does not hold.
+/// Refuses the certificate unless `good`.
 pub fn ensure(good: bool, reason: impl Into<String>) -> Result<(), Fault> { if good { Ok(()) } else { Err((1, reason.into())) } }
 
-/// A hash that is quick: for what searches make, not for what a file says.
+/// A fast hash for keys that searches create. Not for keys that a file contains.
 #[derive(Default)]
 pub struct Quick(u64);
 
@@ -26,6 +26,7 @@ impl Hasher for Quick {
 pub type Map<K, V> = HashMap<K, V, BuildHasherDefault<Quick>>;
 pub type Set<K> = HashSet<K, BuildHasherDefault<Quick>>;
 
+/// The words of a line, separated by single blanks.
 pub struct Tokens<'a>(std::str::Split<'a, char>);
 
 impl<'a> Tokens<'a> {
