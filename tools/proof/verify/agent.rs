@@ -162,7 +162,7 @@ impl AgentModel {
         for &task in &agent.tasks {
             let (place, duration) = (instance.tasks[task as usize].place, instance.tasks[task as usize].duration);
             if duration > 0 || (!timed(place) && stops_at[place as usize] == 0) {
-                assert!(stops.len() < 63, "more tasks of one agent than this program takes");
+                assert!(stops.len() < 63, "an agent with more than 63 stops");
                 stops_at[place as usize] |= 1 << stops.len();
                 stops.push(Stop { task, place, duration });
             }

@@ -23,10 +23,17 @@ use std::time::{Duration, Instant};
 const USAGE: &str = "Usage: grove-verify INSTANCE PROOF [--time-limit SECONDS] [--memory-limit GB] [--confine] [--stats]
        grove-verify FILE.scen PROOF --agents N [--map FILE.map] ...
 
-Exit code 0, 'verified: ...': no valid plan of the instance costs less than the certificate says;
-1, 'refused: ...': it does not prove that, or not within the limits; 2, 'unreadable: ...': what is no certificate or instance.
---confine refuses an instance that names a map outside of its own folder. Without options: no limit of time, 4 GB and
-128 MiB for the window of zstd; the map of a scenario is the one beside it that its rows name. --stats says on standard error what it took.";
+Verifies that a certificate proves its lower bound on the cost of every valid plan of the instance.
+
+  --agents N             for a scenario: its first N rows are the agents.
+  --map FILE.map         map of the scenario (default: the map that its rows name, in the same folder).
+  --time-limit SECONDS   refuse after this time (default: no limit).
+  --memory-limit GB      refuse when more memory is needed (default: 4). The window of zstd, at most 128 MiB, is not counted.
+  --confine              refuse an instance that names a map or roadmap outside its own folder.
+  --stats                print lines, nodes, lemmas, searches and time to standard error.
+
+Exit codes: 0 'verified: ...', the bound is proven; 1 'refused: ...', it is not proven, or not within the limits;
+2 'unreadable: ...', a file is not a certificate or not an instance, or an option is wrong.";
 
 /// The number of the line being read, for refusals outside the verifier.
 static LINE: AtomicU64 = AtomicU64::new(0);
@@ -93,14 +100,14 @@ fn arguments() -> Result<Arguments, String> {
                 println!("{}", USAGE);
                 std::process::exit(0);
             }
-            option if option.starts_with("--") => return Err(format!("{}: no such option", option)),
+            option if option.starts_with("--") => return Err(format!("{}: unknown option", option)),
             _ => found.files.push(word),
         }
     }
     if found.files.len() != 2 { return Err("expected INSTANCE and PROOF".to_string()); }
     let scenario = found.files[0].ends_with(".scen");
-    if scenario && found.agents.is_none() { return Err("a .scen file: expected --agents, a whole number".to_string()); }
-    if !scenario && (found.agents.is_some() || found.map.is_some()) { return Err("--agents and --map are for a .scen file".to_string()); }
+    if scenario && found.agents.is_none() { return Err("a .scen file requires --agents with a whole number".to_string()); }
+    if !scenario && (found.agents.is_some() || found.map.is_some()) { return Err("--agents and --map require a .scen file".to_string()); }
     Ok(found)
 }
 
@@ -138,10 +145,10 @@ fn main() {
     std::panic::set_hook(Box::new(|panic| {
         let what = panic.payload();
         let what = what.downcast_ref::<String>().map(String::as_str).or_else(|| what.downcast_ref::<&str>().copied());
-        refuse(&format!("beyond this checker: {}", what.unwrap_or("it failed")))
+        refuse(&format!("beyond this checker: {}", what.unwrap_or("internal error")))
     }));
     // A thread with a large stack: the covering and the joint search recurse for each agent.
     let worker = std::thread::Builder::new().stack_size(1 << 29).spawn(move || verify(&arguments));
-    let (code, text) = worker.expect("a thread").join().unwrap_or_else(|_| refuse("it could not be checked"));
+    let (code, text) = worker.expect("a thread").join().unwrap_or_else(|_| refuse("internal error"));
     end(code, &text)
 }

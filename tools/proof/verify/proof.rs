@@ -67,7 +67,7 @@ impl Verifier {
     fn line(&mut self) -> Result<String, Fault> {
         crate::LINE.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
         let line = self.lines.next().map_err(unreadable)?.ok_or_else(|| unreadable("expected more"))?;
-        if line.ends_with(' ') { Err(unreadable("expected no blank at the end of the line")) } else { Ok(line.to_string()) }
+        if line.ends_with(' ') { Err(unreadable("found a blank at the end of the line; expected none")) } else { Ok(line.to_string()) }
     }
 
     /// After run(): whether the claim is about all plans, or only about those without following conflicts (false).
@@ -109,7 +109,7 @@ impl Verifier {
         let mut lemma = Lemma { bound, agents: Vec::new(), constraints: Vec::new() };
         while lemma.agents.is_empty() || tokens.more() {
             let agent = tokens.index(self.models.len(), "agent")?;
-            ensure(lemma.agents.last().map_or(true, |&last| last < agent), "agents that do not ascend")?;
+            ensure(lemma.agents.last().map_or(true, |&last| last < agent), "the agents must ascend")?;
             lemma.agents.push(agent);
         }
         loop {
@@ -133,7 +133,7 @@ impl Verifier {
     fn constraint(&mut self, text: &str, of: &Lemma) -> Result<Constraint, Fault> {
         let mut tokens = Tokens::of(text);
         let agent = tokens.number()?;
-        ensure(of.agents.binary_search(&agent).is_ok(), format!("agent {} is not among those of whom this is", agent))?;
+        ensure(of.agents.binary_search(&agent).is_ok(), format!("agent {} is not among the agents of this lemma or theorem", agent))?;
         let names = ["bar", "move", "norest", "rest", "pass", "stop", "nostop"];
         let kinds = [Kind::Bar, Kind::Move, Kind::NoRest, Kind::Rest, Kind::Pass, Kind::Stop, Kind::NoStop];
         let name = tokens.token()?;
@@ -143,12 +143,13 @@ impl Verifier {
         if matches!(kind, Kind::Stop | Kind::NoStop) {
             let stops = &self.model(agent).stops;
             let known = (constraint.p as usize) < stops.len() && stops.iter().any(|stop| stop.task == constraint.q);
-            ensure(known, "no such number, or no such stop of this agent")?;
+            ensure(known, "this agent has no such number, or no such stop")?;
         } else {
             let places = self.instance.world.links.len() as u32;
             ensure(constraint.p < places && constraint.q < places, format!("there is no place {}", constraint.p.max(constraint.q)))?;
             let moves = kind == Kind::Move && constraint.p != constraint.q || kind == Kind::Pass && self.chains.exit(constraint.p, constraint.q).is_some();
-            ensure(moves || !matches!(kind, Kind::Move | Kind::Pass), "expected two places, for 'pass' the last of a chain and the end next to it")?;
+            let paired = moves || !matches!(kind, Kind::Move | Kind::Pass);
+            ensure(paired, "expected two different places; for 'pass', the last place of a chain and the end next to it")?;
             constraint.s = tokens.number()?;
             let ends = !matches!(kind, Kind::Rest | Kind::NoRest);
             constraint.e = if ends { tokens.or_inf()?.unwrap_or(NEVER) } else { constraint.s };
@@ -229,7 +230,7 @@ impl Verifier {
             }
             _ => false,
         };
-        ensure(permitted, "a plan may meet neither of these constraints").map(|_| (one, two))
+        ensure(permitted, "a plan may satisfy neither of these constraints").map(|_| (one, two))
     }
 
     /// Parses the number of a lemma, and refuses a lemma about other agents or with a constraint that is not in force.
@@ -237,7 +238,7 @@ impl Verifier {
         let number = tokens.index(self.lemmas.len(), "lemma")?;
         let lemma = &self.lemmas[number as usize];
         let other = lemma.agents.iter().find(|agent| of.agents.binary_search(agent).is_err());
-        ensure(other.is_none(), format!("lemma {} is of agent {}, too", number, other.unwrap_or(&0)))?;
+        ensure(other.is_none(), format!("lemma {} is also about agent {}, which is not an agent here", number, other.unwrap_or(&0)))?;
         let missing = lemma.constraints.iter().position(|constraint| !self.present.contains_key(constraint));
         ensure(missing.is_none(), format!("constraint {} of lemma {} is not in force", missing.unwrap_or(0), number)).map(|_| lemma)
     }
@@ -255,7 +256,7 @@ impl Verifier {
         tokens.end()?;
         let pair = [one.agent.min(two.agent), one.agent.max(two.agent)];
         let said = one.agent != two.agent && lemma.agents == pair && lemma.bound > u64::from(one.s) + u64::from(two.s);
-        ensure(said, "the lemma is not of these two, or says less").map(|_| (one, two))
+        ensure(said, "the lemma is not about these two agents, or its bound is too small").map(|_| (one, two))
     }
 
     /// Returns c(A, D), or, unless `exact`, a lower bound on it that is already known.
@@ -264,7 +265,8 @@ impl Verifier {
         let number = agent as usize;
         let (constraints, known) = (&self.constraints[number], &mut self.known[number]);
         if let Some(last) = known.last() {
-            let holds = !exact || last.path.is_empty() || constraints[last.constraints..].iter().all(|constraint| surely_satisfies(&last.path, constraint));
+            let satisfied = || constraints[last.constraints..].iter().all(|constraint| surely_satisfies(&last.path, constraint));
+            let holds = !exact || last.path.is_empty() || satisfied();
             if holds { return last.cost; }
         }
         let model = self.models[number].as_mut().expect("made above");
@@ -310,7 +312,7 @@ impl Verifier {
         let more = crate::covering::least(named.into_iter().map(more_than_costs).collect());
         let proven = costs.contains(&NEVER) || sum + more >= of.bound;
         if !proven && of.agents.iter().filter(|&&agent| self.raise_limit(agent)).count() > 0 { return self.leaf(names, of); }
-        ensure(proven, format!("costs {} and {} by lemmas, expected {}", sum, more, text(of.bound)))
+        ensure(proven, format!("costs {} and {} by lemmas; expected {}", sum, more, text(of.bound)))
     }
 
     fn joint(&mut self, of: &Lemma) -> Result<(), Fault> {
@@ -345,7 +347,7 @@ impl Verifier {
 
     fn prices(&mut self, of: &Lemma) -> Result<(), Fault> {
         let (agents, places) = (self.models.len(), self.instance.world.links.len());
-        ensure(of.agents.len() == agents && self.trail.is_empty(), "prices are of all agents, without constraints")?;
+        ensure(of.agents.len() == agents && self.trail.is_empty(), "prices require all agents, without constraints")?;
         let mut prices = Prices::default();
         let price = |tokens: &mut Tokens| tokens.number().map(u64::from);  // so small that no sum overflows
         loop {
@@ -355,14 +357,14 @@ impl Verifier {
                 "place" => prices.place(tokens.index(places, "place")?, tokens.number()?, price(&mut tokens)?),
                 "edge" => {
                     let (from, to) = (tokens.index(places, "place")?, tokens.index(places, "place")?);
-                    ensure(from < to, "places of an edge that do not ascend")?;
+                    ensure(from < to, "the places of an edge must ascend")?;
                     prices.edge(from, to, tokens.number()?, price(&mut tokens)?);
                 }
                 "finish" => {
                     let mut side = || Ok::<_, Fault>((tokens.index(agents, "agent")?, tokens.number()?));
                     let (one, two) = (side()?, side()?);
                     let none = one.0 < two.0 && self.none_joint(&[one.0, two.0], &[one.1, two.1], Some(INFINITE));
-                    ensure(none, "these agents may both have finished by then")?;
+                    ensure(none, "both agents may have finished by these times")?;
                     prices.finish([one, two], price(&mut tokens)?);
                 }
                 "end" => break,
@@ -376,6 +378,6 @@ impl Verifier {
             match prices.of(agent, &mut self.successors(agent).1) { Some(price) => sum += price, None => return Ok(()) }
         }
         let bound = (sum.saturating_sub(prices.sum) + UNIT - 1) / UNIT;
-        ensure(bound >= of.bound, format!("prices prove {}, expected {}", bound, text(of.bound)))
+        ensure(bound >= of.bound, format!("prices prove {}; expected {}", bound, text(of.bound)))
     }
 }

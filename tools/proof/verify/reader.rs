@@ -38,7 +38,7 @@ impl<R: BufRead> Read for Zstd<R> {
             let left = unsafe { ZSTD_decompressStream(self.stream, &mut out, &mut input) };
             let failed = unsafe { ZSTD_isError(left) } != 0;
             if failed || (ended && out.at == 0) {
-                return Err(Error::new(ErrorKind::InvalidData, "broken or cut off by zstd's account"));
+                return Err(Error::new(ErrorKind::InvalidData, "zstd: the data are corrupt or truncated"));
             }
             self.within = left != 0;
             self.source.consume(input.at);

@@ -41,13 +41,13 @@ impl<'a> Tokens<'a> {
     pub fn whole(&mut self) -> Result<u64, Fault> {
         let token = self.token()?;
         let digits = Some(token).filter(|token| token.bytes().all(|byte| byte.is_ascii_digit()));
-        let digits = digits.ok_or_else(|| unreadable(format!("expected a number, not '{:.20}'", token)))?;
-        digits.parse().map_err(|_| (1, "a number that is too large".to_string()))
+        let digits = digits.ok_or_else(|| unreadable(format!("found '{:.20}'; expected a number", token)))?;
+        digits.parse().map_err(|_| (1, "the number is too large".to_string()))
     }
 
     pub fn number(&mut self) -> Result<u32, Fault> {
         let value = self.whole()?;
-        ensure(value < u64::from(NEVER), "a number that is too large").map(|_| value as u32)
+        ensure(value < u64::from(NEVER), "the number is too large").map(|_| value as u32)
     }
 
     pub fn index(&mut self, count: usize, what: &str) -> Result<u32, Fault> {
