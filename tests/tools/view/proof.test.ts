@@ -42,13 +42,13 @@ test("what a certificate proves, and by how much", () => {
   assert.equal(theoremText(kWhole), "No plan costs less than 12");
   assert.equal(howText(kWhole), "proven by 3 splits, 4 leaves and 1 lemma");
   const none = read("following no", "theorem inf", "leaf");
-  assert.equal(theoremText(none), "There is no plan in which nobody enters a place as another leaves it");
+  assert.equal(theoremText(none), "There is no plan in which no agent enters a place as another leaves it");
   assert.equal(howText(none), "proven by 0 splits, 1 leaf and 0 lemmas");
   assert.match(howText(read("following yes", "theorem 9", "joint")), /by a search of all agents' joint paths/);
   assert.equal(planText(12, 12), "so it is optimal");
   assert.equal(planText(15, 12), "so it costs at most 25.00 % more than the best");
   assert.match(planText(11, 12), /one of the two is wrong/);
-  assert.match(planText(3, 0), /says nothing/);
+  assert.match(planText(3, 0), /does not tell/);
 });
 
 test("each kind of demand", () => {
@@ -62,9 +62,9 @@ test("each kind of demand", () => {
   assert.equal(said("0 move 4 8 2 2"), "a does not go from [0, 1] to [0, 2], arriving at 2");
   assert.equal(said("0 norest 3 7"), "a does not come to rest on [3, 0] by 7");
   assert.equal(said("0 rest 3 7"), "a comes to rest on [3, 0] by 7");
-  assert.equal(said("0 pass 1 2 3 inf"), "a does not come through the passage by [1, 0] to [2, 0], arriving from 3 on");
+  assert.equal(said("0 pass 1 2 3 inf"), "a does not pass through the corridor and leave it from [1, 0] to [2, 0], arriving from 3 on");
   assert.equal(said("0 stop 0 0"), "a does t as its stop 1");
-  assert.equal(said("0 nostop 1 0"), "a does another than t as its stop 2");
+  assert.equal(said("0 nostop 1 0"), "a does another task than t as its stop 2");
 });
 
 test("places on roads have their names", () => {
@@ -79,14 +79,14 @@ test("why no plan is lost by a split", () => {
     const certificate = read(`following ${following}`, ...kLemma, "theorem 1", line, "leaf", "leaf");
     return whyText(kModel, certificate.following, certificate.theorem.root);
   };
-  assert.equal(why("split 0 bar 4 1 1 | 1 bar 4 1 1"), "Else a and b are on [0, 1] at 1.");
+  assert.equal(why("split 0 bar 4 1 1 | 1 bar 4 1 1"), "Otherwise a and b are on [0, 1] at 1.");
   assert.equal(why("split 0 bar 4 1 1 | 1 bar 4 2 2", "no"),
-    "Else one of a and b enters [0, 1] at 2, as the other leaves it, or they meet there.");
-  assert.equal(why("split 0 move 1 2 3 3 | 1 move 2 1 3 3"), "Else a and b swap [1, 0] and [2, 0], arriving at 3.");
-  assert.match(why("split 0 pass 1 2 3 4 | 1 pass 1 0 3 4"), /come through one passage against each other/);
-  assert.match(why("split 0 norest 3 7 | 0 rest 3 7"), /nobody else is on \[3, 0\] from 7 on/);
-  assert.equal(why("split 0 stop 0 0 | 0 nostop 0 0"), "Either is the contrary of the other.");
-  assert.match(why("later 0 4 1 4 0"), /cost together at most 8, and lemma 0 says that they cost more/);
+    "Otherwise one of a and b enters [0, 1] at 2, as the other leaves it, or they meet there.");
+  assert.equal(why("split 0 move 1 2 3 3 | 1 move 2 1 3 3"), "Otherwise a and b swap [1, 0] and [2, 0], arriving at 3.");
+  assert.match(why("split 0 pass 1 2 3 4 | 1 pass 1 0 3 4"), /pass through one corridor in opposite directions/);
+  assert.match(why("split 0 norest 3 7 | 0 rest 3 7"), /no other agent is on \[3, 0\] from 7 on/);
+  assert.equal(why("split 0 stop 0 0 | 0 nostop 0 0"), "Each is the negation of the other.");
+  assert.match(why("later 0 4 1 4 0"), /together cost at most 8, and lemma 0 says that they cost more/);
   for (const none of ["0 bar 4 1 1 | 0 bar 4 1 1", "0 bar 4 1 1 | 1 rest 4 1", "0 norest 3 7 | 1 rest 3 7"])
     assert.equal(why(`split ${none}`), "", none);
   // As the rules of docs/proof.md have them: the same places and times.
@@ -98,15 +98,15 @@ test("why no plan is lost by a split", () => {
 test("what is left where nothing is split", () => {
   const { theorem, lemmas } = kWhole;
   assert.deepEqual(theorem.steps.map(noteText),
-    ["4 leaves", "lemma 0", "3 leaves", "own costs", "2 leaves", "own costs", "lemma 0"]);
+    ["4 leaves", "lemma 0", "3 leaves", "individual costs", "2 leaves", "individual costs", "lemma 0"]);
   assert.equal(closedText(kModel, theorem, theorem.steps[1]),
-    "By the agents' own costs, and what lemma 0 adds to them: together 12 or more.");
-  assert.equal(closedText(kModel, theorem, theorem.steps[3]), "By the agents' own costs: together 12 or more.");
-  assert.equal(lemmaText(kModel, lemmas[0]), "a and b cost together 9 or more");
-  assert.equal(stepText(kModel, lemmas[0], lemmas[0].root), "All plans that meet its demands");
+    "By the agents' individual costs, and the excess by lemma 0: together 12 or more.");
+  assert.equal(closedText(kModel, theorem, theorem.steps[3]), "By the agents' individual costs: together 12 or more.");
+  assert.equal(lemmaText(kModel, lemmas[0]), "a and b together cost 9 or more");
+  assert.equal(stepText(kModel, lemmas[0], lemmas[0].root), "All plans that satisfy its constraints");
   assert.equal(stepText(kModel, theorem, theorem.steps[3]), "a costs more than 4");
   const none = read("following yes", "lemma inf 0 2", "joint", "theorem inf", "leaf 0");
-  assert.equal(lemmaText(kModel, none.lemmas[0]), "there is no way for a and c");
+  assert.equal(lemmaText(kModel, none.lemmas[0]), "there is no path for a and c");
   assert.match(closedText(kModel, none.lemmas[0], none.lemmas[0].root), /joint paths of a and c .*: there are none/);
 });
 
@@ -152,7 +152,7 @@ test("as deep as it is long", () => {
 });
 
 test("what is no certificate says where", () => {
-  assert.throws(() => read("following yes", "theorem 1", "leaf 0"), /^Error: line 5: expected a number of what there is/);
+  assert.throws(() => read("following yes", "theorem 1", "leaf 0"), /^Error: line 5: expected a valid number/);
   assert.throws(() => read("following yes", "theorem 1", "split 0 bar 4 1 1", "leaf"), /line 5: expected another word/);
   assert.throws(() => read("following yes", "theorem 1", "split 9 bar 4 1 1 | 0 bar 4 1 1"), /line 5/);
   assert.throws(() => read("following yes", "theorem 1", "split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf"), /line 7: expected leaf/);

@@ -130,7 +130,7 @@ test("scales", () => {
   assert.deepEqual([thinned.length, thinned[0], thinned[9]], [10, 0, 999]);
 });
 
-test("a moment is read as it was", () => {
+test("reading of a moment is its latest row", () => {
   const chart = boundChart(read(header(), row({ time_s: 1, lower_bound: 30 }),
     incumbent({ time_s: 2, lower_bound: 30, incumbent: 33 }),
     row({ time_s: 3, lower_bound: 33, incumbent: 33 })), false);
@@ -140,17 +140,17 @@ test("a moment is read as it was", () => {
   assert.match(chart.read(9), /gap 0 %/);
 });
 
-test("says how good the plan is", () => {
+test("verdict reports the quality of the plan", () => {
   assert.match(verdict(read(header(), summary(33, 33))), /Optimal: a plan of 33/);
   assert.match(verdict(read(header(), summary(33, 30))), /at most 10 % above/);
-  assert.match(verdict(read(header(), summary(33, 0))), /nothing is known/);
-  assert.match(verdict(read(header(), summary(null, 30, "unknown"))), /No plan yet when a limit struck; none costs less than 30/);
-  assert.match(verdict(read(header(), summary(null, 0, "infeasible"))), /There is no plan: proven/);
+  assert.match(verdict(read(header(), summary(33, 0))), /is unknown/);
+  assert.match(verdict(read(header(), summary(null, 30, "unknown"))), /No plan yet when a limit was reached; none costs less than 30/);
+  assert.match(verdict(read(header(), summary(null, 0, "infeasible"))), /Proven: there is no plan/);
   assert.match(verdict(read(header(), row({ lower_bound: 30 }))), /No plan yet; none costs less than 30/);
 });
 
-// Named by the demand of the second child: src/conflicts/target.cpp, src/search/wdg_heuristic.cpp.
-test("a split is told as what it is", () => {
-  assert.match(kSplits["rest-by"], /comes to rest early and no other robot passes/);
+// Named by the constraint of the second child: src/conflicts/target.cpp, src/search/wdg_heuristic.cpp.
+test("splits have the texts of their techniques", () => {
+  assert.match(kSplits["rest-by"], /rests early and no other robot passes/);
   assert.match(kSplits["no-rest-by"], /two robots together cost more/);
 });

@@ -121,9 +121,9 @@ class Pages(unittest.TestCase):
         print(f"100,000 rows, 1,000 ranks: loaded in {seconds:.2f} s")
         self.assertIn("1,000 ranks", self.text("table caption"))
         self.assertIn("0 · 500 · 999", self.text(".spread"))
-        self.assertIn("The log has no end", self.text(".state"))
+        self.assertIn("The log is incomplete", self.text(".state"))
         self.assertEqual(self.browser.evaluate("document.querySelectorAll('.scroll tbody tr').length"), 1001)
-        self.assertIn("The nodes are with the ranks", self.text("main"))
+        self.assertIn("The ranks hold the nodes", self.text("main"))
 
     def test_hostile_logs(self):
         hostile = {"event": "node", "time_s": 1, "node": 0, "worker": 0, "outcome": "split", "conflict": ALERT, "split": ALERT,

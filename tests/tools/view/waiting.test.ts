@@ -60,7 +60,7 @@ test("long waits are events, with their reason", () => {
   const found = eventsOf(app).filter(({ kind }) => kind === "wait");
   assert.deepEqual(found.map(({ text, time, agents }) => [text, time, agents]), [
     ["a waits 5 steps for b to pass", 0, [0]],
-    ["b waits 4 steps, though it meets nobody if it goes on", 0, [1]],
+    ["b waits 4 steps, although no robot is in its way", 0, [1]],
   ]);
   assert.deepEqual(eventsOf(shown([kA, kB], [{ path: "@0;2.E" }, { path: "@2;E" }]))
     .filter(({ kind }) => kind === "wait"), [], "short ones are not");

@@ -79,7 +79,7 @@ function follow(model: Model, order: Order): void {
 function show(app: DriveApp, strip: Strip): void {
   const help = new Help(kSeconds.unit);
   const live = el("button", {
-    type: "button", class: "golive", title: "To what is now", click: () => {
+    type: "button", class: "golive", title: "Go to the current moment", click: () => {
       app.player.goLive();
       app.changed();
     },

@@ -196,7 +196,7 @@ class AgentCheck {
       this.report("start", 0,
         `begins on ${this.name(at)}, not on its start ${this.name(start)}`, at);
     else if (this.plan.turns && !sameAngle(angle, startAngle))
-      this.report("start", 0, "does not look at the start where it should", at);
+      this.report("start", 0, "does not have its heading at the start", at);
     if (!this.model.world.free[at])
       this.report("jump", 0, `is on ${this.name(at)}, which is blocked`, at);
   }
@@ -221,7 +221,7 @@ class AgentCheck {
     for (let run = 0; run < turns.runs; ++run) {
       if (this.hasDoneEnough()) yield;
       if (turns.jumps[run])
-        this.report("turn", turns.times[run + 1], "turns in a way that is no step of a turn",
+        this.report("turn", turns.times[run + 1], "turns in a way that is not a step of a turn",
           this.place(turns.times[run]));
       if (turns.deltas[run] === 0) continue;
       for (let time = turns.times[run]; time < turns.times[run + 1]; ++time) {
@@ -234,7 +234,7 @@ class AgentCheck {
   private checkMove(time: number, from: number, to: number): void {
     const { world } = this.model;
     if (!world.mayMove(from, to)) {
-      const why = world.free[to] ? "which is no step" : "which is blocked";
+      const why = world.free[to] ? "which is not a possible step" : "which is blocked";
       this.report("jump", time + 1, `goes from ${this.name(from)} to ${this.name(to)}, ${why}`, to);
       return;
     }
@@ -273,7 +273,7 @@ class AgentCheck {
       working !== null && w.task === working.task && w.begin === -working.done;
     if (working && !this.plan.work.some(goesOn))
       this.report("work", 0,
-        `does not go on with ${this.model.tasks[working.task].name}, at which it starts`, -1);
+        `does not continue ${this.model.tasks[working.task].name}, at which it starts`, -1);
   }
 
   // In order of begin each piece need only be compared with the one that has lasted longest.
@@ -294,7 +294,7 @@ class AgentCheck {
   private checkPiece(piece: WorkTime): void {
     const task = this.model.tasks[piece.task];
     if (!this.agent.tasks.includes(piece.task) || task.duration === 0) {
-      this.report("work", piece.begin, `works on ${task.name}, which is no work of its own`, -1);
+      this.report("work", piece.begin, `works on ${task.name}, which is not one of its tasks that take time`, -1);
       return;
     }
     if (piece.end - piece.begin !== task.duration)
@@ -331,7 +331,7 @@ class AgentCheck {
       this.report("end", end,
         `ends on ${this.name(at)}, not on its destination ${this.name(goal)}`, at);
     else if (goalAngle >= 0 && (angle.direction !== 0 || angle.steps !== goalAngle))
-      this.report("end", end, "does not look at the end where it should", at);
+      this.report("end", end, "does not have its heading at the end", at);
     if (goal < 0 && tasks.length > 0 && !tasks.some((task) => this.model.tasks[task].place === at))
       this.report("end", end, `ends on ${this.name(at)}, where it has no task`, at);
   }
@@ -361,7 +361,7 @@ class AgentCheck {
     if (!order) return;
     const sorted = (tasks: number[]) => [...tasks].sort((a, b) => a - b).join();
     if (sorted(order) !== sorted(this.agent.tasks)) {
-      this.report("order", 0, "does not have each of its tasks once in its order", -1);
+      this.report("order", 0, "does not have each of its tasks exactly once in its order", -1);
       return;
     }
     let now = 0;

@@ -61,7 +61,7 @@ function eventsOfPlan(model: Model, { checker, facts, plan, waits }: Viewed): Pl
 export function waitText(model: Model, wait: Wait): string {
   const steps = plural(wait.end - wait.begin, "step");
   const names = wait.for.slice(0, kMostNames).map((other) => model.agents[other].name);
-  if (names.length === 0) return `${steps}, though it meets nobody if it goes on`;
+  if (names.length === 0) return `${steps}, although no robot is in its way`;
   if (wait.for.length > kMostNames) return `${steps} for ${names.join(", ")} and others to pass`;
   const last = names.pop()!;
   return `${steps} for ${names.length > 0 ? `${names.join(", ")} and ${last}` : last} to pass`;

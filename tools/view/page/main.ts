@@ -22,7 +22,7 @@ const kLong = 300_000; // characters of data that are not read at once
 
 function begin(): void {
   const data = document.getElementById("grove-data")?.textContent ?? null;
-  if (data === null) fail("this page holds no data");
+  if (data === null) fail("this page contains no data");
   else if (data.length < kLong) start(data);
   else {
     say("Reading the plan …", document.title, "failure reading");

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Robots on a 2D canvas: for browsers without WebGL, and for small pictures.
 
+import { shapes } from "../palette.json";
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
 import { Doing } from "./facts";
 import type { World } from "./model";
-import { kRadius, type RobotPainter } from "./robots";
+import type { RobotPainter } from "./robots";
 import type { RobotsNow } from "./robots_now";
 import { isOutside } from "./scenery";
 
@@ -22,7 +23,7 @@ export class CanvasRobots implements RobotPainter {
     c.clearRect(0, 0, this.canvas.width, this.canvas.height);
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
     const step = this.world.unit * camera.scale;
-    const radius = Math.max(this.least, kRadius * step);
+    const radius = Math.max(this.least, shapes.robotRadius * step);
     // A path for all that do the same: a fill for each robot would take far longer.
     for (let doing = Doing.kMoving; doing <= Doing.kResting; ++doing) {
       c.fillStyle = colors.doing[doing];
@@ -74,12 +75,14 @@ function paintHeading(
   c: CanvasRenderingContext2D, x: number, y: number, radius: number, angle: number, colors: Colors,
 ): void {
   const [dx, dy] = [Math.sin(angle), -Math.cos(angle)];
-  const tip = 1.25 * radius;
+  const tip = shapes.headingTip * radius;
+  const base = shapes.headingBase;
+  const half = shapes.headingTip - shapes.headingBase;
   c.fillStyle = colors.heading;
   c.beginPath();
   c.moveTo(x + dx * tip, y + dy * tip);
-  c.lineTo(x + dx * 0.75 * radius - dy * 0.5 * radius, y + dy * 0.75 * radius + dx * 0.5 * radius);
-  c.lineTo(x + dx * 0.75 * radius + dy * 0.5 * radius, y + dy * 0.75 * radius - dx * 0.5 * radius);
+  c.lineTo(x + dx * base * radius - dy * half * radius, y + dy * base * radius + dx * half * radius);
+  c.lineTo(x + dx * base * radius + dy * half * radius, y + dy * base * radius - dx * half * radius);
   c.closePath();
   c.fill();
 }

@@ -2,10 +2,11 @@
 // Robots by WebGL: one quad, as many instances as robots; shapes and colours in the shader. What a
 // frame sends to the graphics card is four numbers for each robot.
 
+import { shapes } from "../palette.json";
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
 import type { World } from "./model";
-import { kRadius, type RobotPainter } from "./robots";
+import type { RobotPainter } from "./robots";
 import type { RobotsNow } from "./robots_now";
 
 const kNumbers = 4; // for each robot: x, y, angle, what it does (4: collides; +8: it turns)
@@ -38,6 +39,8 @@ precision highp float;
 uniform float radius;
 uniform vec3 colors[5];
 uniform vec3 headingColor;
+const float headingBase = float(${shapes.headingBase});
+const float headingTip = float(${shapes.headingTip});
 in vec2 at;
 flat in vec2 ahead;
 flat in int doing;
@@ -54,7 +57,7 @@ void main() {
   if (turns == 1 && radius > 3.0) {
     float along = dot(at, ahead);
     float across = abs(dot(at, vec2(-ahead.y, ahead.x)));
-    float wedge = cover(max(0.75 - along, across - (1.25 - along)));
+    float wedge = cover(max(headingBase - along, across - (headingTip - along)));
     paint = mix(paint, headingColor, wedge);
     alpha = max(alpha, wedge);
   }
@@ -112,7 +115,7 @@ export class GlRobots implements RobotPainter {
     gl.uniform2f(uniforms.center, camera.center.x, camera.center.y);
     gl.uniform2f(uniforms.halfView, (camera.width * ratio) / 2, (camera.height * ratio) / 2);
     gl.uniform1f(uniforms.scale, scale);
-    gl.uniform1f(uniforms.radius, Math.max(1.5 * ratio, kRadius * this.world.unit * scale));
+    gl.uniform1f(uniforms.radius, Math.max(1.5 * ratio, shapes.robotRadius * this.world.unit * scale));
     gl.uniform3fv(uniforms.colors, [...colors.doing, colors.collision].flatMap(rgb));
     gl.uniform3fv(uniforms.headingColor, rgb(colors.heading));
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);

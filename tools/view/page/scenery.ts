@@ -2,18 +2,17 @@
 // Paints all that stands still for a while on a 2D canvas: the world (once for each view), heat,
 // destinations, tasks, names of vertices, and the path of the robot chosen.
 
+import { shapes } from "../palette.json";
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
 import { visitsBy, type TaskFacts } from "./facts";
 import type { Model, World } from "./model";
 import { labelsOf } from "./names";
-import { kTaskRadius, paintTasks } from "./tasks_canvas";
+import { paintTasks } from "./tasks_canvas";
 import { outlined } from "./text";
 
-const kGoalRadius = 0.4; // of a destination's square, in steps
 const kLeastOwned = 34; // pixels of a step from which on destinations say whose they are
 const kLongestOwner = 9;
-const kRoomOfName = 5000; // square pixels, on the mean, if vertices are to have their names
 
 export interface PathPainter {
   paint(
@@ -130,7 +129,7 @@ export class Scenery {
       if (isOutside(p.x, p.y, step, camera)) return;
       c.strokeStyle = index === shown.chosen ? colors.chosen : colors.goal;
       c.lineWidth = index === shown.chosen ? 2.5 : 1.25;
-      const r = Math.max(2, kGoalRadius * step);
+      const r = Math.max(2, shapes.goalRadius * step);
       c.strokeRect(p.x - r, p.y - r, 2 * r, 2 * r);
       if (step >= kLeastOwned && shown.labels) this.paintOwner(c, p.x, p.y + r, index, step, colors);
     });
@@ -164,7 +163,7 @@ export class Scenery {
     const seen = world.vertexNames
       .map((name, v) => ({ name, v, at: camera.toView(world.xs[v], world.ys[v]) }))
       .filter(({ at }) => !isOutside(at.x, at.y, 20, camera));
-    if (seen.length * kRoomOfName > camera.width * camera.height) return;
+    if (seen.length * shapes.areaPerName > camera.width * camera.height) return;
     c.font = "11px system-ui, sans-serif";
     c.textAlign = "center";
     c.textBaseline = "top";
@@ -182,8 +181,8 @@ export class Scenery {
 
   // How far what is painted on a vertex reaches down.
   private reachOf(vertex: number, step: number): number {
-    if (this.tasksByPlace.has(vertex)) return Math.max(2.5, kTaskRadius * step);
-    if (this.goals.has(vertex)) return Math.max(2, kGoalRadius * step);
+    if (this.tasksByPlace.has(vertex)) return Math.max(2.5, shapes.taskRadius * step);
+    if (this.goals.has(vertex)) return Math.max(2, shapes.goalRadius * step);
     return vertexRadius(step);
   }
 }

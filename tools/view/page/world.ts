@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The world as the page draws it and moves in it: where each place is, and which steps there are.
 
+import { shapes } from "../palette.json";
 import type { Value } from "./json";
 import type { Road, World } from "./model";
 import { nameOf } from "./names";
 
 const kMostPlaces = 1 << 26;
-const kMargin = 1.5; // around a roadmap, in steps
-const kBend = 0.35; // between two roads that join the same vertices, in steps
 
 export function readWorld(data: Value): World {
   switch (data.key("kind").text()) {
@@ -91,7 +90,7 @@ function readRoadmap(data: Value): World {
     ys[i] = vertex.y;
   });
   layRoads(roads, xs, ys, unit);
-  const margin = kMargin * unit;
+  const margin = shapes.margin * unit;
   const [first] = vertices;
   return {
     kind: "roadmap", places, unit, xs, ys, columns: 0, roads,
@@ -137,7 +136,7 @@ function layRoads(roads: Road[], xs: Float64Array, ys: Float64Array, unit: numbe
   for (const row of beside.values())
     row.forEach((road, i) => {
       const rank = i - (row.length - 1) / 2;
-      layRoad(road, rank * 2 * kBend * unit, xs, ys, unit);
+      layRoad(road, rank * 2 * shapes.bend * unit, xs, ys, unit);
     });
 }
 

@@ -15,18 +15,8 @@
 namespace grove::detail {
 namespace {
 
-// Measures of the page (page/world.ts, robots.ts, scenery.ts, tasks_canvas.ts), in steps.
-constexpr double kBend = 0.35;    // between roads that join the same vertices
-constexpr double kMargin = 1.5;   // of a roadmap
-constexpr double kRadius = 0.34;  // of a robot
-constexpr double kGoalRadius = 0.4;
-constexpr double kTaskRadius = 0.42;
-
-constexpr double kLeastLabeled = 16.0;  // minimum size of a step for ids on robots, pixels
-constexpr std::size_t kMostTags = 40;   // maximum number of ids beside robots, if steps are smaller
-constexpr double kTagSize = 9.0;        // pixels
-constexpr double kRoomOfName = 5000.0;  // area per vertex for names of vertices, square pixels
-constexpr int kMostStacked = 3;         // maximum number of diamonds for tasks on one place
+constexpr double kMinLabeled = 16.0;  // minimum size per step for ids on robots, pixels
+constexpr double kTagSize = 9.0;      // pixels
 
 // The time from which the agent rests: after its last step and its last task execution.
 Time rest_of(const AgentPlan& plan) {
@@ -232,7 +222,7 @@ void Drawing::draw(cairo_t* cairo, double width, double time) const {
   if (!instance_.is_on_grid()) draw_vertex_names(cairo);
   const auto all = robots(time);
   for (const Robot& robot : all) draw_robot(cairo, robot);
-  const bool named = unit_ >= kLeastLabeled * pixel(cairo) || all.size() <= kMostTags;
+  const bool named = unit_ >= kMinLabeled * pixel(cairo) || all.size() <= kMaxTags;
   for (std::size_t i = 0; named && i < all.size(); ++i)
     draw_name(cairo, all[i], instance_.agent(static_cast<AgentIndex>(i)).id);
   cairo_restore(cairo);
@@ -347,9 +337,9 @@ void Drawing::draw_tasks(cairo_t* cairo, double time) const {
     const Point at = point(place);
     const bool done = progress.visits >= progress.total;
     const Color& color = done ? kTaskDone : progress.begun ? kTaskBegun : kTaskOpen;
-    for (int k = std::min(kMostStacked, progress.tasks) - 1; k >= 0; --k)
-      diamond(cairo, {at.x + 0.09 * k * unit_, at.y - 0.09 * k * unit_}, kTaskRadius * unit_, color,
-              done ? kGoal : kTask, 0.05 * unit_);
+    for (int k = std::min(kMaxStacked, progress.tasks) - 1; k >= 0; --k)
+      diamond(cairo, {at.x + kStackOffset * k * unit_, at.y - kStackOffset * k * unit_},
+              kTaskRadius * unit_, color, done ? kGoal : kTask, 0.05 * unit_);
     if (progress.tasks == 1) continue;
     set(cairo, kText);
     center_text(cairo, std::to_string(progress.tasks), at, 0.36 * unit_, 0.6 * unit_);
@@ -361,7 +351,7 @@ void Drawing::draw_vertex_names(cairo_t* cairo) const {
   const double size = kTagSize * pixel(cairo);
   const auto& vertices = instance_.roadmap()->vertices();
   const double room = width_ * height_ / (pixel(cairo) * pixel(cairo));
-  if (static_cast<double>(vertices.size()) * kRoomOfName > room) return;
+  if (static_cast<double>(vertices.size()) * kAreaPerName > room) return;
   std::vector<Point> taken;
   for (int v = 0; v < static_cast<int>(vertices.size()); ++v) {
     const Point on = point(instance_.roadmap()->place_of_vertex(v));
@@ -376,7 +366,7 @@ void Drawing::draw_vertex_names(cairo_t* cairo) const {
 }
 
 void Drawing::draw_robot(cairo_t* cairo, const Robot& robot) const {
-  const double r = kRadius * unit_;
+  const double r = kRobotRadius * unit_;
   const Point at = robot.at;
   if (robot.collides) {
     set(cairo, kCollision);
@@ -394,9 +384,12 @@ void Drawing::draw_robot(cairo_t* cairo, const Robot& robot) const {
     const double dx = std::sin(robot.angle);
     const double dy = -std::cos(robot.angle);
     set(cairo, kText);
-    cairo_move_to(cairo, at.x + dx * 1.25 * r, at.y + dy * 1.25 * r);
-    cairo_line_to(cairo, at.x + (0.75 * dx - 0.5 * dy) * r, at.y + (0.75 * dy + 0.5 * dx) * r);
-    cairo_line_to(cairo, at.x + (0.75 * dx + 0.5 * dy) * r, at.y + (0.75 * dy - 0.5 * dx) * r);
+    constexpr double kHalf = kHeadingTip - kHeadingBase;
+    cairo_move_to(cairo, at.x + dx * kHeadingTip * r, at.y + dy * kHeadingTip * r);
+    cairo_line_to(cairo, at.x + (kHeadingBase * dx - kHalf * dy) * r,
+                  at.y + (kHeadingBase * dy + kHalf * dx) * r);
+    cairo_line_to(cairo, at.x + (kHeadingBase * dx + kHalf * dy) * r,
+                  at.y + (kHeadingBase * dy - kHalf * dx) * r);
     cairo_close_path(cairo);
     cairo_fill(cairo);
   }
@@ -404,8 +397,8 @@ void Drawing::draw_robot(cairo_t* cairo, const Robot& robot) const {
 
 // On the robot, or beside it if it is small.
 void Drawing::draw_name(cairo_t* cairo, const Robot& robot, const std::string& id) const {
-  const double r = kRadius * unit_;
-  if (unit_ >= kLeastLabeled * pixel(cairo)) {
+  const double r = kRobotRadius * unit_;
+  if (unit_ >= kMinLabeled * pixel(cairo)) {
     set(cairo, robot.collides || robot.doing == kMoving ? kOnRobot : kOnPale);
     center_text(cairo, shortened(id, 14), robot.at, 0.34 * unit_, 1.5 * r);
     return;

@@ -84,7 +84,7 @@ void draw_caption(cairo_t* cairo, const Strip& strip, double moment) {
 
 void draw_strip(cairo_t* cairo, const Drawing& drawing, std::span<const double> moments,
                 const Strip& strip) {
-  cairo_set_source_rgb(cairo, 1, 1, 1);
+  set(cairo, kFloor);
   cairo_paint(cairo);
   for (std::size_t i = 0; i < moments.size(); ++i) {
     const int column = static_cast<int>(i) % strip.columns;

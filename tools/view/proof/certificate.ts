@@ -62,7 +62,7 @@ class Lines {
 
   // The first word of the next line.
   next(): string {
-    if (this.at === this.lines.length) this.fail("a line more");
+    if (this.at === this.lines.length) this.fail("another line");
     this.words = this.lines[this.at++].split(" ");
     return this.word();
   }
@@ -79,7 +79,7 @@ class Lines {
   integer(below = Infinity): number {
     const word = this.word();
     const value = word === "inf" ? Infinity : /^[0-9]+$/.test(word) ? Number(word) : NaN;
-    if (!(value < below || value === below && below === Infinity)) this.fail("a number of what there is");
+    if (!(value < below || value === below && below === Infinity)) this.fail("a valid number");
     return value;
   }
 
@@ -207,7 +207,7 @@ class Reader {
         demand.task = lines.integer(tasks.length);
         break;
       default:
-        return lines.fail("a kind of demand");
+        return lines.fail("a kind of constraint");
     }
     demand.kind = kind;
     return demand;
@@ -229,7 +229,7 @@ class Reader {
     while (lines.hasMore) numbers.push(lines.integer());
     const most = kind === "finish" ? this.model.agents.length : this.model.world.places;
     const named = kind === "place" ? [0] : kind === "edge" ? [0, 1] : [0, 2];
-    if (named.some((i) => !(numbers[i] < most))) lines.fail("places and agents that there are");
+    if (named.some((i) => !(numbers[i] < most))) lines.fail("existing places and agents");
     return { kind, price: numbers.pop()!, numbers };
   }
 

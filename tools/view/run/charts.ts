@@ -14,8 +14,8 @@ export const kSigns: Record<string, string> = {
   tree: "●", start: "■", priorities: "▲", configurations: "◆", neighborhood: "+",
 };
 export const kMemoryNames: Record<string, string> = {
-  nodes: "nodes of the trees", prices: "what robots cost", path_sets: "sets of optimal paths",
-  groups: "what groups cost",
+  nodes: "tree nodes", prices: "costs of single robots", path_sets: "MDDs (all paths of one cost)",
+  groups: "costs of groups of robots",
 };
 
 export function endOf(run: Run): number {
@@ -81,7 +81,7 @@ export function memoryChart(run: Run, isLogarithmic: boolean): Contents {
     series: [
       ...kMemory.map((kind, i) =>
         ({ name: kMemoryNames[kind], kind: `memory-${kind}`, points: upTo(i + 1), until: upTo(i) })),
-      { name: "the whole process", kind: "incumbent", points: whole },
+      { name: "whole process", kind: "incumbent", points: whole },
     ],
     marks: [],
     label: megabytes,

@@ -64,7 +64,7 @@ export class Log {
         this.tell(kind, data, data.key("text").text());
         break;
       case "resumed":
-        this.tell(kind, data, `goes on after ${data.key("seconds_before").number()} s of before`);
+        this.tell(kind, data, `continues after ${data.key("seconds_before").number()} s of earlier runs`);
         break;
       case "checkpoint":
         this.tell(kind, data, checkpointText(data));

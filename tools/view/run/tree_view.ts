@@ -35,10 +35,10 @@ export class TreeView {
     this.element = el("div", { class: "tree" },
       el("div", { class: "controls" },
         button("−", "Zoom out", () => this.zoomBy(0.7)), button("+", "Zoom in", () => this.zoomBy(1.4)),
-        button("Fit", "Show all of it", () => this.fit()),
-        button("‹", "Before the last expansion shown", () => this.play(this.shown - 1)),
+        button("Fit", "Show the whole tree", () => this.fit()),
+        button("‹", "Previous expansion", () => this.play(this.shown - 1)),
         this.slider,
-        button("›", "The next expansion", () => this.play(this.shown + 1)), this.told),
+        button("›", "Next expansion", () => this.play(this.shown + 1)), this.told),
       this.canvas, this.details);
     this.slider.addEventListener("input", () => this.play(Number(this.slider.value)));
     this.listen();
@@ -84,7 +84,7 @@ export class TreeView {
     const lines = [
       `Bound ${number(node.bound)}, cost of its paths ${number(node.cost)}` +
         (node.conflicts === null ? "" : `, ${number(node.conflicts)} conflicts`),
-      node.demand && `Demands: ${node.demand}`,
+      node.demand && `Constraint: ${node.demand}`,
       ...this.whatBecame(node),
     ];
     this.details.replaceChildren(el("h3", {}, `Node ${node.number}${node.parent ? "" : `, root of tree ${node.tree}`}`),
@@ -104,8 +104,8 @@ export class TreeView {
     const cost = this.run!.summary?.cost ?? null;
     if (cost !== null && node.bound >= cost)
       return `Never expanded: no plan below it is cheaper than the one of ${number(cost)}`;
-    return this.run!.summary ? "Not expanded as far as the log tells"
-      : "Not expanded yet, as far as the log tells";
+    return this.run!.summary ? "Not expanded, according to the log"
+      : "Not expanded yet, according to the log";
   }
 
   // --- painting ---

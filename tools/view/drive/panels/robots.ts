@@ -11,7 +11,7 @@ import { doingText, lateText, progressText } from "../words";
 type Kind = "all" | "waiting" | "late" | "help";
 
 const kKinds: [Kind, string][] = [
-  ["all", "All"], ["waiting", "Waiting"], ["late", "Late"], ["help", "To look after"],
+  ["all", "All"], ["waiting", "Waiting"], ["late", "Late"], ["help", "Needs help"],
 ];
 
 export class Robots {
@@ -96,7 +96,7 @@ export class Robots {
     this.body.replaceChildren(...this.rows.map(({ element }) => element));
     const rest = agents.length - kMostRows;
     if (rest > 0)
-      this.body.append(el("p", { class: "faint" }, `and ${plural(rest, "more")}: search for them`));
+      this.body.append(el("p", { class: "faint" }, `and ${plural(rest, "more")}: use the search`));
     if (agents.length === 0) this.body.append(el("p", { class: "faint" }, "none"));
   }
 

@@ -13,12 +13,12 @@ export function comparedDetails(app: App, agent: number): HTMLElement[] {
   if (!comparison) return [];
   const found = comparison.all.find((difference) => difference.agent === agent);
   const told = found ? differenceText(app, found)
-    : el("p", { class: "faint" }, "It does the same in both plans.");
+    : el("p", { class: "faint" }, "It behaves the same in both plans.");
   return [told, ...visitsInBoth(app, agent)];
 }
 
 function differenceText(app: App, { by, orders, parts }: Difference): HTMLElement {
-  if (Number.isNaN(by)) return el("p", {}, "One of the plans has no path for it.");
+  if (Number.isNaN(by)) return el("p", {}, "One of the plans has no path for this robot.");
   const cost = by === 0 ? "It costs the same in both plans."
     : `It costs ${signed(by)} in the second plan.`;
   const order = orders ? " It visits its tasks in another order." : "";

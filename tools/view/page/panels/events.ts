@@ -8,10 +8,10 @@ import type { Row } from "./rows";
 
 const kKinds: [EventKind | "all", string][] = [
   ["all", "all events"],
-  ["wrong", "what is wrong"],
+  ["wrong", "problems"],
   ["wait", "long waits"],
-  ["task", "tasks done"],
-  ["rest", "robots at rest"],
+  ["task", "completed tasks"],
+  ["rest", "robots coming to rest"],
 ];
 
 export class Events {
@@ -23,7 +23,7 @@ export class Events {
   private known: PlanEvent[] | null = null;
 
   constructor(private readonly app: App, private readonly changed: () => void) {
-    this.kind = el("select", { "aria-label": "Which events", change: () => changed() },
+    this.kind = el("select", { "aria-label": "Kind of events", change: () => changed() },
       ...kKinds.map(([value, text]) => el("option", { value }, text)));
     this.only = el("button", { type: "button", click: () => this.toggle() });
     this.only.hidden = true;
@@ -35,7 +35,7 @@ export class Events {
     if (robot === this.chosen) return false;
     this.chosen = robot;
     this.only.hidden = robot < 0;
-    if (robot >= 0) setText(this.only, `only of ${this.app.model.agents[robot].name}`);
+    if (robot >= 0) setText(this.only, `only ${this.app.model.agents[robot].name}`);
     return this.onlyChosen;
   }
 

@@ -6,7 +6,7 @@ import type { Choice } from "../stage";
 
 export function head(app: Pick<Choice, "choose">, title: string, ...buttons: HTMLElement[]): HTMLElement {
   const close = el("button", {
-    type: "button", "aria-label": "Choose nothing", title: "Choose nothing (Esc)",
+    type: "button", "aria-label": "Clear selection", title: "Clear selection (Esc)",
     click: () => app.choose(-1),
   }, "✕");
   const heading = el("h2", { dir: "auto" });

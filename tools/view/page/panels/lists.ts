@@ -93,14 +93,14 @@ export class Lists {
     this.body.replaceChildren(...shown.map(({ element }) => element));
     const rest = this.rows.length - kMostRows;
     if (rest > 0)
-      this.body.append(el("p", { class: "faint" }, `and ${plural(rest, "more")}: search for them`));
+      this.body.append(el("p", { class: "faint" }, `and ${plural(rest, "more")}: use the search`));
     if (this.rows.length === 0) this.body.append(el("p", { class: "faint" }, this.nothing()));
     for (const { element, row } of this.notes) setText(element, row.note());
   }
 
   private nothing(): string {
     const isSame = this.tab === "differences" && this.query === "";
-    return isSame ? "every robot does the same in both plans" : "nothing of that kind";
+    return isSame ? "every robot does the same in both plans" : "no matches";
   }
 
   private ofTab(): Row[] {

@@ -51,7 +51,7 @@ export class Strip {
 
   private verdict(plan: Plan, viewed: Viewed | undefined): HTMLElement {
     if (plan.agents.length === 0) return el("span", { class: "verdict" }, "no plan in this file");
-    if (!viewed) return el("span", { class: "faint" }, "not shown: two at most are");
+    if (!viewed) return el("span", { class: "faint" }, "not shown: the page shows two plans");
     const element = el("span", { class: "verdict", role: "status" }, "checking …");
     this.verdicts.push({ viewed, element });
     return element;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-//! The words of a line, and what is wrong with a certificate.
-use crate::body::NEVER;
+//! Tokens of a line, and faults of certificates.
+use crate::agent::NEVER;
 use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// The exit code, 1: refused, or 2: unreadable, and why.
+/// The exit code (1: refused, 2: unreadable) and the reason.
 pub type Fault = (i32, String);
 
 pub fn unreadable(reason: impl Into<String>) -> Fault { (2, reason.into()) }
 
-/// Refuses what does not hold.
-pub fn hold(good: bool, reason: impl Into<String>) -> Result<(), Fault> { if good { Ok(()) } else { Err((1, reason.into())) } }
+/// Refuses the certificate unless `good`.
+pub fn ensure(good: bool, reason: impl Into<String>) -> Result<(), Fault> { if good { Ok(()) } else { Err((1, reason.into())) } }
 
-/// A hash that is quick: for what searches make, not for what a file says.
+/// A fast hash for keys that searches create. Not for keys that a file contains.
 #[derive(Default)]
 pub struct Quick(u64);
 
@@ -26,32 +26,33 @@ impl Hasher for Quick {
 pub type Map<K, V> = HashMap<K, V, BuildHasherDefault<Quick>>;
 pub type Set<K> = HashSet<K, BuildHasherDefault<Quick>>;
 
-pub struct Words<'a>(std::str::Split<'a, char>);
+/// The words of a line, separated by single blanks.
+pub struct Tokens<'a>(std::str::Split<'a, char>);
 
-impl<'a> Words<'a> {
-    pub fn of(line: &'a str) -> Words<'a> { Words(line.split(' ')) }
+impl<'a> Tokens<'a> {
+    pub fn of(line: &'a str) -> Tokens<'a> { Tokens(line.split(' ')) }
 
     pub fn more(&self) -> bool { self.0.clone().next().is_some() }
 
-    pub fn word(&mut self) -> Result<&'a str, Fault> {
-        self.0.next().filter(|word| !word.is_empty()).ok_or_else(|| unreadable("expected another word"))
+    pub fn token(&mut self) -> Result<&'a str, Fault> {
+        self.0.next().filter(|token| !token.is_empty()).ok_or_else(|| unreadable("expected another word"))
     }
 
     pub fn whole(&mut self) -> Result<u64, Fault> {
-        let word = self.word()?;
-        let digits = Some(word).filter(|word| word.bytes().all(|byte| byte.is_ascii_digit()));
-        let digits = digits.ok_or_else(|| unreadable(format!("expected a number, not '{:.20}'", word)))?;
-        digits.parse().map_err(|_| (1, "a number that is too large".to_string()))
+        let token = self.token()?;
+        let digits = Some(token).filter(|token| token.bytes().all(|byte| byte.is_ascii_digit()));
+        let digits = digits.ok_or_else(|| unreadable(format!("found '{:.20}'; expected a number", token)))?;
+        digits.parse().map_err(|_| (1, "the number is too large".to_string()))
     }
 
     pub fn number(&mut self) -> Result<u32, Fault> {
         let value = self.whole()?;
-        hold(value < u64::from(NEVER), "a number that is too large").map(|_| value as u32)
+        ensure(value < u64::from(NEVER), "the number is too large").map(|_| value as u32)
     }
 
     pub fn index(&mut self, count: usize, what: &str) -> Result<u32, Fault> {
         let value = self.number()?;
-        hold((value as usize) < count, format!("there is no {} {}", what, value)).map(|_| value)
+        ensure((value as usize) < count, format!("there is no {} {}", what, value)).map(|_| value)
     }
 
     /// A number or `inf`.

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-//! One agent as searches see it: its poses, its stops, and what remains at least, were there no demands but on the order of stops.
+//! Model of one agent for the searches: its poses, its stops, and its least remaining costs under no constraints except those on the
+//! order of stops.
 use crate::instance::{Agent, Instance, Place, World};
 use crate::orders::{After, Bound, Orders};
-use crate::words::Map;
+use crate::tokens::Map;
 use std::rc::Rc;
 
-/// Later than all times of a certificate: `inf`.
+/// The time `inf`, later than every time that a certificate may name.
 pub const NEVER: u32 = 1 << 30;
 
-/// Lists of numbers, one for each number.
+/// A list of numbers for each number from 0 to `count` - 1, in compressed rows.
 struct Lists {
     first: Vec<u32>,
     items: Vec<u32>,
@@ -30,7 +31,7 @@ impl Lists {
     fn at(&self, i: u32) -> &[u32] { &self.items[self.first[i as usize] as usize..self.first[i as usize + 1] as usize] }
 }
 
-/// The poses of agents that turn alike (`turn` 0: do not), and steps between them.
+/// Poses of all agents with the same `turn` (steps of a quarter turn; 0: these agents do not turn), and the steps between poses.
 pub struct Poses {
     turn: u32,
     each: u32,
@@ -81,7 +82,7 @@ impl Poses {
 
     fn on(&self, place: Place) -> std::ops::Range<u32> { place * self.each..(place + 1) * self.each }
 
-    /// How much it takes at least from each pose, to go to a source and there as much as it says.
+    /// Returns for each pose the least cost of going to a source plus the cost of that source. A source is (cost, pose).
     fn spread(&self, mut sources: Vec<(u32, u32)>) -> Vec<u32> {
         sources.sort_unstable_by(|one, two| two.cmp(one));
         let mut found = vec![NEVER; self.place.len()];
@@ -108,13 +109,13 @@ pub struct Stop {
     pub duration: u32,
 }
 
-/// Stops done, and what remains then from the posts that may be next, the least first.
+/// A set of stops done. `rest`: for each post that may be next, the remaining cost from the arrival at it, and the post; the least first.
 struct Done {
     stops: u64,
     rest: Vec<(u32, u32)>,
 }
 
-/// For one choice of which stops may have which number: what remains, in paths up to a limit.
+/// One restriction of which stops may have which number, with the remaining costs for paths that cost at most `limit`.
 struct Choice {
     allowed: Vec<u64>,
     after: After,
@@ -124,41 +125,44 @@ struct Choice {
     done: Vec<Done>,
 }
 
-/// Of up to so many stops all sets are looked at, at once or when need be; of more, only what costs not much more than the best order.
-const FEWER: usize = 5;
-const FEW: usize = 11;
-const MOST_BEYOND: u32 = 200;
+/// With at most this number of stops all sets of stops are considered at once.
+const MAX_STOPS_AT_ONCE: usize = 5;
+/// With at most this number of stops all sets are considered when the first limit does not suffice.
+const MAX_STOPS_COMPLETE: usize = 11;
+/// With more stops only orders are considered that cost at most this many steps more than the best one.
+const MAX_EXCESS: u32 = 200;
 
-pub struct Body {
+pub struct AgentModel {
     pub poses: Rc<Poses>,
     pub start: u32,
-    /// The stop at which it is at work at time 0, and when that ends.
+    /// The stop that the agent works on at time 0, and the time at which this work ends.
     pub working: Option<(u32, u32)>,
     pub stops: Vec<Stop>,
-    /// Of each place: the stops there. Empty if there are none at all.
+    /// For each place the set of stops there. Empty if the agent has no tasks.
     stops_at: Vec<u64>,
-    /// In any order of stops the last is where it rests.
+    /// The agent rests on the place of its last stop: it has no goal, and no stop takes time.
     pub rests_on_last: bool,
     pub plain_goal: Option<Place>,
     ends: Vec<u32>,
-    /// Stops with the poses in which they may be done; from each pose, the way to each of these.
+    /// Posts: a stop with a pose in which it may be done.
     posts: Vec<(usize, u32)>,
-    ways: Vec<u32>,
+    /// From each pose to each post, row by row.
+    distances: Vec<u32>,
     bound: Option<Bound>,
-    /// Choices that were looked at, and the one that holds.
+    /// Restrictions considered so far, and the number of the current one.
     choices: Vec<Choice>,
     now: usize,
 }
 
-impl Body {
-    pub fn of(instance: &Instance, agent: &Agent, poses: Rc<Poses>) -> Body {
+impl AgentModel {
+    pub fn of(instance: &Instance, agent: &Agent, poses: Rc<Poses>) -> AgentModel {
         let timed = |place| agent.tasks.iter().any(|&t| instance.tasks[t as usize].place == place && instance.tasks[t as usize].duration > 0);
         let mut stops: Vec<Stop> = Vec::new();
         let mut stops_at = vec![0u64; if agent.tasks.is_empty() { 0 } else { instance.world.links.len() }];
         for &task in &agent.tasks {
             let (place, duration) = (instance.tasks[task as usize].place, instance.tasks[task as usize].duration);
             if duration > 0 || (!timed(place) && stops_at[place as usize] == 0) {
-                assert!(stops.len() < 63, "more tasks of one agent than this program takes");
+                assert!(stops.len() < 63, "an agent with more than 63 stops");
                 stops_at[place as usize] |= 1 << stops.len();
                 stops.push(Stop { task, place, duration });
             }
@@ -172,14 +176,14 @@ impl Body {
             (None, _) => stops.iter().flat_map(|stop| poses.on(stop.place)).map(|pose| (0, pose)).collect(),
         };
         let plain = |goal: &Place| agent.goal_heading.is_none() && !timed(*goal);
-        let mut body = Body {
+        let mut model = AgentModel {
             start: poses.pose(agent.start, agent.looks),
             working,
             rests_on_last: agent.goal.is_none() && stops.iter().all(|stop| stop.duration == 0),
             plain_goal: agent.goal.filter(plain),
             ends: poses.spread(ends),
             posts: Vec::new(),
-            ways: Vec::new(),
+            distances: Vec::new(),
             bound: None,
             choices: Vec::new(),
             now: 0,
@@ -187,14 +191,14 @@ impl Body {
             stops,
             stops_at,
         };
-        let on = |(stop, at): (usize, &Stop)| body.poses.on(at.place).map(move |pose| (stop, pose));
-        body.posts = body.stops.iter().enumerate().flat_map(on).collect();
-        let to: Vec<Vec<u32>> = body.posts.iter().map(|&(_, pose)| body.poses.spread(vec![(0, pose)])).collect();
-        body.ways = (0..body.poses.place.len()).flat_map(|pose| to.iter().map(move |row| row[pose])).collect();
-        body
+        let on = |(stop, at): (usize, &Stop)| model.poses.on(at.place).map(move |pose| (stop, pose));
+        model.posts = model.stops.iter().enumerate().flat_map(on).collect();
+        let to: Vec<Vec<u32>> = model.posts.iter().map(|&(_, pose)| model.poses.spread(vec![(0, pose)])).collect();
+        model.distances = (0..model.poses.place.len()).flat_map(|pose| to.iter().map(move |row| row[pose])).collect();
+        model
     }
 
-    fn ways(&self, pose: u32) -> &[u32] { &self.ways[pose as usize * self.posts.len()..][..self.posts.len()] }
+    fn distances(&self, pose: u32) -> &[u32] { &self.distances[pose as usize * self.posts.len()..][..self.posts.len()] }
 
     pub fn all(&self) -> u64 { (1 << self.stops.len()) - 1 }
 
@@ -204,22 +208,22 @@ impl Body {
         (0..self.stops.len()).filter(|&j| stops >> j & 1 == 1 && self.stops[j].duration == 0).fold(0, |all, j| all | 1 << j)
     }
 
-    /// From now on this says which stops may have which number.
+    /// Sets the current restriction: `allowed[k]` is the set of stops that may have number k.
     pub fn choose(&mut self, allowed: &[u64]) {
         match self.choices.iter().position(|choice| choice.allowed == allowed) {
             Some(known) => self.now = known,
-            None => self.look(allowed.to_vec(), if self.stops.len() <= FEWER { NEVER } else { 0 }),
+            None => self.add_choice(allowed.to_vec(), if self.stops.len() <= MAX_STOPS_AT_ONCE { NEVER } else { 0 }),
         }
     }
 
-    /// What remains with this choice, in paths up to a limit at least.
-    fn look(&mut self, allowed: Vec<u64>, wanted: u32) {
+    /// Computes the remaining costs under a restriction, at least for paths that cost up to `wanted`, and makes it the current one.
+    fn add_choice(&mut self, allowed: Vec<u64>, wanted: u32) {
         let size = |choice: &Choice| 10_000 + choice.after.len() + 5 * choice.done.len();
         if self.choices.iter().map(size).sum::<usize>() > 4_000_000 { self.choices.clear(); }
         let mut bound = self.bound.take();
         let orders = Orders {
-            first: self.ways(self.start),
-            legs: self.posts.iter().flat_map(|&(_, pose)| self.ways(pose)).copied().collect(),
+            first: self.distances(self.start),
+            legs: self.posts.iter().flat_map(|&(_, pose)| self.distances(pose)).copied().collect(),
             last: self.posts.iter().map(|&(_, pose)| self.ends[pose as usize]).collect(),
             durations: self.stops.iter().map(|stop| stop.duration).collect(),
             working: self.working.map(|(stop, end)| (stop as usize, stop * self.poses.each + self.start % self.poses.each, end)),
@@ -232,20 +236,20 @@ impl Body {
         self.choices.push(Choice { allowed, after, limit, least, numbers: Map::default(), done: Vec::new() });
     }
 
-    /// Paths that cost more may not be found.
+    /// Searches may miss paths that cost more.
     pub fn limit(&self) -> u32 { self.choices[self.now].limit }
 
-    /// Raises the limit to a cost, if that is not too much.
-    pub fn reach(&mut self, cost: u32) -> bool {
-        let few = self.stops.len() <= FEW;
-        if self.limit() < cost && (few || cost < self.choices[self.now].least + MOST_BEYOND) {
+    /// Raises the limit to `cost` or more, if that is affordable. Returns whether the limit suffices for `cost` now.
+    pub fn raise_limit(&mut self, cost: u32) -> bool {
+        let few = self.stops.len() <= MAX_STOPS_COMPLETE;
+        if self.limit() < cost && (few || cost < self.choices[self.now].least + MAX_EXCESS) {
             let Choice { allowed, limit, least, .. } = self.choices.swap_remove(self.now);
-            self.look(allowed, if few { NEVER } else { cost.max(limit + ((limit - least) / 4).max(2)) });
+            self.add_choice(allowed, if few { NEVER } else { cost.max(limit + ((limit - least) / 4).max(2)) });
         }
         self.limit() >= cost
     }
 
-    /// The number of a set of stops done.
+    /// Returns the number of a set of stops done.
     pub fn number(&mut self, stops: u64) -> u32 {
         let Choice { after, numbers, done, .. } = &mut self.choices[self.now];
         if let Some(&found) = numbers.get(&stops) { return found; }
@@ -262,14 +266,15 @@ impl Body {
 
     pub fn done(&self, number: u32) -> u64 { self.choices[self.now].done[number as usize].stops }
 
-    /// What remains at least, in a pose with these stops done. More than that, or NEVER, if it is beyond the limit.
+    /// Returns the least remaining cost from a pose with these stops done. If all paths through this state cost more than the limit,
+    /// the result may be too high or NEVER.
     pub fn remains(&self, number: u32, pose: u32) -> u32 {
         let Done { stops, rest } = &self.choices[self.now].done[number as usize];
         if *stops == self.all() { return self.ends[pose as usize]; }
-        let (ways, mut least) = (self.ways(pose), NEVER);
+        let (distances, mut least) = (self.distances(pose), NEVER);
         for &(rest, post) in rest.iter().take_while(|rest| rest.0 < NEVER) {
             if rest >= least { break; }
-            least = least.min(rest + ways[post as usize]);
+            least = least.min(rest + distances[post as usize]);
         }
         least
     }
