@@ -8,8 +8,7 @@
 
 namespace grove::detail::fuzz {
 
-// Returns the lines without line ends. Throws std::runtime_error if `file` is not a complete zstd
-// stream.
+// Returns the lines without line ends. Throws std::runtime_error if `file` is not valid zstd data.
 std::vector<std::string> certificate_lines(const std::filesystem::path& file);
 
 }  // namespace grove::detail::fuzz
