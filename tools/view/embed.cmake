@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Writes OUTPUT, which defines what page_parts.h declares of the page NAME: the texts of the files
-# STYLES, one after the other, and of PROGRAM.
+# Writes OUTPUT, which defines the declarations of page_parts.h for the page NAME: the concatenated texts of the
+# files STYLES, and the text of PROGRAM.
 foreach(file IN LISTS STYLES)
   file(READ ${file} text)
   string(APPEND style "${text}")
