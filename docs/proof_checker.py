@@ -100,7 +100,8 @@ def read_constraint(words, agents):
     """Reads (agent, ("bar", P, T)) or (agent, ("move", P, Q, T)), each for one time."""
     agent, kind, *numbers = words
     *places, begin, end = map(number, numbers)
-    expect((kind, len(places), len(set(places))) in (("bar", 1, 1), ("move", 2, 2)), "this constraint is not supported here")
+    expect((kind, len(places), len(set(places))) in (("bar", 1, 1), ("move", 2, 2)),
+           "this constraint is not supported here")
     expect(number(agent) < agents and begin == end, "expected an agent, and one time")
     return int(agent), (kind, *places, begin)
 
