@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Writes OUTPUT, which defines the function of the page NAME that page_parts.h declares. The style is the files
-# STYLES one after the other, with values of the palette for @...@; the program is the file PROGRAM.
-include(${CMAKE_CURRENT_LIST_DIR}/palette.cmake)
+# Writes OUTPUT, which defines the declarations of page_parts.h for the page NAME: the concatenated texts of the
+# files STYLES, and the text of PROGRAM.
 foreach(file IN LISTS STYLES)
   file(READ ${file} text)
   string(APPEND style "${text}")

@@ -9,7 +9,7 @@ from grove_toio.driver import Driver
 from grove_toio.geometry import distance
 from grove_toio.mat import BODY
 from grove_toio.simulate import make_world
-from grove_toio.simulated import SimulatedCube, Troubles
+from grove_toio.simulated import Disturbances, SimulatedCube
 
 RED = "a0"                      # of the order "crowd"
 
@@ -118,7 +118,7 @@ class Gone(SimulatedCube):
 async def drive_with(kind, name, seconds, robots=None, said=None, **attributes):
     """All cubes, or those of some robots, are of this kind."""
     order, grid = plans.order(name), plans.grid(name)
-    world, cubes = make_world(order, grid, Troubles(), 1)
+    world, cubes = make_world(order, grid, Disturbances(), 1)
     for cube in cubes.values():
         if robots is None or cube.name in robots:
             cube.__class__ = kind
@@ -168,7 +168,7 @@ class Cubes(unittest.TestCase):
     def test_cubes_stand_after_a_drive_that_was_broken_off(self):
         async def break_off():
             order, grid = plans.order("crowd"), plans.grid("crowd")
-            world, cubes = make_world(order, grid, Troubles(), 1)
+            world, cubes = make_world(order, grid, Disturbances(), 1)
             running = asyncio.create_task(world.run())
             driving = asyncio.create_task(Driver(order, cubes, grid).drive())
             await asyncio.sleep(2)

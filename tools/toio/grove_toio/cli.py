@@ -19,7 +19,7 @@ from .driver import Driver
 from .mat import MATS, MM, make_grid
 from .protocol import LEAST_SPEED, MOST_SPEED
 from .simulate import simulate
-from .simulated import Troubles
+from .simulated import Disturbances
 
 DEFAULT_CELLS = (7, 5)
 SIMULATION = ("loss", "slip", "noise", "lift", "fast", "seed")
@@ -190,7 +190,7 @@ async def _drive(a, order, grid, options):
     asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, task.cancel)
     if a.bluetooth:
         return await _drive_real(a, order, grid, options)
-    return await simulate(order, grid, Troubles(a.loss, a.slip, a.noise), a.seed, a.lift, a.time_limit, **options)
+    return await simulate(order, grid, Disturbances(a.loss, a.slip, a.noise), a.seed, a.lift, a.time_limit, **options)
 
 
 def _describe(a, order, grid, name):

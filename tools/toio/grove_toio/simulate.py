@@ -4,13 +4,13 @@ import asyncio
 import random
 
 from .driver import Driver
-from .simulated import SimulatedCube, Troubles
+from .simulated import Disturbances, SimulatedCube
 from .world import Lift, World
 
 PUT_DOWN = 2.0              # error of the manual placement, units from the centre
 
 
-def make_world(order, grid, troubles, seed):
+def make_world(order, grid, disturbances, seed):
     """Returns (world, {robot: cube})."""
     world = World(grid.mat, seed)
     hand = random.Random(f"start {seed}")
@@ -18,14 +18,16 @@ def make_world(order, grid, troubles, seed):
     for robot in order.robots:
         x, y = grid.centre(robot.start)
         cubes[robot.name] = SimulatedCube(robot.name, world, x + hand.uniform(-PUT_DOWN, PUT_DOWN),
-                                          y + hand.uniform(-PUT_DOWN, PUT_DOWN), hand.uniform(0, 360), troubles, seed)
+                                          y + hand.uniform(-PUT_DOWN, PUT_DOWN), hand.uniform(0, 360), disturbances,
+                                          seed)
     return world, cubes
 
 
-async def simulate(order, grid, troubles=Troubles(), seed=0, lifts=(), seconds=float("inf"), kind=Driver, **options):
+async def simulate(order, grid, disturbances=Disturbances(), seed=0, lifts=(), seconds=float("inf"), kind=Driver,
+                   **options):
     """Drives the order; returns (outcome, world). A lift is (robot, at, seconds) or (robot, at, seconds, point), where
     the point is where the cube is put down."""
-    world, cubes = make_world(order, grid, troubles, seed)
+    world, cubes = make_world(order, grid, disturbances, seed)
     world.lifts = [Lift(cubes[robot], *those) for robot, *those in lifts]
     running = asyncio.create_task(world.run())
     try:

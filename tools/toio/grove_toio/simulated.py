@@ -22,7 +22,7 @@ DELAYS = (0.010, 0.035)     # range of the delay of a message, seconds
 EASE_ANGLE, EASE_WAY = 40.0, 12.0   # degrees and units before the end at which it begins to brake
 
 
-class Troubles(NamedTuple):
+class Disturbances(NamedTuple):
     loss: float = 0.0       # share of lost messages, in each direction
     slip: float = 0.0       # slips per second of driving
     noise: float = 1.0      # maximum error of notified positions, units
@@ -39,8 +39,8 @@ class _Driving:
 
 
 class SimulatedCube:
-    def __init__(self, name, world, x, y, angle, troubles=Troubles(), seed=0):
-        self.name, self.world, self.troubles = name, world, troubles
+    def __init__(self, name, world, x, y, angle, disturbances=Disturbances(), seed=0):
+        self.name, self.world, self.disturbances = name, world, disturbances
         self.x, self.y, self.angle = x, y, angle
         self.random = random.Random(f"{name} {seed}")
         self.bias = self.random.uniform(0.95, 1.05)
@@ -74,7 +74,7 @@ class SimulatedCube:
 
     def _send(self, not_before, handler, data):
         """Delivers or loses a message; returns its time of arrival. Messages of one direction keep their order."""
-        if self.random.random() < self.troubles.loss:
+        if self.random.random() < self.disturbances.loss:
             return not_before
         loop = asyncio.get_running_loop()
         when = max(not_before + 1e-5, loop.time() + self.random.uniform(*DELAYS))
@@ -226,7 +226,7 @@ class SimulatedCube:
 
     def _grip(self, seconds, now):
         """Returns the share of the wheels' way that the cube covers. A slip may turn the cube and end its motion."""
-        if now >= self.slips_until and self.random.random() < self.troubles.slip * seconds:
+        if now >= self.slips_until and self.random.random() < self.disturbances.slip * seconds:
             self.slips_until = now + self.random.uniform(0.1, 0.6)
             self.angle += self.random.uniform(-12, 12)
             if self.random.random() < 0.3:
@@ -236,7 +236,7 @@ class SimulatedCube:
     # ---- positions
 
     def _seen(self, value):
-        return max(0, round(value + self.random.uniform(-self.troubles.noise, self.troubles.noise)))
+        return max(0, round(value + self.random.uniform(-self.disturbances.noise, self.disturbances.noise)))
 
     def _notify_position(self, now):
         if now - self.notified_at < 0.01 * self.notifying.interval - 1e-9:

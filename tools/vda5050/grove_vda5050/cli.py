@@ -22,7 +22,7 @@ from grove_driving.program import FAILURE, complain, exit_code
 from . import trial
 from .clock import Clock
 from .control import Control, Limits
-from .fleet import Fleet, Troubles
+from .fleet import Disturbances, Fleet
 from .messages import Style
 from .monitor import Monitor
 from .mqtt import Broker, Connection
@@ -363,7 +363,7 @@ def _check_stops(a, setup):
 
 def _fleet(a, setup, connect, clock):
     return Fleet(connect, setup.topics, setup.routes, setup.headings(), setup.frame.cell, a.speed,
-                 math.radians(a.turn_speed), Troubles(a.delayed, a.delay, a.lost, tuple(a.stop)), a.seed, clock)
+                 math.radians(a.turn_speed), Disturbances(a.delayed, a.delay, a.lost, tuple(a.stop)), a.seed, clock)
 
 
 def _vehicles(a):

@@ -16,7 +16,7 @@ HEARTBEAT = 10.0            # real seconds between states without changes; VDA 5
 NEAR = 1.5                  # greater distances are not measured, cells
 
 
-class Troubles(NamedTuple):
+class Disturbances(NamedTuple):
     """Disturbances; all times are vehicle seconds."""
     delayed: float = 0.0    # share of delayed messages, in each direction
     delay: float = 2.0      # maximum delay, seconds
@@ -65,8 +65,8 @@ class World:
 class Fleet:
     """All vehicles of an order, each on its start. connect(topics, will, hello) returns a connection."""
 
-    def __init__(self, connect, topics, routes, headings, cell, speed, turn_speed, troubles, seed, clock):
-        self.connect, self.topics, self.troubles, self.clock = connect, topics, troubles, clock
+    def __init__(self, connect, topics, routes, headings, cell, speed, turn_speed, disturbances, seed, clock):
+        self.connect, self.topics, self.disturbances, self.clock = connect, topics, disturbances, clock
         self.random = random.Random(f"vehicles {seed}")
         self.world = World(cell)
         self.due = []                   # (when, number, function, arguments)
@@ -108,11 +108,11 @@ class Fleet:
 
     def _by_radio(self, function, *arguments):
         drawn = self.random.random()
-        if drawn < self.troubles.lost:
+        if drawn < self.disturbances.lost:
             self.lost += 1
-        elif drawn < self.troubles.lost + self.troubles.delayed:
+        elif drawn < self.disturbances.lost + self.disturbances.delayed:
             self.delayed += 1
-            self._later(self.random.uniform(0, self.troubles.delay), function, *arguments)
+            self._later(self.random.uniform(0, self.disturbances.delay), function, *arguments)
         else:
             function(*arguments)
 
@@ -153,7 +153,7 @@ class Fleet:
             function(*arguments)
 
     def _stop_and_go(self, now):
-        for robot, begin, seconds in self.troubles.stops:
+        for robot, begin, seconds in self.disturbances.stops:
             vehicle = next(v for v in self.vehicles if v.name == robot)
             vehicle.stopped = begin <= now < begin + seconds
 
