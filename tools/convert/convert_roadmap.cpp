@@ -151,7 +151,7 @@ void print_roadmap(const std::string& file, const Roadmap& roadmap) {
 
 }  // namespace
 
-bool is_about_roads(const ConvertArguments& arguments) {
+bool converts_roads(const ConvertArguments& arguments) {
   const std::string format = roadmap_source_format(arguments);
   return format == "graphml" || format == "lif" || is_roadmap_target(arguments);
 }
