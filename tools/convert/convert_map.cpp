@@ -115,7 +115,7 @@ void convert_occupancy(const ConvertArguments& arguments) {
 
 }  // namespace
 
-bool is_about_maps(const ConvertArguments& arguments) {
+bool converts_maps(const ConvertArguments& arguments) {
   return arguments.to == "map" || (arguments.to.empty() && arguments.output.ends_with(".map")) ||
          arguments.from == "ros" || arguments.from == "ascii";
 }

@@ -56,7 +56,7 @@ bool converts_roads(const ConvertArguments& arguments);
 void convert_roadmap(const ConvertArguments& arguments);
 
 // Whether INSTANCE is a map of another tool or OUT a map; and the conversion. Throws as above.
-bool is_about_maps(const ConvertArguments& arguments);
+bool converts_maps(const ConvertArguments& arguments);
 void convert_map(const ConvertArguments& arguments);
 
 // Calls `write`. If the format of OUT cannot express a part of `instance`, throws InputError with
