@@ -296,7 +296,7 @@ class Cells {
   }
   int block_narrow() {
     int blocked = 0;
-    const auto look_at = [&](int ax, int ay, int bx, int by) {
+    const auto separate = [&](int ax, int ay, int bx, int by) {
       if (!passable(ax, ay) || !passable(bx, by) || leads(ax, ay, bx, by)) return;
       const bool first = ways(ax, ay) < ways(bx, by);
       passable_[first ? index(ax, ay) : index(bx, by)] = false;
@@ -304,8 +304,8 @@ class Cells {
     };
     for (int y = 0; y < height_; ++y)
       for (int x = 0; x < width_; ++x) {
-        look_at(x, y, x + 1, y);
-        look_at(x, y, x, y + 1);
+        separate(x, y, x + 1, y);
+        separate(x, y, x, y + 1);
       }
     return blocked;
   }
