@@ -277,7 +277,7 @@ class Cells {
   bool passable(int x, int y) const {
     return x >= 0 && x < width_ && y >= 0 && y < height_ && passable_[index(x, y)];
   }
-  bool leads(int ax, int ay, int bx, int by) const {
+  bool are_connected(int ax, int ay, int bx, int by) const {
     const Point a = middle(ax, ay);
     const Point b = middle(bx, by);
     const int steps = std::max(1, static_cast<int>(std::ceil(2 * size_ / map_.resolution())));
@@ -291,13 +291,13 @@ class Cells {
   int ways(int x, int y) const {
     int count = 0;
     for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-      if (passable(x + dx, y + dy) && leads(x, y, x + dx, y + dy)) ++count;
+      if (passable(x + dx, y + dy) && are_connected(x, y, x + dx, y + dy)) ++count;
     return count;
   }
   int block_narrow() {
     int blocked = 0;
     const auto separate = [&](int ax, int ay, int bx, int by) {
-      if (!passable(ax, ay) || !passable(bx, by) || leads(ax, ay, bx, by)) return;
+      if (!passable(ax, ay) || !passable(bx, by) || are_connected(ax, ay, bx, by)) return;
       const bool first = ways(ax, ay) < ways(bx, by);
       passable_[first ? index(ax, ay) : index(bx, by)] = false;
       ++blocked;
