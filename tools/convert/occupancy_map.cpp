@@ -288,7 +288,7 @@ class Cells {
     }
     return true;
   }
-  int ways(int x, int y) const {
+  int connection_count(int x, int y) const {
     int count = 0;
     for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
       if (passable(x + dx, y + dy) && are_connected(x, y, x + dx, y + dy)) ++count;
@@ -298,7 +298,7 @@ class Cells {
     int blocked = 0;
     const auto separate = [&](int ax, int ay, int bx, int by) {
       if (!passable(ax, ay) || !passable(bx, by) || are_connected(ax, ay, bx, by)) return;
-      const bool first = ways(ax, ay) < ways(bx, by);
+      const bool first = connection_count(ax, ay) < connection_count(bx, by);
       passable_[first ? index(ax, ay) : index(bx, by)] = false;
       ++blocked;
     };
