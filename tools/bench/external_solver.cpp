@@ -95,8 +95,8 @@ std::vector<batch::TracePoint> improving_points(std::vector<batch::TracePoint> t
 // Replaces names that the solver's format cannot express, or that the solver may lose, by defaults.
 Instance instance_for_solver(const Instance& instance, SolverInput input) {
   if (input == SolverInput::kGrove) return instance;
-  Instance told = with_default_agent_ids(instance);
-  return input == SolverInput::kMgcbs ? with_default_task_ids(told) : told;
+  Instance renamed = with_default_agent_ids(instance);
+  return input == SolverInput::kMgcbs ? with_default_task_ids(renamed) : renamed;
 }
 
 // Converts a valid plan to the names and task numbers of `instance`, which has the same agents.
@@ -185,13 +185,13 @@ std::string ExternalRun::value_of(std::string_view placeholder) const {
   return folder_.string();
 }
 
-std::string ExternalRun::told(const std::string& text) const {
+std::string ExternalRun::expand(const std::string& text) const {
   return filled(text, [this](std::string_view name) { return value_of(name); });
 }
 
 std::vector<std::string> ExternalRun::command() const {
   std::vector<std::string> words = solver_.adapter.command;
-  for (std::string& word : words) word = told(word);
+  for (std::string& word : words) word = expand(word);
   return words;
 }
 
@@ -202,7 +202,7 @@ bool ExternalRun::receives_time_limit() const {
 }
 
 fs::path ExternalRun::plan() const {
-  return solver_.adapter.plan.empty() ? fs::path() : fs::path(told(solver_.adapter.plan));
+  return solver_.adapter.plan.empty() ? fs::path() : fs::path(expand(solver_.adapter.plan));
 }
 
 // Group 1 of the last line in which the pattern is found; the whole match if it has none.
@@ -210,7 +210,7 @@ std::optional<std::string> ExternalRun::last_match(const LinePattern& pattern,
                                                    const fs::path& output_file) const {
   const std::regex regex(pattern.regex);
   const std::string text =
-      text_of(pattern.file.empty() ? output_file : fs::path(told(pattern.file)));
+      text_of(pattern.file.empty() ? output_file : fs::path(expand(pattern.file)));
   std::optional<std::string> found;
   for (const std::string_view line : split_lines(text)) {
     const std::string_view looked_at = beginning(line);
@@ -241,7 +241,7 @@ void ExternalRun::read_trace(batch::Outcome& outcome, const fs::path& output_fil
   for (const TracePattern& pattern : solver_.adapter.trace) {
     const std::regex regex(pattern.line.regex);
     const std::string text =
-        text_of(pattern.line.file.empty() ? output_file : fs::path(told(pattern.line.file)));
+        text_of(pattern.line.file.empty() ? output_file : fs::path(expand(pattern.line.file)));
     for (const std::string_view line : split_lines(text)) {
       const std::string words(beginning(line));
       std::smatch match;
@@ -258,17 +258,17 @@ void ExternalRun::read_plan(batch::Outcome& outcome, const ChildEnd& end) {
   std::error_code error;
   if (file.empty() || !fs::is_regular_file(file, error)) return;
   try {
-    const RecountedPlan told = read_and_recount(file, solver_instance_);
-    if (!outcome.claimed_cost) outcome.claimed_cost = told.claimed_cost;
-    if (!outcome.claimed_lower_bound) outcome.claimed_lower_bound = told.claimed_lower_bound;
-    if (!told.solution.plan) return;
-    const auto wrong = check(solver_instance_, told.solution, 1);
+    const RecountedPlan recounted = read_and_recount(file, solver_instance_);
+    if (!outcome.claimed_cost) outcome.claimed_cost = recounted.claimed_cost;
+    if (!outcome.claimed_lower_bound) outcome.claimed_lower_bound = recounted.claimed_lower_bound;
+    if (!recounted.solution.plan) return;
+    const auto wrong = check(solver_instance_, recounted.solution, 1);
     if (!wrong.empty())
       throw InputError(file.string(), wrong.front().json_pointer, wrong.front().message);
-    outcome.cost = told.solution.plan->cost;
+    outcome.cost = recounted.solution.plan->cost;
     outcome.status = to_string(Status::kFeasible);
     const bool same = solver_.adapter.input == SolverInput::kGrove;
-    valid_plan_ = same ? told.solution : in_terms_of(loaded_.instance, told.solution);
+    valid_plan_ = same ? recounted.solution : in_terms_of(loaded_.instance, recounted.solution);
   } catch (const InputError& broken) {
     if (end.kind != ChildEnd::Kind::kExited || end.code != 0) return;  // maybe killed while writing
     outcome.status = batch::kInvalidPlan;

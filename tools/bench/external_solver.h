@@ -44,7 +44,7 @@ class ExternalRun {
 
  private:
   std::string value_of(std::string_view placeholder) const;
-  std::string told(const std::string& text) const;
+  std::string expand(const std::string& text) const;
   void write_input(const batch::Entry& entry);
   void write_moving_ai();
   void read_claims(batch::Outcome& outcome, const std::filesystem::path& output_file) const;

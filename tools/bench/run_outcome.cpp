@@ -56,8 +56,8 @@ bool is_refusal(const ChildEnd& end) {
 
 std::string refusal(const std::filesystem::path& output_file, const std::string& instance) {
   std::string words = last_output_line(output_file);
-  for (const std::string& told : {std::string(), instance})
-    if (words.starts_with(told + ": ")) words.erase(0, told.size() + 2);
+  for (const std::string& prefix : {std::string(), instance})
+    if (words.starts_with(prefix + ": ")) words.erase(0, prefix.size() + 2);
   return words;
 }
 

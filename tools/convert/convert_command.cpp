@@ -148,8 +148,8 @@ void run_on_roads(const ConvertArguments& arguments) {
 }
 
 void run(const ConvertArguments& arguments) {
-  if (is_about_maps(arguments)) return run_on_maps(arguments);
-  if (is_about_roads(arguments)) return run_on_roads(arguments);
+  if (converts_maps(arguments)) return run_on_maps(arguments);
+  if (converts_roads(arguments)) return run_on_roads(arguments);
   require_use(arguments.robot_radius > 0, false, "--robot-radius", "a map of ROS");
   const bool is_plan = !arguments.plan.empty();
   const bool is_driven = is_plan && (arguments.to == "waypoints" || arguments.to == "nav-path");

@@ -115,7 +115,7 @@ void convert_occupancy(const ConvertArguments& arguments) {
 
 }  // namespace
 
-bool is_about_maps(const ConvertArguments& arguments) {
+bool converts_maps(const ConvertArguments& arguments) {
   return arguments.to == "map" || (arguments.to.empty() && arguments.output.ends_with(".map")) ||
          arguments.from == "ros" || arguments.from == "ascii";
 }
@@ -133,11 +133,13 @@ void convert_map(const ConvertArguments& arguments) {
     throw CLI::ValidationError("--cell-size, --robot-radius", "allowed only with a map of ROS");
   if (format != "ascii")
     throw CLI::ValidationError(
-        "--from", fmt::format("{}; expected ros or ascii, because OUT is a map",
-                              format.empty() ? fmt::format("required, for the name '{}' does not "
-                                                           "tell the format",
-                                                           arguments.instance)
-                                             : fmt::format("found '{}'", format)));
+        "--from",
+        fmt::format(
+            "{}; expected ros or ascii, because OUT is a map",
+            format.empty()
+                ? fmt::format("required, because the suffix of '{}' is not that of a format",
+                              arguments.instance)
+                : fmt::format("found '{}'", format)));
   const Grid grid = with_free_cells(arguments.instance, read_ascii(arguments.instance));
   write_map(arguments.output, grid);
   print_map(arguments.output, grid);

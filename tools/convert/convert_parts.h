@@ -52,11 +52,11 @@ void convert_instance(const ConvertArguments& arguments, InstanceFormat from, In
 void convert_plan(const ConvertArguments& arguments, InstanceFormat from, PlanFormat to);
 
 // Whether INSTANCE is a file of roads or OUT a roadmap; and the conversion. Throws as above.
-bool is_about_roads(const ConvertArguments& arguments);
+bool converts_roads(const ConvertArguments& arguments);
 void convert_roadmap(const ConvertArguments& arguments);
 
 // Whether INSTANCE is a map of another tool or OUT a map; and the conversion. Throws as above.
-bool is_about_maps(const ConvertArguments& arguments);
+bool converts_maps(const ConvertArguments& arguments);
 void convert_map(const ConvertArguments& arguments);
 
 // Calls `write`. If the format of OUT cannot express a part of `instance`, throws InputError with

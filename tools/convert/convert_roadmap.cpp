@@ -38,9 +38,10 @@ std::string require_roadmap_source_format(const ConvertArguments& arguments) {
         "--from",
         fmt::format("found '{}'; expected graphml or lif, because OUT is a roadmap", format));
   throw CLI::ValidationError(
-      "--from", fmt::format("required, for the name '{}' does not tell the format; expected "
-                            "graphml or lif, because OUT is a roadmap",
-                            arguments.instance));
+      "--from",
+      fmt::format("required, because the suffix of '{}' is not that of a format; expected "
+                  "graphml or lif, because OUT is a roadmap",
+                  arguments.instance));
 }
 
 void require_roadmap_target(const ConvertArguments& arguments, const std::string& format) {
@@ -151,7 +152,7 @@ void print_roadmap(const std::string& file, const Roadmap& roadmap) {
 
 }  // namespace
 
-bool is_about_roads(const ConvertArguments& arguments) {
+bool converts_roads(const ConvertArguments& arguments) {
   const std::string format = roadmap_source_format(arguments);
   return format == "graphml" || format == "lif" || is_roadmap_target(arguments);
 }

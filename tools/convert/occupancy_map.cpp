@@ -277,7 +277,7 @@ class Cells {
   bool passable(int x, int y) const {
     return x >= 0 && x < width_ && y >= 0 && y < height_ && passable_[index(x, y)];
   }
-  bool leads(int ax, int ay, int bx, int by) const {
+  bool are_connected(int ax, int ay, int bx, int by) const {
     const Point a = middle(ax, ay);
     const Point b = middle(bx, by);
     const int steps = std::max(1, static_cast<int>(std::ceil(2 * size_ / map_.resolution())));
@@ -288,24 +288,24 @@ class Cells {
     }
     return true;
   }
-  int ways(int x, int y) const {
+  int connection_count(int x, int y) const {
     int count = 0;
     for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-      if (passable(x + dx, y + dy) && leads(x, y, x + dx, y + dy)) ++count;
+      if (passable(x + dx, y + dy) && are_connected(x, y, x + dx, y + dy)) ++count;
     return count;
   }
   int block_narrow() {
     int blocked = 0;
-    const auto look_at = [&](int ax, int ay, int bx, int by) {
-      if (!passable(ax, ay) || !passable(bx, by) || leads(ax, ay, bx, by)) return;
-      const bool first = ways(ax, ay) < ways(bx, by);
+    const auto separate = [&](int ax, int ay, int bx, int by) {
+      if (!passable(ax, ay) || !passable(bx, by) || are_connected(ax, ay, bx, by)) return;
+      const bool first = connection_count(ax, ay) < connection_count(bx, by);
       passable_[first ? index(ax, ay) : index(bx, by)] = false;
       ++blocked;
     };
     for (int y = 0; y < height_; ++y)
       for (int x = 0; x < width_; ++x) {
-        look_at(x, y, x + 1, y);
-        look_at(x, y, x, y + 1);
+        separate(x, y, x + 1, y);
+        separate(x, y, x, y + 1);
       }
     return blocked;
   }

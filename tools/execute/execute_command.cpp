@@ -73,7 +73,7 @@ struct ExecuteArguments {
 };
 
 // Results of executions.
-struct Took {
+struct Totals {
   std::vector<Cost> makespans;
   std::vector<Cost> costs;
 
@@ -197,7 +197,7 @@ class Execution {
 
   void print() {
     const Plan& plan = *claimed_.solution.plan;
-    Took undisturbed;
+    Totals undisturbed;
     undisturbed.add(order_, simulate_nominal(order_));
     const Cost makespan = std::ranges::max(plan.agents, {}, &AgentPlan::cost).cost;
     fmt::print("passing order: {} actions, {} waits between robots, {} rings\n",
@@ -209,7 +209,7 @@ class Execution {
     if (!switching_.costs.empty()) row("driven, switching", switching_, plan.cost, makespan);
   }
 
-  static void row(const std::string& name, Took& took, Cost cost, Cost makespan) {
+  static void row(const std::string& name, Totals& took, Cost cost, Cost makespan) {
     const auto middle = [](std::vector<Cost>& all) {
       std::ranges::sort(all);
       return all[all.size() / 2];
@@ -234,8 +234,8 @@ class Execution {
   const LoadedInstance loaded_;
   const ClaimedPlan claimed_;
   const ActionDependencyGraph order_;
-  Took fixed_;
-  Took switching_;
+  Totals fixed_;
+  Totals switching_;
   std::int64_t switches_ = 0;
   std::int64_t unfinished_ = 0;  // number of executions
   std::vector<BlockedRobot> first_stuck_;

@@ -203,7 +203,7 @@ class BatchRun {
   }
 
   // Returns why the method does not support this instance; "" if it does.
-  std::string misfit(const Instance& instance) const {
+  std::string unsupported_reason(const Instance& instance) const {
     try {
       require_fit(method_of(a_.solve), instance, options_);
       return "";
@@ -220,7 +220,7 @@ class BatchRun {
     const Clock::time_point start = Clock::now();
     const LoadedInstance loaded = load(entry, poll);
     row.facts = facts_of(entry, loaded);
-    if (const std::string why = misfit(loaded.instance); !why.empty()) {
+    if (const std::string why = unsupported_reason(loaded.instance); !why.empty()) {
       row.outcome = {.status = batch::kUnsupported, .error = why};
       return;
     }

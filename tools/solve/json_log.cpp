@@ -94,13 +94,13 @@ Json memory_json(const MemoryUse& memory) {
 }
 
 // Columns with one entry per rank; null if unknown.
-Json ranks_json(const RunStatistics& survey) {
+Json ranks_json(const RunStatistics& statistics) {
   Json json{{"nodes", Json::array()},           {"open", Json::array()},
             {"lower_bound", Json::array()},     {"memory_mb", Json::array()},
             {"low_level_calls", Json::array()}, {"branching_cost_queries", Json::array()}};
-  for (int number = 0; number < survey.rank_count; ++number) {
-    const auto found = survey.ranks.find(number);
-    if (found == survey.ranks.end()) {
+  for (int number = 0; number < statistics.rank_count; ++number) {
+    const auto found = statistics.ranks.find(number);
+    if (found == statistics.ranks.end()) {
       for (Json& column : json) column.push_back(nullptr);
       continue;
     }
@@ -174,12 +174,12 @@ void JsonLog::row(const LogRow& row) {
   sink_.line(line_of(json));
 }
 
-void JsonLog::survey(const RunStatistics& survey, double seconds) {
+void JsonLog::statistics(const RunStatistics& statistics, double seconds) {
   Json json{{"event", "counts"},
             {"time_s", seconds_json(seconds)},
-            {"counts", survey.whole.counts},
-            {"memory_mb", memory_json(survey.whole.memory)}};
-  if (survey.rank_count > 0) json["ranks"] = ranks_json(survey);
+            {"counts", statistics.whole.counts},
+            {"memory_mb", memory_json(statistics.whole.memory)}};
+  if (statistics.rank_count > 0) json["ranks"] = ranks_json(statistics);
   sink_.line(line_of(json));
 }
 

@@ -16,7 +16,7 @@ class JsonLog : public LogFormat {
   void warning(std::string_view text) override;
   void resumed(const CheckpointHeader& checkpoint) override;
   void row(const LogRow& row) override;
-  void survey(const RunStatistics& survey, double seconds) override;
+  void statistics(const RunStatistics& statistics, double seconds) override;
   void root(const RootRow& row, double seconds) override;
   void node(const NodeRow& row, double seconds) override;
   void infeasible(std::string_view reason) override;

@@ -58,7 +58,7 @@ class LogFormat {
   // The same between rows; if it is shown, the next output overwrites it.
   virtual void progress(const LogRow& /*row*/) {}
   // Counts of the search, and nodes of the trees: only in formats for programs.
-  virtual void survey(const RunStatistics& /*survey*/, double /*seconds*/) {}
+  virtual void statistics(const RunStatistics& /*statistics*/, double /*seconds*/) {}
   virtual void root(const RootRow& /*row*/, double /*seconds*/) {}
   virtual void node(const NodeRow& /*row*/, double /*seconds*/) {}
   // As in RunObserver.

@@ -50,7 +50,7 @@ void RunLog::on_event(RunEvent event, const Progress& told) {
   note_bound(progress);
   const bool news = event_ != RunEvent::kProgress || progress.nodes_expanded != last_row_nodes_;
   const bool is_due = row_is_due(progress);
-  survey_is_due_ = is_due || event == RunEvent::kEnd;
+  statistics_are_due_ = is_due || event == RunEvent::kEnd;
   if (event == RunEvent::kIncumbent || (event == RunEvent::kEnd && news) || is_due)
     return row(progress);
   if (event == RunEvent::kProgress) show_progress(progress);
@@ -100,8 +100,8 @@ void RunLog::show_progress(const Progress& progress) {
   format_.progress(row_of(progress));
 }
 
-void RunLog::on_statistics(const RunStatistics& survey) {
-  format_.survey(survey, seconds());
+void RunLog::on_statistics(const RunStatistics& statistics) {
+  format_.statistics(statistics, seconds());
 }
 
 void RunLog::on_root(const NodePtr& root) {

@@ -34,8 +34,8 @@ class RunLog : public RunObserver {
   void on_note(std::string_view note) override;
   void on_checkpoint(const CheckpointReport& report) override;
   // True with rows that are due by time or work, and at the end.
-  bool wants_statistics() override { return std::exchange(survey_is_due_, false); }
-  void on_statistics(const RunStatistics& survey) override;
+  bool wants_statistics() override { return std::exchange(statistics_are_due_, false); }
+  void on_statistics(const RunStatistics& statistics) override;
   void on_root(const NodePtr& root) override;
   void on_expanded(const NodePtr& node, const Expansion& expansion, int worker) override;
 
@@ -52,7 +52,7 @@ class RunLog : public RunObserver {
   const Options options_;
   TreeLog tree_;
   bool has_rows_ = false;
-  bool survey_is_due_ = false;
+  bool statistics_are_due_ = false;
   bool receives_expansions_ = false;
   std::optional<BoundSource> raises_;     // source of the next rise of the bound, if not the tree
   RunEvent event_ = RunEvent::kProgress;  // the most important one since the last row

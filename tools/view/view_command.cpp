@@ -201,8 +201,8 @@ void show_proof(const ViewArguments& arguments, const Instance& instance,
 
 // Warns about an invalid plan. It is shown anyway: the page lists the errors, a picture marks them
 // red.
-void note_what_is_wrong(const Instance& instance, const NamedPlan& plan,
-                        std::vector<std::string>& warnings) {
+void warn_if_invalid(const Instance& instance, const NamedPlan& plan,
+                     std::vector<std::string>& warnings) {
   const Solution& solution = plan.claimed.solution;
   if (!solution.plan) return;
   const auto wrong = check(instance, solution, 1);
@@ -227,7 +227,7 @@ void run(const ViewArguments& arguments, const PictureMaker& maker) {
         {fs::path(file).filename().string(), read_plan_of_any_tool(file, loaded.instance)});
   if (!arguments.drive.empty()) return show_drive(arguments, loaded.instance, plans.front());
   if (!arguments.proof.empty()) return show_proof(arguments, loaded.instance, plans);
-  for (const NamedPlan& plan : plans) note_what_is_wrong(loaded.instance, plan, warnings);
+  for (const NamedPlan& plan : plans) warn_if_invalid(loaded.instance, plan, warnings);
   if (arguments.wants_pictures() && plans.size() > 1)
     warnings.push_back("pictures show only the first plan");
   if (plans.size() > kMostPlans)
