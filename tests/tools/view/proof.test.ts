@@ -4,10 +4,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { ProofApp } from "../../../tools/view/proof/app";
-import { demandsAt, readCertificate, usersOf } from "../../../tools/view/proof/certificate";
-import { demandsShown, priceHeat } from "../../../tools/view/proof/marks";
+import { constraintsAt, readCertificate, usersOf } from "../../../tools/view/proof/certificate";
+import { constraintsShown, priceHeat } from "../../../tools/view/proof/marks";
 import {
-  closedText, demandText, howText, lemmaText, noteText, planText, stepText, theoremText, whyText,
+  closedText, constraintText, howText, lemmaText, noteText, planText, stepText, theoremText, whyText,
 } from "../../../tools/view/proof/words";
 import { kGrid, kRoads, model } from "./models";
 
@@ -29,11 +29,11 @@ test("trees are read in their order, with lines as the file has them", () => {
   assert.deepEqual(theorem.steps.map(({ kind, line, depth, leaves }) => [kind, line, depth, leaves]), [
     ["split", 10, 0, 4], ["leaf", 11, 1, 1], ["later", 12, 1, 3], ["leaf", 13, 2, 1], ["split", 14, 2, 2],
     ["leaf", 15, 3, 1], ["leaf", 16, 3, 1]]);
-  assert.deepEqual(lemmas.map(({ bound, agents, demands, root }) => [bound, agents, demands.length, root.leaves]),
+  assert.deepEqual(lemmas.map(({ bound, agents, constraints, root }) => [bound, agents, constraints.length, root.leaves]),
     [[9, [0, 1], 1, 2]]);
   assert.deepEqual(usersOf(kWhole, 0).map(({ number }) => number), [-1]);
   const last = theorem.steps[6];
-  assert.deepEqual(demandsAt(last).map((demand) => demandText(kModel, demand)), [
+  assert.deepEqual(constraintsAt(last).map((constraint) => constraintText(kModel, constraint)), [
     "a comes to rest on [3, 0] by 5", "b does not come to rest on [0, 0] by 5",
     "a does not go from [2, 0] to [1, 0], arriving at 3"]);
 });
@@ -51,10 +51,10 @@ test("what a certificate proves, and by how much", () => {
   assert.match(planText(3, 0), /does not tell/);
 });
 
-test("each kind of demand", () => {
+test("each kind of constraint", () => {
   const said = (line: string) => {
     const { theorem } = read("following yes", "theorem 1", `split ${line} | 2 bar 0 0 0`, "leaf", "leaf");
-    return demandText(kModel, theorem.root.sides[0]);
+    return constraintText(kModel, theorem.root.sides[0]);
   };
   assert.equal(said("0 bar 4 1 1"), "a is not on [0, 1] at 1");
   assert.equal(said("0 bar 4 1 3"), "a is not on [0, 1] from 1 to 3");
@@ -71,7 +71,7 @@ test("places on roads have their names", () => {
   const roads = model(kRoads, [{ id: "a", start: 0 }], [], [{ path: "@0;" }]);
   const lines = ["grove-proof 1", "instance 0", "following yes", "theorem 1", "split 0 bar 0 1 1 | 0 bar 4 1 1", "leaf", "leaf", "end"];
   const { sides } = readCertificate(lines.join("\n"), roads).theorem.root;
-  assert.deepEqual(sides.map((demand) => demandText(roads, demand)), ["a is not on A at 1", "a is not on A–B 2 at 1"]);
+  assert.deepEqual(sides.map((constraint) => constraintText(roads, constraint)), ["a is not on A at 1", "a is not on A–B 2 at 1"]);
 });
 
 test("why no plan is lost by a split", () => {
@@ -127,7 +127,7 @@ test("steps are chosen, folded and unfolded", () => {
   app.select(kWhole.theorem.steps[5]);
   assert.equal(app.rows.length, 7); // all above it is unfolded
   assert.deepEqual([app.agents, app.chosen], [[1], 1]);
-  assert.equal(demandsShown(app).length, 1);
+  assert.equal(constraintsShown(app).length, 1);
   app.choose(2);
   assert.equal(app.chosen, 2);
   app.unfold(kWhole.theorem.steps[1], false); // elsewhere

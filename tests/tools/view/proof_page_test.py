@@ -81,15 +81,15 @@ class ProofPages(pages.PageTest):
                 self.assertEqual(tuple(colour), CHOSEN)
 
     def colours_of_places(self):
-        """At the left edges of the squares on what the step's demands name."""
+        """At the left edges of the squares on what the step's constraints name."""
         return self.evaluate("""(() => {
           const {camera, element} = grove.stages[0];
           const canvas = element.querySelector("canvas");
           const c = canvas.getContext("2d");
           const {world} = grove.app.model;
           const {step} = grove.app;
-          const demands = step.sides.length > 0 ? step.sides : [step.above.step.sides[step.above.side]];
-          return demands.flatMap(({places}) => places).map((place) => {
+          const constraints = step.sides.length > 0 ? step.sides : [step.above.step.sides[step.above.side]];
+          return constraints.flatMap(({places}) => places).map((place) => {
             const at = camera.toView(world.xs[place], world.ys[place]);
             const left = at.x - Math.max(5, 0.46 * camera.scale);
             return [...c.getImageData(left, at.y + 4, 1, 1).data].slice(0, 3);

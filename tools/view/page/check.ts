@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What is wrong with a plan, by the contract (docs/design.md, sections 1 and 5) and from the page's
-// data alone: each robot by itself, then all of them through time on one map of who is where, then
-// what the file claims. The page believes no verdict but its own.
+// Violations of a plan, from the contract (docs/design.md, sections 1 and 5) and the page's data only:
+// first each robot by itself, then all robots over time, then the claims of the file. The page relies on
+// no other verdict.
 
 import { Crowd, type ReportCollision } from "./crowd";
 import { finish } from "./facts";
@@ -16,21 +16,21 @@ export interface Violation {
   time: number;
   kind: Kind;
   agents: number[];
-  place: number; // -1: no matter
+  place: number; // -1: none
   text: string;
 }
 
-const kMost = 1000; // violations; who has so many needs no more
-const kStepsAtOnce = 2048; // of one robot, before the page may do something else
+const kMost = 1000; // violations; further ones are not searched for
+const kStepsAtOnce = 2048; // steps of one robot between two checks of the time
 
-// All of them, in order of time.
+// Returns all violations in order of time.
 export function check(model: Model, plan: Plan): Violation[] {
   const checker = new Checker(model, plan);
   while (!checker.step(1000));
   return checker.violations;
 }
 
-// The same a few milliseconds at a time.
+// Searches for violations a few milliseconds at a time.
 export class Checker {
   readonly violations: Violation[] = [];
   done = false;
@@ -45,7 +45,7 @@ export class Checker {
     this.parts = this.checkAll();
   }
 
-  // Works for about so long; true when all is known.
+  // Works for about this time. Returns true when the check is complete.
   step(milliseconds: number): boolean {
     const until = performance.now() + milliseconds;
     while (!this.done) {
@@ -65,7 +65,7 @@ export class Checker {
     if (this.violations.length < kMost) this.violations.push({ time, kind, agents, place, text });
   }
 
-  // In small parts: it stops where other things may be done.
+  // A generator: it yields where the page may do other work.
   private *checkAll(): Generator<void> {
     for (let index = 0; index < this.plan.agents.length; ++index) {
       yield* this.checkAgent(index);
@@ -86,7 +86,7 @@ export class Checker {
     yield* check.run();
   }
 
-  // Who is where at each time; who exchanges places in the step before it.
+  // Finds robots on one place at a time, and robots that swap places in the step before it.
   private *checkMoments(): Generator<void> {
     const crowd = new Crowd(this.plan, this.model.world.places);
     const report: ReportCollision = (kind, time, a, b) =>
@@ -123,7 +123,7 @@ export class Checker {
   }
 }
 
-// What status, bound and omega deserve.
+// Checks the status against cost, bound and omega.
 function wrongClaim(plan: Plan, cost: number): string | null {
   const { status, lower_bound: bound, omega } = plan.claims;
   if (status === undefined || bound === undefined || omega === undefined) return null;
@@ -150,7 +150,7 @@ function accepts(omega: string, cost: number, bound: number): boolean {
 
 type Report = (kind: Kind, time: number, text: string, place: number) => void;
 
-// One robot, as if it were alone.
+// Checks one robot without the others.
 class AgentCheck {
   private steps = 0;
 
@@ -251,7 +251,7 @@ class AgentCheck {
     return [-columns, 1, columns, -1][heading];
   }
 
-  // A turn once begun is completed.
+  // A turn must be completed once it has begun.
   private checkTurn(time: number, by: number): void {
     const { direction } = this.angle(time);
     if (direction !== 0 && direction !== by)
@@ -276,7 +276,7 @@ class AgentCheck {
         `does not continue ${this.model.tasks[working.task].name}, at which it starts`, -1);
   }
 
-  // In order of begin each piece need only be compared with the one that has lasted longest.
+  // In order of begin, each piece need only be compared with the one that ends last so far.
   private checkOverlaps(): void {
     let longest: WorkTime | null = null;
     for (const piece of [...this.plan.work].sort((a, b) => a.begin - b.begin || a.end - b.end)) {
@@ -314,7 +314,7 @@ class AgentCheck {
     this.checkStill(first, piece);
   }
 
-  // No step of any kind at work.
+  // A robot at work neither moves nor turns.
   private checkStill(first: number, piece: WorkTime): void {
     const { track, turns } = this.plan;
     const step = Math.min(nextChange(track, first), turns ? nextChange(turns, first) : Infinity);
@@ -347,7 +347,7 @@ class AgentCheck {
     }
   }
 
-  // The first time from `begin` on at which the task counts as visited.
+  // Returns the first time from `begin` on at which the task counts as visited.
   private visit(index: number, begin: number): number {
     const task = this.model.tasks[index];
     const { track, work } = this.plan;
@@ -376,7 +376,7 @@ class AgentCheck {
     this.checkLastOfOrder(order);
   }
 
-  // Without a destination it rests on the last one; with work the last may be elsewhere.
+  // Without a destination the robot rests on its last task. If tasks take time, the last one may be elsewhere.
   private checkLastOfOrder(order: number[]): void {
     const { goal, tasks } = this.agent;
     if (goal >= 0 || order.length === 0) return;
@@ -390,7 +390,7 @@ class AgentCheck {
   }
 }
 
-// The first time after `begin` at which place or angle are not what they were a step before.
+// Returns the first time after `begin` at which place or angle differ from those one step earlier.
 function nextChange(track: Track | TurnTrack, begin: number): number {
   for (let run = track.run(begin); run < track.runs; ++run)
     if (track.deltas[run] !== 0 || track.jumps[run]) return Math.max(begin, track.times[run]) + 1;

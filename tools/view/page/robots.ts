@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whoever paints robots, and what is painted over them: their ids, a ring around the one chosen,
-// and a dashed one where that robot is in the other plan.
+// Interface of robot painters, and the labels over robots: ids, a ring around the selected robot, and a
+// dashed ring where this robot is in the other plan.
 
 import { shapes } from "../palette.json";
 import type { Camera } from "./camera";
@@ -12,18 +12,18 @@ import type { RobotsNow } from "./robots_now";
 import { isOutside, type Shown } from "./scenery";
 import { outlined } from "./text";
 
-const kLeastLabeled = 22; // pixels of a step from which on robots have their ids on them
+const kLeastLabeled = 22; // pixels per step from which on robots have their ids on them
 const kLongestLabel = 6;
 const kLongestTag = 14;
 
-// Paints all robots of a frame on a canvas of its own, which lies over the scenery.
+// Paints all robots of a frame on a separate canvas over the scenery.
 export interface RobotPainter {
   paint(camera: Camera, frame: RobotsNow, colors: Colors, ratio: number): void;
 }
 
 export class Labels {
   private isClear = true;
-  private readonly ids: string[]; // short
+  private readonly ids: string[]; // shortened
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -49,7 +49,7 @@ export class Labels {
     if (shown.chosen >= 0) this.paintChosen(c, camera, frame, shown.chosen, step, colors);
   }
 
-  // Those that have their ids: none if there are too many for so little room.
+  // Returns the robots that get ids: none if there are too many for the space.
   private inSight(camera: Camera, frame: RobotsNow, step: number): number[] {
     const most = step >= kLeastLabeled ? Infinity : shapes.maxTags;
     const seen: number[] = [];
@@ -109,7 +109,7 @@ export class Labels {
   }
 }
 
-// On the robot's edge, away from its id.
+// Paints a sign on the robot's edge, away from its id.
 function paintMark(
   c: CanvasRenderingContext2D, at: Point, mark: string, radius: number, colors: Colors,
 ): void {

@@ -24,7 +24,7 @@ export class CanvasRobots implements RobotPainter {
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
     const step = this.world.unit * camera.scale;
     const radius = Math.max(this.least, shapes.robotRadius * step);
-    // A path for all that do the same: a fill for each robot would take far longer.
+    // One path for all robots with the same activity: a fill for each robot would take far longer.
     for (let doing = Doing.kMoving; doing <= Doing.kResting; ++doing) {
       c.fillStyle = colors.doing[doing];
       c.beginPath();
@@ -55,7 +55,7 @@ function addRobot(c: CanvasRenderingContext2D, x: number, y: number, radius: num
   }
 }
 
-// Larger than a robot, and of another shape: red is not seen by everybody.
+// Larger than a robot and of another shape, because not all people see red.
 function paintCollision(
   c: CanvasRenderingContext2D, x: number, y: number, radius: number, colors: Colors,
 ): void {

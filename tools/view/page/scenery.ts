@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Paints all that stands still for a while on a 2D canvas: the world (once for each view), heat,
-// destinations, tasks, names of vertices, and the path of the robot chosen.
+// Paints objects that rarely move on a 2D canvas: the world (once for each view), heat, destinations,
+// tasks, names of vertices, and the path of the selected robot.
 
 import { shapes } from "../palette.json";
 import type { Camera } from "./camera";
@@ -11,7 +11,7 @@ import { labelsOf } from "./names";
 import { paintTasks } from "./tasks_canvas";
 import { outlined } from "./text";
 
-const kLeastOwned = 34; // pixels of a step from which on destinations say whose they are
+const kLeastOwned = 34; // pixels per step from which on destinations show the ids of their robots
 const kLongestOwner = 9;
 
 export interface PathPainter {
@@ -68,7 +68,7 @@ export class Scenery {
     if (shown.paths && shown.chosen >= 0) shown.paths.paint(c, camera, shown.chosen, time, colors);
   }
 
-  // The world does not change while the camera stands still.
+  // Painted again only if the camera has moved.
   private paintGround(
     camera: Camera, colors: Colors, ratio: number, width: number, height: number,
   ): void {
@@ -146,7 +146,7 @@ export class Scenery {
     }
   }
 
-  // At the lower edge of the square, so that it is seen while others pass.
+  // At the lower edge of the square, so that it is visible while other robots pass.
   private paintOwner(
     c: CanvasRenderingContext2D, x: number, y: number, robot: number, step: number, colors: Colors,
   ): void {
@@ -156,7 +156,7 @@ export class Scenery {
     outlined(c, this.owners[robot], x, y - 1, colors.faint, colors.floor);
   }
 
-  // Under what stands on the vertex; of those that would cover each other, the first.
+  // Below the objects on the vertex. Of names that would overlap, only the first is painted.
   private paintNames(c: CanvasRenderingContext2D, camera: Camera, colors: Colors): void {
     const { world } = this.model;
     const step = world.unit * camera.scale;
@@ -179,7 +179,7 @@ export class Scenery {
     }
   }
 
-  // How far what is painted on a vertex reaches down.
+  // Distance from a vertex to the lower edge of the objects on it.
   private reachOf(vertex: number, step: number): number {
     if (this.tasksByPlace.has(vertex)) return Math.max(2.5, shapes.taskRadius * step);
     if (this.goals.has(vertex)) return Math.max(2, shapes.goalRadius * step);
@@ -191,7 +191,7 @@ export function isOutside(x: number, y: number, size: number, camera: Camera): b
   return x < -size || y < -size || x > camera.width + size || y > camera.height + size;
 }
 
-// A pixel for each cell.
+// One pixel for each cell.
 function imageOfGrid(world: World, colors: Colors): HTMLCanvasElement {
   const canvas = document.createElement("canvas");
   canvas.width = world.columns;

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Tasks on a 2D canvas: a diamond for each place that has any, with how many there are, and which
-// and how far they have come where there is room.
+// Tasks on a 2D canvas: a diamond for each place with tasks, with their number and, where there is
+// space, their ids and progress.
 
 import { shapes } from "../palette.json";
 import type { Colors } from "./colors";
 import { outlined } from "./text";
 
-const kLeastCounted = 12; // pixels of a step from which on their number stands on them
-const kLeastTold = 30; // and from which on each is told of
+const kLeastCounted = 12; // pixels per step from which on the number of tasks is shown
+const kLeastTold = 30; // pixels per step from which on each task is listed
 const kMostTold = 3;
 
 export interface TaskState {
   index: number;
-  begun: boolean; // somebody was there, or is at work
+  begun: boolean; // a robot was there, or is at work
   visits: number;
   total: number;
 }
 
-// Pale while open, yellow once begun, grey all over when done.
+// Pale while open, yellow after the first visit, grey when done.
 export function paintTasks(
   c: CanvasRenderingContext2D, x: number, y: number, step: number, tasks: TaskState[],
   isChosen: boolean, colors: Colors,

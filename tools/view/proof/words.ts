@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What a certificate says, in words.
+// Texts of constraints, steps and statements.
 
 import { plural } from "../page/dom";
 import type { Model } from "../page/model";
-import { demandOf, type Certificate, type Demand, type Statement, type Step } from "./certificate";
+import { constraintOf, type Certificate, type Constraint, type Statement, type Step } from "./certificate";
 
-function times({ begin, end }: Demand): string {
+function times({ begin, end }: Constraint): string {
   if (end === Infinity) return `from ${begin} on`;
   return begin === end ? `at ${begin}` : `from ${begin} to ${end}`;
 }
@@ -23,30 +23,30 @@ export function agentsText({ agents }: Model, which: number[]): string {
   return listed(which.map((agent) => agents[agent].name));
 }
 
-export function demandText({ agents, tasks, world }: Model, demand: Demand): string {
-  const agent = agents[demand.agent].name;
-  const [first, second] = demand.places.map((place) => world.place(place));
-  switch (demand.kind) {
-    case "bar": return `${agent} is not on ${first} ${times(demand)}`;
-    case "move": return `${agent} does not go from ${first} to ${second}, arriving ${times(demand)}`;
-    case "norest": return `${agent} does not come to rest on ${first} by ${demand.end}`;
-    case "rest": return `${agent} comes to rest on ${first} by ${demand.end}`;
+export function constraintText({ agents, tasks, world }: Model, constraint: Constraint): string {
+  const agent = agents[constraint.agent].name;
+  const [first, second] = constraint.places.map((place) => world.place(place));
+  switch (constraint.kind) {
+    case "bar": return `${agent} is not on ${first} ${times(constraint)}`;
+    case "move": return `${agent} does not go from ${first} to ${second}, arriving ${times(constraint)}`;
+    case "norest": return `${agent} does not come to rest on ${first} by ${constraint.end}`;
+    case "rest": return `${agent} comes to rest on ${first} by ${constraint.end}`;
     case "pass":
-      return `${agent} does not pass through the corridor and leave it from ${first} to ${second}, arriving ${times(demand)}`;
-    case "stop": return `${agent} does ${tasks[demand.task].name} as its stop ${demand.stop + 1}`;
-    case "nostop": return `${agent} does another task than ${tasks[demand.task].name} as its stop ${demand.stop + 1}`;
+      return `${agent} does not pass through the corridor and leave it from ${first} to ${second}, arriving ${times(constraint)}`;
+    case "stop": return `${agent} does ${tasks[constraint.task].name} as its stop ${constraint.stop + 1}`;
+    case "nostop": return `${agent} does another task than ${tasks[constraint.task].name} as its stop ${constraint.stop + 1}`;
   }
 }
 
-// What leads to a step, as its row has it.
+// Text of a step's row: the constraint that leads to it.
 export function stepText(model: Model, statement: Statement, step: Step): string {
-  const demand = demandOf(step);
-  if (!demand) return statement.demands.length > 0 ? "All plans that satisfy its constraints" : "All plans";
-  if (step.above!.step.kind !== "later") return demandText(model, demand);
-  return `${model.agents[demand.agent].name} costs more than ${demand.end}`;
+  const constraint = constraintOf(step);
+  if (!constraint) return statement.constraints.length > 0 ? "All plans that satisfy its constraints" : "All plans";
+  if (step.above!.step.kind !== "later") return constraintText(model, constraint);
+  return `${model.agents[constraint.agent].name} costs more than ${constraint.end}`;
 }
 
-// What a step comes to, in a word or two.
+// Short note on the proof of a step.
 export function noteText({ kind, lemmas, leaves, rows }: Step): string {
   switch (kind) {
     case "leaf": return lemmas.length === 0 ? "individual costs" : lemmasText(lemmas);
@@ -82,7 +82,7 @@ export function howText({ theorem, lemmas }: Certificate): string {
   return `proven by ${plural(splits, "split")}, ${leavesText(root.leaves)} and ${plural(lemmas.length, "lemma")}`;
 }
 
-// Of a plan: what the theorem says of it.
+// What the theorem implies for a plan.
 export function planText(cost: number, bound: number): string {
   if (cost < bound) return "which is less: one of the two is wrong";
   if (cost === bound) return "so it is optimal";
@@ -96,8 +96,8 @@ export function lemmaText(model: Model, { agents, bound }: Statement): string {
   return `${who} ${agents.length === 1 ? "costs" : "together cost"} ${numberText(bound)} or more`;
 }
 
-// Why each plan meets one of the two; empty: docs/proof.md has no such split. (Of passages only what
-// the demands tell: whether there is one, this page does not know.)
+// The reason why each plan satisfies one of the two constraints; empty: docs/proof.md has no such split.
+// (The page does not check that the places of passages belong to a corridor.)
 export function whyText(model: Model, following: boolean, step: Step): string {
   const { world, agents } = model;
   const [a, b] = step.sides;
@@ -130,7 +130,7 @@ export function whyText(model: Model, following: boolean, step: Step): string {
   }
 }
 
-// Why a step that is no split has what its statement says.
+// The reason why a step without a split proves its statement.
 export function closedText(model: Model, { agents, bound }: Statement, step: Step): string {
   const much = bound === Infinity ? "there is no path" : `together ${numberText(bound)} or more`;
   switch (step.kind) {

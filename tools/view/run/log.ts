@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the log of a run, which may still be growing. Lines are taken strictly, with their number
-// in errors; events that are not known are passed over.
+// Reads the log of a run, which may still grow. The parser is strict, errors name the line, and unknown
+// events are ignored.
 
 import { parse, Value } from "../page/json";
 import type { Counts, Header, Outcome, Rank, Row, Run, Summary, TreeNode } from "./model";
@@ -14,10 +14,10 @@ export class Log {
     header: null, rows: [], counts: [], roots: [], expanded: [], moments: [], summary: null,
   };
   private readonly nodes = new Map<number, TreeNode>(); // not expanded yet
-  private rest = ""; // of a line that has not ended
+  private rest = ""; // the incomplete last line
   private lines = 0;
 
-  // What came since the last time. Throws an error that names the line.
+  // Reads new text. Throws an error that names the line.
   add(text: string): void {
     const lines = (this.rest + text).split("\n");
     this.rest = lines.pop()!;
@@ -186,7 +186,7 @@ function readSummary(data: Value): Summary {
   };
 }
 
-// Those of its members that are numbers.
+// The members that are numbers.
 function readNumbers(data: Value): Map<string, number> {
   const all = new Map<string, number>();
   for (const name of data.names()) if (data.key(name).isNumber) all.set(name, data.key(name).number());

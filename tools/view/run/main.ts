@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page of a run: reads the log, in the page or as it grows, and shows what it says.
+// Page of a run: reads the log, from the page or while it grows, and shows it.
 
 import { el, setText } from "../page/dom";
 import { Chart } from "./chart";
@@ -27,7 +27,7 @@ class Page {
   };
   private readonly time = el("button", { type: "button", click: () => this.toggleTime() }, "logarithmic time");
   private readonly parts: Record<string, HTMLElement> = {};
-  private isLogarithmic: boolean | null = null; // null: as suits the run
+  private isLogarithmic: boolean | null = null; // null: depends on the length of the run
   private lastSign = performance.now();
 
   constructor(private readonly isLive: boolean) {
@@ -126,7 +126,7 @@ class Page {
     this.paint();
   }
 
-  // Most of what happens in a long run happens in its first second.
+  // In a long run most events are in the first second.
   private isLogarithmicNow(): boolean {
     return this.isLogarithmic ?? endOf(this.log.run) > kShort;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run says in numbers: where plans and bounds came from, splits, prices, ranks, events.
+// Tables of a run: sources of plans and bounds, splits, work, ranks, events.
 
 import { el, plural } from "../page/dom";
 import { kSigns } from "./charts";
@@ -14,7 +14,7 @@ function table(head: string[], rows: (string | Node)[][], note = ""): HTMLElemen
     el("tbody", {}, ...rows.map((cells) => el("tr", {}, ...cells.map((cell) => el("td", {}, cell))))));
 }
 
-// A length that says how much of the most it is.
+// A number with a bar relative to the maximum.
 function bar(value: number, most: number): HTMLElement {
   const width = most > 0 ? (100 * value) / most : 0;
   return el("span", { class: "bar", style: `--part: ${width.toFixed(1)}%` }, number(value));
@@ -25,7 +25,7 @@ function countsOf(run: Run): Map<string, number> {
   return run.counts.length > 0 ? run.counts[run.counts.length - 1].counts : new Map<string, number>();
 }
 
-// --- where plans and bounds came from ---
+// --- sources of plans and bounds ---
 
 export function sourcesTable(run: Run): HTMLElement {
   const plans = new Map<string, { count: number; gain: number }>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The constraint trees of a small search, drawn: zoom and pan, a node to look at, and the
-// expansions played in their order.
+// Drawing of the constraint trees of a small search: zoom and pan, details of a selected node, and
+// playback of the expansions.
 
 import { el, setText } from "../page/dom";
 import type { Placed } from "./layout";
@@ -22,10 +22,10 @@ export class TreeView {
   private placed = new Map<TreeNode, Placed>();
   private run: Run | null = null;
   private chosen: TreeNode | null = null;
-  private shown = 0; // expansions
+  private shown = 0; // expansions shown
   private zoom = 1;
   private row = kRow;
-  private isFitted = true; // nobody has moved it
+  private isFitted = true; // the user has not moved it
   private x = 0; // of the canvas' middle, in pixels at a zoom of 1
   private y = 0;
 
@@ -76,7 +76,7 @@ export class TreeView {
     return all > expanded.length ? `${told}, the first of ${number(all)}` : told;
   }
 
-  // --- the node chosen ---
+  // --- the selected node ---
 
   private tell(): void {
     const node = this.chosen;
@@ -134,7 +134,7 @@ export class TreeView {
     const width = this.canvas.clientWidth || 600;
     const height = this.canvas.clientHeight || 400;
     this.zoom = Math.min(2, width / ((right + 1.5) * kColumn), height / ((bottom + 1.2) * kRow));
-    // A wide tree has room between its rows.
+    // The rows of a wide tree are further apart.
     this.row = Math.max(kRow, height / ((bottom + 1.2) * this.zoom));
     this.x = (right / 2) * kColumn;
     this.y = (bottom / 2) * this.row;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What the log's words mean to who has not read the paper.
+// Texts for the words of the log.
 
 import type { Run } from "./model";
 
-// Of `splits_...` counters and `split` of nodes, by the name with dashes.
+// Texts for `splits_...` counters and `split` of nodes: the kind of the second constraint, with dashes.
 export const kSplits: Record<string, string> = {
   "bar": "one of two robots avoids a place or a move at some time",
   "no-rest-by": "two robots together cost more than each on its own: one of them finishes later",
@@ -56,7 +56,7 @@ export function percent(cost: number, bound: number): string {
   return bound > 0 ? `${Number((((cost - bound) / bound) * 100).toPrecision(2))} %` : "no limit";
 }
 
-// How good the plan is, for who wants to use it.
+// Summary of the quality of the plan.
 export function verdict(run: Run): string {
   const last = run.rows[run.rows.length - 1];
   const status = run.summary?.status ?? "";

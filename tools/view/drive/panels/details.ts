@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The robot or the task chosen: what it does, how far it is, its visits.
+// The selected robot or task: activity, progress, visits.
 
 import { el, setText } from "../../page/dom";
 import { head } from "../../page/panels/head";
@@ -37,7 +37,7 @@ export class Details {
     if (chosen >= 0) this.tell(chosen);
   }
 
-  // How many visits of what is chosen the log tells of.
+  // Number of visits of the selection in the log so far.
   private known(): number {
     const { app } = this;
     if (app.chosen >= 0)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All robots, or those of a kind, with what each does and how far it is.
+// List of all robots, or of those in a kind of state, with activity and progress.
 
 import { el, plural, setText } from "../../page/dom";
 import { kMostRows, rowElement, type Row } from "../../page/panels/rows";
@@ -20,7 +20,7 @@ export class Robots {
   private readonly body = el("div", { class: "rows" });
   private readonly buttons = new Map<Kind, HTMLButtonElement>();
   private kind: Kind = "all";
-  private shown = ""; // the agents of the rows
+  private shown = ""; // kind and agents of the rows shown
   private rows: { agent: number; row: Row; element: HTMLElement; note: HTMLElement }[] = [];
 
   constructor(private readonly app: DriveApp) {
@@ -80,7 +80,7 @@ export class Robots {
     }
   }
 
-  // In whole seconds, as it is written: rows do not change places for less.
+  // In whole seconds, as displayed, so that rows do not move for smaller differences.
   private late(agent: number): number {
     return Math.floor(lateness(this.app, agent, this.app.player.time));
   }

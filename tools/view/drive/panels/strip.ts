@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The line at the top: what is driven, how far it is, and whether that is how it is now.
+// The line at the top: instance, progress of the drive, and whether the display is live.
 
 import { el, plural, setText } from "../../page/dom";
 import type { DriveApp } from "../app";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Play, pause, step, speed, loop; the time as a slider and as a number.
+// Controls: play, pause, step, speed, loop; the time as a slider and as a number.
 
 import { el, icon, setText } from "../dom";
 import type { Player } from "../player";
@@ -19,7 +19,7 @@ interface Played {
   changed(): void;
 }
 
-// How moments are written.
+// Texts of moments.
 export interface TimeWords {
   readonly label: string;
   readonly unit: string;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The robot or the task chosen; or how to choose one.
+// The selected robot or task, or a hint how to select one.
 
 import type { App } from "../app";
 import { el } from "../dom";

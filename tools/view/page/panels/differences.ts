@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which robots do not do the same in both plans: what each costs, how much more, and from when on.
+// Robots that differ between both plans: their costs, the difference, and the first different moment.
 
 import type { App } from "../app";
 import type { Comparison, Difference } from "../compare";
@@ -68,7 +68,7 @@ function sorted(all: Difference[], order: Order): Difference[] {
   }
 }
 
-// Infinities are equal, not unknown.
+// Two infinite values are equal (their difference is NaN).
 function compareNumbers(a: number, b: number): number {
   return a < b ? -1 : a > b ? 1 : 0;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The list of events: which kinds, and whose.
+// The list of events, filtered by kind and robot.
 
 import type { App } from "../app";
 import { el, setText } from "../dom";
@@ -30,7 +30,7 @@ export class Events {
     this.filters = el("div", { class: "filter" }, this.kind, this.only);
   }
 
-  // Another robot; does that change the list? (If not it is left alone, with what has the focus.)
+  // Sets the selected robot. Returns whether the list changes. (If not, it is kept with its focus.)
   choose(robot: number): boolean {
     if (robot === this.chosen) return false;
     this.chosen = robot;
@@ -39,7 +39,7 @@ export class Events {
     return this.onlyChosen;
   }
 
-  // More has been found out.
+  // Called when more events are known.
   forget(): void {
     this.known = null;
   }

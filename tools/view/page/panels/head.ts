@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The head of what is chosen: its name, and how to have done with it.
+// Head of the selection: its name, and a button to clear it.
 
 import { el, setText } from "../dom";
 import type { Choice } from "../stage";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each key does, on request.
+// Dialog with the meaning of all keys.
 
 import { el } from "../dom";
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The robot chosen: what it does now, its visits in order, its waits and whom it lets pass.
+// The selected robot: its activity now, its visits in order, its waits and their causes.
 
 import { violationsOf, type App, type Viewed } from "../app";
 import { el, plural, setText } from "../dom";
@@ -27,7 +27,7 @@ export class RobotDetails {
         : this.asked())];
   }
 
-  // What the instance says of it, where there is no plan.
+  // Data of the instance, if there is no plan.
   private asked(): HTMLElement[] {
     const { agents, tasks, world } = this.app.model;
     const { start, goal, tasks: own } = agents[this.agent];
@@ -81,7 +81,7 @@ export class RobotDetails {
     return [el("h4", { class: kind }, title), moments(this.app, things, tell)];
   }
 
-  // When it passes, or begins to work.
+  // The time at which it passes or begins to work.
   private visit({ task, begin, time }: Visit): Moment {
     const { duration, name } = this.app.model.tasks[task];
     const what = `${task + 1}: ${name}`;

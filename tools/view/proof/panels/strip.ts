@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The line at the top: the theorem, what it says of the plan, and who checks it.
+// The line at the top: the theorem, what it implies for the plan, and the command that verifies it.
 
 import { el } from "../../page/dom";
 import { planFacts } from "../../page/facts";
