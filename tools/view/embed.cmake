@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-# Writes OUTPUT, which defines the declarations of page_parts.h for the page NAME: the concatenated texts of the
-# files STYLES, and the text of PROGRAM.
+# Writes OUTPUT, which defines the function of page_parts.h for the page NAME. The style is the concatenation of the
+# files STYLES, with values of the palette for @...@; the program is the file PROGRAM.
+include(${CMAKE_CURRENT_LIST_DIR}/palette.cmake)
 foreach(file IN LISTS STYLES)
   file(READ ${file} text)
   string(APPEND style "${text}")
