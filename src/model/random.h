@@ -65,7 +65,7 @@ inline std::uint64_t scramble(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// SplitMix64 itself.
+// SplitMix64 itself: fast random numbers for ties. One thread at a time.
 class SplitMix64 {
  public:
   explicit SplitMix64(std::uint64_t seed) : state_(seed) {}

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/live_nodes.h"
+#include "engine/run_observer.h"
 #include "engine/shared_bounds.h"
 #include "engine/shared_search.h"
 #include "search/single_tree.h"
