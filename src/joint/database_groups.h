@@ -11,6 +11,7 @@
 
 #include "joint/pattern_database.h"
 #include "model/limits.h"
+#include "model/omega.h"
 
 namespace grove::detail {
 
