@@ -85,7 +85,7 @@
 #include <variant>
 #include <vector>
 
-#include "mpi/overloaded.h"
+#include "mpi/messages.h"
 
 namespace grove::detail {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "engine/run_observer.h"
 #include "engine/run_state.h"
-#include "mpi/child_links.h"
 #include "mpi/distributed_checkpoint.h"
+#include "mpi/hierarchy_links.h"
 #include "mpi/load_balancer.h"
 #include "mpi/messages.h"
 #include "mpi/rank_nodes.h"

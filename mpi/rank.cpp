@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "mpi/overloaded.h"
+#include "mpi/messages.h"
 
 namespace grove::detail {
 namespace {

@@ -10,13 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include "engine/local_nodes.h"
+#include "engine/live_nodes.h"
+#include "engine/run_observer.h"
 #include "engine/shared_search.h"
 #include "engine/solve.h"
 #include "mpi/bound_broadcast.h"
 #include "mpi/hierarchy.h"
+#include "mpi/hierarchy_links.h"
 #include "mpi/messages.h"
-#include "mpi/parent_link.h"
 #include "mpi/remote_bounds.h"
 #include "mpi/transport.h"
 #include "planning/agent_stops_cache.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/live_nodes.h"
-#include "mpi/child_links.h"
+#include "mpi/hierarchy_links.h"
 #include "mpi/messages.h"
 
 namespace grove::detail {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "mpi/overloaded.h"
+#include "mpi/messages.h"
 
 namespace grove::detail {
 namespace {

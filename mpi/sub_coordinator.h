@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "engine/solve.h"
-#include "mpi/child_links.h"
+#include "mpi/hierarchy_links.h"
 #include "mpi/load_balancer.h"
 #include "mpi/messages.h"
-#include "mpi/parent_link.h"
 #include "mpi/rank_nodes.h"
 
 namespace grove::detail {

@@ -22,12 +22,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "engine/techniques_of.h"
+#include "engine/solve.h"
 #include "mpi/polling.h"
 #include "mpi/rank_process.h"
 #include "mpi/simulated_network.h"
 #include "mpi/simulator/busy_profile.h"
-#include "mpi/simulator/processor_time.h"
+#include "mpi/simulator/simulated_worker.h"
 #include "mpi/simulator/timed_transport.h"
 
 namespace grove::detail {

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "batch/instance_digest.h"
+#include "batch/entry.h"
 #include "io/input_error.h"
 
 namespace grove::detail::batch {

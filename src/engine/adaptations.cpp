@@ -24,7 +24,7 @@
 #include <utility>
 
 #include "engine/destinations.h"
-#include "engine/stop_text.h"
+#include "model/limits.h"
 
 namespace grove::detail {
 namespace {

@@ -10,8 +10,8 @@
 #include "engine/central_bounds.h"
 #include "engine/live_nodes.h"
 #include "engine/run_events.h"
+#include "engine/shared_search.h"
 #include "engine/solve.h"
-#include "engine/tree_source.h"
 #include "search/forest.h"
 #include "search/tree_record.h"
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <string>
 
-#include "engine/stop_text.h"
 #include "io/input_error.h"
 #include "model/fingerprint.h"
+#include "model/limits.h"
 #include "search/sequence_forest.h"
 #include "search/single_tree.h"
 

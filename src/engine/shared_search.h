@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// State shared by the workers of a process.
+// State shared by the workers of a process, and the interface to the trees of the run.
 #pragma once
 
 #include <atomic>
@@ -9,16 +9,34 @@
 #include <mutex>
 
 #include "engine/lagrangian_scheduler.h"
-#include "engine/local_nodes.h"
+#include "engine/live_nodes.h"
+#include "engine/run_observer.h"
 #include "engine/run_statistics.h"
 #include "engine/shared_bounds.h"
 #include "engine/solve.h"
-#include "engine/tree_source.h"
-#include "engine/work_observer.h"
 #include "search/expander.h"
 #include "search/result_cache.h"
 
 namespace grove::detail {
+
+// Supplies trees when they are due. This base class never does, for processes that do not own the
+// trees; CentralTrees does. Thread-safe; no method waits.
+class TreeSource {
+ public:
+  TreeSource() = default;
+  TreeSource(const TreeSource&) = delete;
+  TreeSource& operator=(const TreeSource&) = delete;
+  virtual ~TreeSource() = default;
+
+  // Call before taking a node: instantiates the next tree if Algorithm 4 requires it.
+  virtual void instantiate_due_tree() {}
+  // Call if no node is live here: supplies nodes or finds that there are none.
+  virtual void refill_nodes() {}
+  // Returns true if the caller may prepare the next tree before Algorithm 4 requires it. The caller
+  // must then call prepare_tree(). One caller at a time gets true.
+  virtual bool claim_preparation() { return false; }
+  virtual void prepare_tree() {}
+};
 
 class MemoryBudgets;
 

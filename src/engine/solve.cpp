@@ -6,14 +6,14 @@
 #include <string>
 
 #include "engine/checkpoint.h"
+#include "engine/live_nodes.h"
 #include "engine/local_checkpoints.h"
-#include "engine/local_nodes.h"
 #include "engine/multicore.h"
 #include "engine/run_observer.h"
 #include "engine/run_state.h"
 #include "engine/shared_search.h"
-#include "engine/stop_text.h"
 #include "engine/worker.h"
+#include "model/limits.h"
 #include "search/feasibility.h"
 #include "search/global_bounds.h"
 #include "search/proof_log.h"

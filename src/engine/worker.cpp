@@ -8,7 +8,7 @@
 
 #include "engine/joint_scheduler.h"
 #include "engine/primal_scheduler.h"
-#include "engine/techniques_of.h"
+#include "engine/solve.h"
 #include "search/proof_log.h"
 
 namespace grove::detail {

@@ -13,8 +13,8 @@
 #include <system_error>
 #include <utility>
 
+#include "io/atomic_file.h"
 #include "io/input_error.h"
-#include "io/special_file.h"
 
 namespace grove::detail {
 namespace {

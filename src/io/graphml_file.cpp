@@ -17,9 +17,7 @@
 #include <unordered_map>
 
 #include "io/input_error.h"
-#include "io/line_starts.h"
 #include "io/text_file.h"
-#include "io/utf8.h"
 #include "model/parse_number.h"
 
 namespace grove::detail {

@@ -4,21 +4,69 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
 #include <unordered_map>
 #include <unordered_set>
+#include <vector>
 
 #include "io/input_error.h"
 #include "io/json_value.h"
-#include "io/nurbs.h"
 #include "io/text_file.h"
+#include "model/roadmap.h"
 
 namespace grove::detail {
 namespace {
 
+constexpr int kPartsOfSpan = 64;    // of a curve, in its polyline
 constexpr int kHighestDegree = 16;  // sufficient for curves of vehicles
+
+// A non-uniform rational B-spline (NURBS). `knots` is non-decreasing and has degree + 1 more
+// entries than `points`. There are more points than the degree. The weights are positive.
+struct Nurbs {
+  int degree = 1;
+  std::vector<double> knots;
+  std::vector<Point> points;
+  std::vector<double> weights;  // one per point
+};
+
+// De Boor's algorithm on (w x, w y, w), for t between the knots `span` and span + 1.
+Point point_at(const Nurbs& curve, int span, double t) {
+  const int p = curve.degree;
+  std::vector<std::array<double, 3>> d;
+  for (int j = span - p; j <= span; ++j) {
+    const double w = curve.weights[j];
+    d.push_back({w * curve.points[j].x, w * curve.points[j].y, w});
+  }
+  for (int level = 1; level <= p; ++level)
+    for (int j = p; j >= level; --j) {
+      const double begin = curve.knots[span - p + j];
+      const double end = curve.knots[span + 1 + j - level];
+      const double part = (t - begin) / (end - begin);  // begin <= knot span < knot span + 1 <= end
+      for (int k = 0; k < 3; ++k) d[j][k] = (1 - part) * d[j - 1][k] + part * d[j][k];
+    }
+  return {d[p][0] / d[p][2], d[p][1] / d[p][2]};
+}
+
+// The length of the curve, approximated by a polyline through many of its points, so slightly too
+// small for a bent curve.
+double length_of(const Nurbs& curve) {
+  double length = 0;
+  for (int span = curve.degree; span < std::ssize(curve.points); ++span) {
+    const double begin = curve.knots[span];
+    const double end = curve.knots[span + 1];
+    if (!(begin < end)) continue;
+    Point last = point_at(curve, span, begin);
+    for (int k = 1; k <= kPartsOfSpan; ++k) {
+      const Point next = point_at(curve, span, begin + (end - begin) * k / kPartsOfSpan);
+      length += std::hypot(next.x - last.x, next.y - last.y);
+      last = next;
+    }
+  }
+  return length;
+}
 
 // Exporters write null for unknown values.
 std::optional<JsonValue> find_given(const JsonValue& object, const char* key) {

@@ -9,8 +9,8 @@
 
 #include "io/atomic_file.h"
 #include "io/input_error.h"
+#include "io/json_text.h"
 #include "io/json_value.h"
-#include "io/json_writer.h"
 #include "io/known_keys.h"
 #include "io/path_entry.h"
 #include "io/text_file.h"

@@ -5,10 +5,9 @@
 
 #include "io/atomic_file.h"
 #include "io/format_support.h"
-#include "io/json_writer.h"
+#include "io/json_text.h"
 #include "io/plan_export.h"
 #include "io/plan_steps.h"
-#include "io/visits.h"
 
 namespace grove::detail {
 namespace {

@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "io/json_text.h"
 #include "io/json_value.h"
-#include "io/json_writer.h"
 #include "io/known_keys.h"
 #include "io/text_file.h"
 

@@ -10,7 +10,6 @@
 
 #include "io/input_error.h"
 #include "io/text_file.h"
-#include "io/utf8.h"
 #include "model/parse_number.h"
 
 namespace grove::detail {

@@ -7,7 +7,7 @@
 // large or a limit was reached, proves nothing.
 #include "lagrangian/finish_time_conflicts.h"
 
-#include "lagrangian/least_cost.h"
+#include "lagrangian/penalized_search.h"
 
 namespace grove::detail {
 namespace {

@@ -12,7 +12,6 @@
 #include "lagrangian/finish_time_conflicts.h"
 #include "lagrangian/occupancy_counts.h"
 #include "lagrangian/pricer.h"
-#include "lagrangian/pricing_messages.h"
 #include "lagrangian/relaxed_rows.h"
 #include "lagrangian/target_level_step.h"
 #include "model/tuning.h"

@@ -69,7 +69,7 @@
 #include <optional>
 
 #include "planning/free_order_goals.h"
-#include "planning/late_goals.h"
+#include "planning/late_costs.h"
 #include "planning/safe_interval_search.h"
 #include "planning/single_stop_bound.h"
 

@@ -61,10 +61,6 @@
 namespace grove::detail {
 namespace {
 
-StopSet bit(int stop) {
-  return StopSet{1} << stop;
-}
-
 bool holds(StopSet set, int stop) {
   return (set & bit(stop)) != 0;
 }

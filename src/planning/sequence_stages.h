@@ -17,7 +17,7 @@
 #include "model/plan.h"
 #include "sequencing/cost_to_go.h"
 #include "sequencing/rtsp.h"
-#include "sequencing/sequence_dag.h"
+#include "sequencing/stop_set_index.h"
 
 namespace grove::detail {
 

@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "primal/blocking_agents.h"
+#include "primal/planned_paths.h"
 
 namespace grove::detail {
 namespace {

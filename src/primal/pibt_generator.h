@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "model/random.h"
 #include "primal/configurations.h"
-#include "primal/splitmix64.h"
 #include "primal/swaps.h"
 
 namespace grove::detail {

@@ -31,7 +31,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "primal/blocking_agents.h"
+#include "primal/planned_paths.h"
 
 namespace grove::detail {
 namespace {

@@ -10,7 +10,6 @@
 #include <deque>
 
 #include "model/random.h"
-#include "primal/blocking_agents.h"
 #include "primal/planned_paths.h"
 #include "primal/primal_low_level.h"
 

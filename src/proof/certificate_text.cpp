@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "io/input_error.h"
-#include "proof/certificate_bytes.h"
+#include "proof/certificate_file.h"
 #include "proof/certificate_reader.h"
 
 namespace grove::detail {

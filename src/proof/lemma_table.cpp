@@ -3,8 +3,8 @@
 //
 // A leaf is proven by lemmas alone if agents that cost at least 0 each, and in groups at least what
 // the lemmas say, cost enough together. This is a covering problem, as where a search chooses the
-// lemmas to name (lemma_choice.h), with only the lower bound 0 on each agent. Only lemmas without a
-// common agent are added up here, because every checker finds that sum.
+// lemmas to name (proof_records.h), with only the lower bound 0 on each agent. Only lemmas without
+// a common agent are added up here, because every checker finds that sum.
 //
 // If the costs of agents are needed too, a leaf does not need a lemma that another one implies: a
 // lemma of a subset of its agents with a bound that is no less. The cost of the other agents is at
@@ -15,7 +15,7 @@
 #include <tuple>
 #include <utility>
 
-#include "proof/lemma_choice.h"
+#include "proof/proof_records.h"
 
 namespace grove::detail {
 namespace {

@@ -39,7 +39,7 @@
 #include <thread>
 #include <utility>
 
-#include "sequencing/rtsp_backends.h"
+#include "sequencing/rtsp.h"
 #include "sequencing/sequence_class.h"
 
 namespace grove::detail {

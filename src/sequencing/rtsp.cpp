@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "sequencing/cost_matrix.h"
-#include "sequencing/rtsp_backends.h"
 
 namespace grove::detail {
 std::vector<RtspBackend> rtsp_backends() {

@@ -54,7 +54,7 @@
 // to the end. Each part of that sum is the least cost of a real part of the path: from the state's
 // stop to one of the two, from that to the other, or to the end. (So the last part must be valid
 // for any path. Late costs have a leg to the end that is valid only for the last stop of a
-// sequence; late_goals.cpp puts the other one into its direct legs.)
+// sequence; late_costs.cpp puts the other one into its direct legs.)
 //
 // *Hops.* A hop from v over a stop u is useless if every stop is at least as near directly as by u
 // (DirectLegs::hops): the direct leg that replaces it passes no stop at all.
@@ -68,7 +68,7 @@
 #include "sequencing/direct_legs.h"
 #include "sequencing/one_tree_relaxation.h"
 #include "sequencing/passed_stops.h"
-#include "sequencing/stop_set.h"
+#include "sequencing/sequence.h"
 
 namespace grove::detail {
 namespace {
@@ -76,47 +76,7 @@ namespace {
 constexpr std::size_t kPollInterval = 32;     // sets; each takes a few microseconds
 constexpr std::size_t kCountedExcess = 4096;  // costs this far above `reach` are not counted
 
-// Returns the parity of every complete sequence, or -1 if they need not share one. They share one
-// if the parity of each leg is the sum of a number of its first stop and a number of its last stop,
-// because each stop is entered once and left once.
-int common_parity(const CostMatrix& matrix) {
-  if (matrix.ports > 1) return -1;
-  const int n = matrix.stops();
-  const auto odd = [&](int row, int column) { return matrix.cost(row, column) & 1; };
-  const auto sum = [&](int from, int to) { return odd(from, n) ^ odd(n, to); };
-  const int more = n > 1 ? odd(0, 1) ^ sum(0, 1) : 0;  // added for each leg between stops
-  int parity = (n - 1) * more & 1;
-  for (int stop = 0; stop < n; ++stop) {
-    parity ^= sum(stop, stop);
-    for (int to = 0; to < n; ++to)
-      if (to != stop && odd(stop, to) != (sum(stop, to) ^ more)) return -1;
-  }
-  return parity;
-}
-
 }  // namespace
-
-std::size_t StopSetIndex::slot_of(StopSet set) const {
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = (set * 0x9E3779B97F4A7C15u) >> (65 - std::bit_width(slots_.size()));
-  while (slots_[slot].number != kAbsent && slots_[slot].set != set) slot = (slot + 1) & mask;
-  return slot;
-}
-
-std::uint32_t StopSetIndex::insert(StopSet set, std::uint32_t number) {
-  Slot& slot = slots_[slot_of(set)];
-  if (slot.number != kAbsent) return slot.number;
-  slot = {set, number};
-  if (2 * ++used_ > slots_.size()) grow();
-  return number;
-}
-
-void StopSetIndex::grow() {
-  std::vector<Slot> old(2 * slots_.size());
-  old.swap(slots_);
-  for (const Slot& slot : old)
-    if (slot.number != kAbsent) slots_[slot_of(slot.set)] = slot;
-}
 
 Time SequenceDag::cost_to_go(StopSet left, int port) const {
   const std::uint32_t number = index_.find(left);

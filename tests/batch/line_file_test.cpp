@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "batch/line_file.h"
-
 #include <gtest/gtest.h>
 
+#include "batch/result_table.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 

@@ -11,7 +11,7 @@
 
 #include "model/distance_field.h"
 #include "model/tuning.h"
-#include "sequencing/rtsp_backends.h"
+#include "sequencing/rtsp.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "engine/local_nodes.h"
+#include "engine/live_nodes.h"
+#include "engine/run_observer.h"
 #include "engine/shared_bounds.h"
-#include "engine/tree_source.h"
-#include "engine/work_observer.h"
+#include "engine/shared_search.h"
 #include "search/single_tree.h"
 #include "tests/support/instances.h"
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "lagrangian/least_cost.h"
 #include "lagrangian/relaxed_rows.h"
 #include "tests/fuzz/random.h"
 #include "tests/lagrangian/tiny_agents.h"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "model/job_memory_limit.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <map>
 #include <string>
 
+#include "model/resources.h"
 #include "tests/support/temporary_directory.h"
 
 namespace grove::detail {

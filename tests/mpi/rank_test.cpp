@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/run_observer.h"
-#include "engine/techniques_of.h"
+#include "engine/solve.h"
 #include "mpi/coordinator.h"
 #include "search/expander.h"
 #include "tests/mpi/outbox.h"

@@ -9,8 +9,8 @@
 
 #include "model/check.h"
 #include "mpi/simulator/busy_profile.h"
-#include "mpi/simulator/mdd_interner.h"
 #include "mpi/simulator/scaling_table.h"
+#include "mpi/simulator/simulated_worker.h"
 #include "mpi/simulator/simulation.h"
 #include "mpi/simulator/timed_transport.h"
 #include "tests/primal/crowd.h"

@@ -10,7 +10,6 @@
 #include "brute_force.h"
 #include "matrices.h"
 #include "sequencing/good_sequence.h"
-#include "sequencing/rtsp_backends.h"
 #include "tests/support/fuzz_factor.h"
 
 namespace grove::detail::testing {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "execution/visits.h"
+#include "execution/action_dependency_graph.h"
 
 namespace grove::detail {
 namespace {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Throttled status reports from a rank or sub-coordinator to its parent.
+// Message links along the hierarchy: from a coordinator to its children (ranks or
+// sub-coordinators), and from a rank or sub-coordinator to its parent.
 #pragma once
 
 #include <limits>
+#include <vector>
 
 #include "mpi/hierarchy.h"
 #include "mpi/messages.h"
@@ -10,7 +12,33 @@
 
 namespace grove::detail {
 
-// One thread at a time.
+// From a coordinator to its children. These are numbered from 0: ranks, or coordinators of the
+// level below. One thread at a time.
+class ChildLinks {
+ public:
+  // Links of the coordinator of `level` on the transport's rank. `transport` must outlive this.
+  ChildLinks(Transport& transport, const Hierarchy& hierarchy, int level)
+      : transport_(transport), hierarchy_(hierarchy), post_{transport.rank(), level} {}
+
+  int count() const { return hierarchy_.children(post_); }
+  // The child that is `rank` or is above it. `rank` must be below this coordinator.
+  int with(int rank) const { return hierarchy_.child_with(post_, rank); }
+  // For each child, the ranks that it is or that are below it.
+  std::vector<std::vector<int>> ranks() const;
+  bool include(int rank) const { return hierarchy_.is_below(post_, rank); }
+
+  void tell(int child, const message::Message& message);
+  void broadcast(const message::Message& message);
+  // Sends each child the counts of the ranks that it is or that are below it.
+  void send_message_counts(const message::MessageCounts& goodbye);
+
+ private:
+  Transport& transport_;
+  const Hierarchy hierarchy_;
+  const Endpoint post_;
+};
+
+// From a rank or sub-coordinator to its parent: throttled status reports. One thread at a time.
 class ParentLink {
  public:
   // Link of the rank or sub-coordinator at `post`, which is not the top. The parent takes `first`

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Parses with nlohmann's parser, and builds the document here. nlohmann's own document builder
 // accepts any depth, and of a repeated key it keeps one value without an error.
-#include "io/json_parser.h"
+#include "io/json_text.h"
 
 #include <fmt/format.h>
 
@@ -182,6 +182,36 @@ nlohmann::json parse_json(std::string_view text, const std::string& file) {
   DocumentBuilder builder(text, file);
   Json::sax_parse(text, &builder);
   return builder.take();
+}
+
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+std::string compact(const OrderedJson& value) {
+  return value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+}
+
+template <typename DumpElement>
+std::string dump_lines(const OrderedJson& value, const std::string& indent,
+                       DumpElement dump_element) {
+  const bool is_object = value.is_object();
+  std::string text = is_object ? "{" : "[";
+  std::string separator = "\n" + indent;
+  for (const auto& [key, element] : value.items()) {
+    text += separator + (is_object ? compact(key) + ": " : "") + dump_element(element);
+    separator = ",\n" + indent;
+  }
+  return text + (is_object ? "}" : "]");
+}
+
+}  // namespace
+
+std::string dump_by_lines(const OrderedJson& document) {
+  const auto dump_member = [](const OrderedJson& value) {
+    return value.is_structured() ? dump_lines(value, "  ", compact) : compact(value);
+  };
+  return dump_lines(document, " ", dump_member) + "\n";
 }
 
 }  // namespace grove::detail
