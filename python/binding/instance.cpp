@@ -33,7 +33,7 @@ Instance made(const World& world, const py::object& agents, const py::object& ta
   return of_dict(world, all, following);
 }
 
-py::object told(const Instance& instance, const char* key) {
+py::object json_value(const Instance& instance, const char* key) {
   return py::module_::import("json").attr("loads")(instance_text(instance))[key];
 }
 
@@ -55,10 +55,10 @@ void add_instance(py::module_& module) {
            py::kw_only(), py::arg("following") = true)
       .def_property_readonly("world", &Instance::world, "The world that the robots move on.")
       .def_property_readonly(
-          "agents", [](const Instance& i) { return told(i, "agents"); },
+          "agents", [](const Instance& i) { return json_value(i, "agents"); },
           "Agents, as dicts in the format of *.cts.json files.")
       .def_property_readonly(
-          "tasks", [](const Instance& i) { return told(i, "tasks"); },
+          "tasks", [](const Instance& i) { return json_value(i, "tasks"); },
           "Tasks, as dicts in the format of *.cts.json files.")
       .def_property_readonly(
           "following", [](const Instance& i) { return i.rules().following; },

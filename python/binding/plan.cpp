@@ -123,7 +123,7 @@ OwnPlan from_paths(const Instance& instance, const py::object& given) {
   return {instance, std::make_shared<const Plan>(plan_from_paths(instance, paths))};
 }
 
-py::list told(const std::vector<Violation>& violations) {
+py::list violation_list(const std::vector<Violation>& violations) {
   py::list all;
   for (const Violation& v : violations) all.append(py::make_tuple(v.json_pointer, v.message));
   return all;
@@ -235,10 +235,10 @@ void add_plan(py::module_& module) {
       .def("__repr__", &solution_summary);
   py::implicitly_convertible<OwnPlan, OwnSolution>();
   module.def("_check_plan", [](const OwnPlan& plan, std::size_t limit) {
-    return told(check(plan.instance, *plan.plan, limit));
+    return violation_list(check(plan.instance, *plan.plan, limit));
   });
   module.def("_check_solution", [](const OwnSolution& solution, std::size_t limit) {
-    return told(check(solution.instance, solution.whole(), limit));
+    return violation_list(check(solution.instance, solution.whole(), limit));
   });
   module.def(
       "read_plan",

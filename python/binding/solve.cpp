@@ -31,16 +31,16 @@ T argument(const py::dict& arguments, const char* name, const char* expected) {
 }
 
 void set_callbacks(Options& options, const Instance& instance, const py::dict& arguments) {
-  if (const py::object tell = arguments["progress"]; !tell.is_none())
-    options.on_progress = [tell = shared(tell)](const Progress& progress) {
+  if (const py::object callback = arguments["progress"]; !callback.is_none())
+    options.on_progress = [callback = shared(callback)](const Progress& progress) {
       const py::gil_scoped_acquire lock;
-      (*tell)(progress);
+      (*callback)(progress);
     };
-  if (const py::object tell = arguments["incumbent"]; !tell.is_none())
-    options.on_incumbent = [tell = shared(tell), instance](const Plan& plan,
-                                                           const Progress& progress) {
+  if (const py::object callback = arguments["incumbent"]; !callback.is_none())
+    options.on_incumbent = [callback = shared(callback), instance](const Plan& plan,
+                                                                   const Progress& progress) {
       const py::gil_scoped_acquire lock;
-      (*tell)(OwnPlan{instance, std::make_shared<const Plan>(plan)}, progress);
+      (*callback)(OwnPlan{instance, std::make_shared<const Plan>(plan)}, progress);
     };
 }
 
