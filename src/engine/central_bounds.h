@@ -26,15 +26,15 @@ class CentralBounds : public SharedBounds {
       : limits_(limits),
         nodes_(nodes),
         announcements_(announcements),
-        gate_(instance, omega),
+        global_bounds_(instance, omega),
         trees_from_(trees_from) {}
 
   bool over() const override {
-    return gate_.finished() || out_of_nodes_ || limits_.stop_requested();
+    return global_bounds_.finished() || out_of_nodes_ || limits_.stop_requested();
   }
-  Cost cutoff() const override { return gate_.incumbent_cost().value_or(kInfiniteCost); }
+  Cost cutoff() const override { return global_bounds_.incumbent_cost().value_or(kInfiniteCost); }
   std::optional<Plan> plan_below(Cost cost) const override;
-  Cost lower_bound() const override { return gate_.lower_bound(); }
+  Cost lower_bound() const override { return global_bounds_.lower_bound(); }
   void post(Plan plan, PlanSource source) override;
   void prove(Cost bound, BoundSource by) override;
   void nodes_changed() override;
@@ -42,7 +42,7 @@ class CentralBounds : public SharedBounds {
   void add_counts(Stats& stats) const;
 
   // For decisions that GlobalBounds makes.
-  const GlobalBounds& gate() const { return gate_; }
+  const GlobalBounds& global_bounds() const { return global_bounds_; }
   // True if infeasibility was proven outside the tree search, for the reason kNoJointPlan.
   bool has_no_joint_plan() const { return ended_beside_; }
   static constexpr std::string_view kNoJointPlan =
@@ -62,7 +62,7 @@ class CentralBounds : public SharedBounds {
   const Limits& limits_;
   LiveNodes& nodes_;
   RunEvents& announcements_;
-  GlobalBounds gate_;
+  GlobalBounds global_bounds_;
   std::atomic<Cost> trees_from_;
   std::atomic<bool> out_of_nodes_{false};
   std::atomic<bool> ended_beside_{false};

@@ -71,8 +71,8 @@ void CentralTrees::refill_nodes() {
 bool CentralTrees::is_due() const {
   const Cost last = last_cost_;
   return ledger_.trees_from() < kInfiniteCost &&
-         ledger_.gate().needs_new_tree(nodes_.bound(),
-                                       last == kNoTree ? std::nullopt : std::optional(last));
+         ledger_.global_bounds().needs_new_tree(
+             nodes_.bound(), last == kNoTree ? std::nullopt : std::optional(last));
 }
 
 void CentralTrees::instantiate(const NodePtr& root) {
@@ -94,7 +94,7 @@ void CentralTrees::grow() {
   const bool has_root = prepared_ != nullptr;
   if (has_root) {
     instantiate(prepared_);
-    if (!ledger_.gate().prunes(prepared_->bound())) nodes_.push(prepared_);
+    if (!ledger_.global_bounds().prunes(prepared_->bound())) nodes_.push(prepared_);
     ++count_;
   }
   ledger_.expect_trees_from(forest_.next_bound());
@@ -139,7 +139,7 @@ bool CentralTrees::restart() {
   std::vector<NodePtr> roots;
   for (const NodePtr& root : roots_) {
     announcements_.root(root);
-    if (!ledger_.gate().prunes(root->bound())) roots.push_back(root);
+    if (!ledger_.global_bounds().prunes(root->bound())) roots.push_back(root);
   }
   nodes_.restart(roots, proven);
   return true;

@@ -80,7 +80,7 @@ CheckpointHeader RunState::checkpoint_header(std::int64_t trees, Cost evicted_bo
   CheckpointHeader header;
   header.fingerprint = fingerprint(instance_);
   header.policy = options_.policy == Policy::kFixed ? Policy::kFixed : Policy::kFree;
-  header.incumbent = ledger_.gate().incumbent();
+  header.incumbent = ledger_.global_bounds().incumbent();
   header.lower_bound = ledger_.lower_bound();
   header.evicted_bound = evicted_bound;
   header.trees_instantiated = trees;
@@ -99,17 +99,17 @@ std::int64_t RunState::nodes_before() const {
 Progress RunState::progress() const {
   const LiveNodes::Counts counts = nodes_.counts();
   return {counts.expanded, counts.open, trees_.count(), ledger_.lower_bound(),
-          ledger_.gate().incumbent_cost()};
+          ledger_.global_bounds().incumbent_cost()};
 }
 
 Solution RunState::conclude() const {
-  const GlobalBounds& gate = ledger_.gate();
+  const GlobalBounds& global_bounds = ledger_.global_bounds();
   Solution solution;
   solution.omega = options_.omega;
-  solution.plan = gate.incumbent();
-  solution.lower_bound = gate.lower_bound();
-  solution.status = status_of(gate.incumbent_cost(), solution.lower_bound, solution.omega);
-  if (gate.proven_infeasible()) {
+  solution.plan = global_bounds.incumbent();
+  solution.lower_bound = global_bounds.lower_bound();
+  solution.status = status_of(global_bounds.incumbent_cost(), solution.lower_bound, solution.omega);
+  if (global_bounds.proven_infeasible()) {
     solution.status = Status::kInfeasible;
     solution.lower_bound = 0;
     if (ledger_.has_no_joint_plan()) solution.stats.texts["reason"] = CentralBounds::kNoJointPlan;
@@ -121,7 +121,7 @@ Solution RunState::conclude() const {
     solution.stats.measures["seconds_before"] = before_.seconds;
   }
   // A limit reached after the search had ended changed nothing.
-  if (!gate.finished()) {
+  if (!global_bounds.finished()) {
     const std::string stop = stop_text(limits_.reason());
     const bool evicted = nodes_.evicted_bound() < kInfiniteCost;
     solution.stats.texts["stopped_by"] = !stop.empty() ? stop

@@ -113,15 +113,15 @@ Solution stopped_before_search(const Instance& instance, const SolveOptions& opt
                                const Limits& limits, RunObserver& observer) {
   Solution solution =
       without_search(options, Status::kUnknown, "stopped_by", stop_text(limits.reason()));
-  GlobalBounds gate(instance, options.omega);
+  GlobalBounds global_bounds(instance, options.omega);
   if (options.resume) {
     const CheckpointHeader& before = options.resume->header();
-    gate.update(before.lower_bound, before.lower_bound);
-    if (before.incumbent) gate.post(*before.incumbent);
+    global_bounds.update(before.lower_bound, before.lower_bound);
+    if (before.incumbent) global_bounds.post(*before.incumbent);
   }
-  if (options.start) gate.post(*options.start);
-  solution.lower_bound = gate.lower_bound();
-  solution.plan = gate.incumbent();
+  if (options.start) global_bounds.post(*options.start);
+  solution.lower_bound = global_bounds.lower_bound();
+  solution.plan = global_bounds.incumbent();
   if (!solution.plan) return solution;
   solution.status = status_of(solution.plan->cost, solution.lower_bound, options.omega);
   observer.on_incumbent(*solution.plan, PlanSource::kStart,

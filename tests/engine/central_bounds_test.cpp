@@ -67,7 +67,7 @@ class CentralBoundsTest : public ::testing::Test {
   Listener listener_;
   RunEvents announcements_{
       listener_, [this] {
-        return Progress{0, 0, 0, bounds_.lower_bound(), bounds_.gate().incumbent_cost()};
+        return Progress{0, 0, 0, bounds_.lower_bound(), bounds_.global_bounds().incumbent_cost()};
       }};
   CentralBounds bounds_{instance_, Omega(), limits_, nodes_, announcements_, 5};
 };
@@ -109,7 +109,7 @@ TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreeSearchCounts) {
   EXPECT_FALSE(bounds_.has_no_joint_plan());
   bounds_.prove(kInfiniteCost, BoundSource::kJointSearch);
   EXPECT_TRUE(bounds_.over());
-  EXPECT_TRUE(bounds_.gate().proven_infeasible());
+  EXPECT_TRUE(bounds_.global_bounds().proven_infeasible());
   EXPECT_TRUE(bounds_.has_no_joint_plan());
 }
 
@@ -119,7 +119,7 @@ TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreeSearchMayCloseTheGap) {
   bounds_.prove(kInfiniteCost, BoundSource::kJointSearch);
   EXPECT_TRUE(bounds_.over());
   EXPECT_EQ(bounds_.lower_bound(), plan().cost);
-  EXPECT_FALSE(bounds_.gate().proven_infeasible());
+  EXPECT_FALSE(bounds_.global_bounds().proven_infeasible());
   EXPECT_FALSE(bounds_.has_no_joint_plan());
 }
 
@@ -128,7 +128,7 @@ TEST_F(CentralBoundsTest, WeakerBoundIsNotTheReasonForInfeasibility) {
   nodes_.least = kInfiniteCost;
   bounds_.expect_trees_from(kInfiniteCost);
   bounds_.nodes_changed();
-  ASSERT_TRUE(bounds_.gate().proven_infeasible());
+  ASSERT_TRUE(bounds_.global_bounds().proven_infeasible());
   bounds_.prove(7, BoundSource::kLagrangian);
   EXPECT_FALSE(bounds_.has_no_joint_plan());
 }
