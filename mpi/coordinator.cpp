@@ -153,19 +153,21 @@ void Coordinator::handle(int from, message::Message&& message) {
     throw std::invalid_argument("coordinator: unexpected message type");
   };
   std::visit(
-      Overloaded{
-          [&](message::Status& status) { heard(children_.with(from), std::move(status)); },
-          [&](message::NewPlan& found) { run_.ledger().post(std::move(found.plan), found.source); },
-          [&](message::SnapshotTaken& gathered) {
-            if (gathering_) gathering_->handle(gathered);  // else it was aborted
-          },
-          [&](message::SnapshotPart& part) {
-            if (gathering_) gathering_->handle(std::move(part));
-          },
-          [&](message::ProcessStatistics& account) {
-            for (const auto& [rank, survey] : account.survey.ranks) surveys_[rank] = account.survey;
-          },
-          [&](message::RankFinished& said) { leave(said); }, unexpected},
+      Overloaded{[&](message::Status& status) { heard(children_.with(from), std::move(status)); },
+                 [&](message::NewPlan& found) {
+                   run_.shared_bounds().post(std::move(found.plan), found.source);
+                 },
+                 [&](message::SnapshotTaken& gathered) {
+                   if (gathering_) gathering_->handle(gathered);  // else it was aborted
+                 },
+                 [&](message::SnapshotPart& part) {
+                   if (gathering_) gathering_->handle(std::move(part));
+                 },
+                 [&](message::ProcessStatistics& account) {
+                   for (const auto& [rank, survey] : account.survey.ranks)
+                     surveys_[rank] = account.survey;
+                 },
+                 [&](message::RankFinished& said) { leave(said); }, unexpected},
       message);
   heard_at_ = limits_.now();  // not before: writing a checkpoint takes time
 }
@@ -178,9 +180,9 @@ void Coordinator::heard(int child, message::Status status) {
                    message::ReleaseCustody{taken.from, taken.by, taken.batches});
   }
   if (status.stopped != StopReason::kNone) limits_.stop(status.stopped);
-  if (status.proven > 0) run_.ledger().prove(status.proven, status.proven_by);
+  if (status.proven > 0) run_.shared_bounds().prove(status.proven, status.proven_by);
   nodes_.update(child, std::move(status));
-  run_.ledger().nodes_changed();
+  run_.shared_bounds().nodes_changed();
   run_.announcements().worked();
   if (ending_) return;  // a batch sent after a RankFinished would be left in transit
   run_.trees().instantiate_due_tree();
@@ -193,8 +195,8 @@ void Coordinator::heard(int child, message::Status status) {
 void Coordinator::look_after_checkpoints() {
   if (gathering_ && gathering_->is_done()) gathering_.reset();
   if (gathering_ || options_.checkpoints.directory.empty() || !restored_) return;
-  const bool is_last = run_.ledger().over() && !gathered_at_end_;
-  if (!is_last && (run_.ledger().over() || !timer_.due())) return;
+  const bool is_last = run_.shared_bounds().over() && !gathered_at_end_;
+  if (!is_last && (run_.shared_bounds().over() || !timer_.due())) return;
   gathered_at_end_ = is_last;
   gathering_.emplace(options_.checkpoints, limits_, run_, transport_, children_);
 }
@@ -203,7 +205,7 @@ void Coordinator::step() {
   if (ending_) return;
   look_after_checkpoints();
   if (gathering_) return;
-  if (run_.ledger().over()) {
+  if (run_.shared_bounds().over()) {
     ending_ = true;
     children_.broadcast(message::Terminate{});
   } else if (!nodes_.any()) {
@@ -256,7 +258,7 @@ RunStatistics Coordinator::told() const {
 RunStatistics Coordinator::survey() const {
   RunStatistics survey = told();
   Stats of_plans;
-  run_.ledger().add_counts(of_plans);
+  run_.shared_bounds().add_counts(of_plans);
   for (const auto& [key, count] : of_plans.counts) survey.whole.counts[key] += count;
   survey.rank_count = transport_.ranks();
   return survey;

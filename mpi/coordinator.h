@@ -37,7 +37,7 @@ class Coordinator {
   // repeatedly.
   void step();
 
-  Cost lower_bound() { return run_.ledger().lower_bound(); }
+  Cost lower_bound() { return run_.shared_bounds().lower_bound(); }
   // Has every child sent RankFinished?
   bool ended() const { return farewells_ == children_.count(); }
   // Tests for unresponsive ranks. It acts only if a limit was reached and no message has arrived

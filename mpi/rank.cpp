@@ -53,8 +53,8 @@ Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& li
       parent_(transport, hierarchy_, {transport.rank(), 0}, first_status(transport.rank())),
       stops_(stops),
       trees_(problem, stops_, nodes_.pool),
-      ledger_(limits, nodes_.frontier),
-      search_(options, limits, nodes_, ledger_, elsewhere_, unwatched_),
+      shared_bounds_(limits, nodes_.frontier),
+      search_(options, limits, nodes_, shared_bounds_, elsewhere_, unwatched_),
       knowledge_(transport.rank(), transport.ranks(),
                  options.tuning.bound_broadcast_rate * kBytesPerMegabyte) {
   if (transport.rank() == 0) search_.lagrangian().set_ranks(transport.ranks());
@@ -77,8 +77,8 @@ void Rank::handle(int from, message::Message&& message) {
           },
           [&](message::PricingDone& prices) {
             ++heard_;
-            ledger_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
-                          BoundSource::kLagrangian);
+            shared_bounds_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
+                                 BoundSource::kLagrangian);
           },
           [&](message::LearnedBounds& facts) {
             ++heard_;
@@ -94,7 +94,7 @@ void Rank::handle(int from, message::Message&& message) {
           [&](message::ReleaseCustody& covered) { release(covered); },
           [&](message::Incumbent& incumbent) {
             const Cost cost = incumbent.plan.cost;
-            ledger_.adopt(std::move(incumbent.plan));
+            shared_bounds_.adopt(std::move(incumbent.plan));
             nodes_.prune(cost);
           },
           [&](message::Restart& order) { restart(order.proven); },
@@ -103,7 +103,7 @@ void Rank::handle(int from, message::Message&& message) {
           [&](message::Terminate&) {
             ended_ = true;
             parent_.end_reports();
-            ledger_.end();
+            shared_bounds_.end();
           },
           [&](message::MessageCounts& goodbye) { to_hear_ = goodbye.messages[transport_.rank()]; },
           unexpected},
@@ -191,7 +191,7 @@ void Rank::push(const std::vector<NodeRecord>& records, const std::vector<GroupB
   std::vector<NodePtr> nodes;  // nullptr: pruned
   for (const NodeRecord& record : records) {
     const NodePtr& root = roots_.at(record.tree);
-    const bool pruned = record.bound >= ledger_.cutoff();
+    const bool pruned = record.bound >= shared_bounds_.cutoff();
     nodes.push_back(pruned ? nullptr : node_of(record, root, problem_.instance));
   }
   merge(findings, nodes, *search_.memory());
@@ -232,7 +232,7 @@ message::Status Rank::status() const {
   const auto live = static_cast<std::int64_t>(nodes_.frontier.live());
   status.live = live > 0;
   status.evicted_bound = nodes_.evicted_bound();
-  std::tie(status.proven, status.proven_by) = ledger_.proven();
+  std::tie(status.proven, status.proven_by) = shared_bounds_.proven();
   status.bound = nodes_.bound();
   std::vector<Frontier::Level> levels = nodes_.frontier.levels(kLevels);
   const bool has_open = !levels.empty();
@@ -257,7 +257,7 @@ message::Status Rank::status() const {
 // has no surplus. (When such nodes were transferred, 128 ranks that proved 1 % took 1.7 times as
 // long.)
 bool Rank::is_wanted(Cost bound) const {
-  const Cost cutoff = ledger_.cutoff();
+  const Cost cutoff = shared_bounds_.cutoff();
   return cutoff == kInfiniteCost || !omega_.accepts(cutoff, bound);
 }
 
@@ -305,7 +305,7 @@ void Rank::receive(message::LearnedBounds& facts) {
 }
 
 void Rank::send_found() {
-  if (auto found = ledger_.take_found())
+  if (auto found = shared_bounds_.take_found())
     parent_.tell(message::NewPlan{std::move(found->plan), found->source});
 }
 

@@ -46,7 +46,7 @@ class Rank {
   // receive.
   void handle(int from, message::Message&& message);
   // On rank 0: sets the lower bound of the whole search.
-  void know(Cost bound) { ledger_.know(bound); }
+  void know(Cost bound) { shared_bounds_.know(bound); }
   // Sends what is new. Plans are always sent. A status is sent at once if it is urgent, otherwise
   // at a limited rate; see ParentLink::report(). `now` in seconds since the beginning.
   void send_updates(double now);
@@ -101,7 +101,7 @@ class Rank {
   LocalNodes nodes_;
   AgentStopsCache stops_;
   Trees trees_;  // outlives every holder of their nodes
-  RemoteBounds ledger_;
+  RemoteBounds shared_bounds_;
   TreeSource elsewhere_;    // the coordinator instantiates trees,
   WorkObserver unwatched_;  // and counts the work
   SharedSearch search_;

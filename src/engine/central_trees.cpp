@@ -16,23 +16,23 @@ constexpr Cost kNoTree = -1;
 }  // namespace
 
 CentralTrees::CentralTrees(const SolveOptions& options, Forest& forest, LiveNodes& nodes,
-                           CentralBounds& ledger, RunEvents& announcements)
+                           CentralBounds& shared_bounds, RunEvents& announcements)
     : options_(options),
       forest_(forest),
       nodes_(nodes),
-      ledger_(ledger),
+      shared_bounds_(shared_bounds),
       announcements_(announcements),
       last_cost_(kNoTree) {}
 
 void CentralTrees::resume_with(const NodePtr& root) {
   instantiate(root);
   ++count_;
-  ledger_.expect_trees_from(forest_.next_bound());
+  shared_bounds_.expect_trees_from(forest_.next_bound());
 }
 
 void CentralTrees::begin() {
   const std::lock_guard lock(growing_);
-  if (roots_.empty() && !ledger_.over()) grow();
+  if (roots_.empty() && !shared_bounds_.over()) grow();
 }
 
 std::vector<TreeRecord> CentralTrees::records(std::int64_t count) const {
@@ -64,14 +64,14 @@ void CentralTrees::refill_nodes() {
   if (is_due())
     grow();
   else if (!restart())
-    ledger_.end();
+    shared_bounds_.end();
 }
 
 // True if a tree is left and Algorithm 4 requires it now.
 bool CentralTrees::is_due() const {
   const Cost last = last_cost_;
-  return ledger_.trees_from() < kInfiniteCost &&
-         ledger_.global_bounds().needs_new_tree(
+  return shared_bounds_.trees_from() < kInfiniteCost &&
+         shared_bounds_.global_bounds().needs_new_tree(
              nodes_.bound(), last == kNoTree ? std::nullopt : std::optional(last));
 }
 
@@ -94,13 +94,13 @@ void CentralTrees::grow() {
   const bool has_root = prepared_ != nullptr;
   if (has_root) {
     instantiate(prepared_);
-    if (!ledger_.global_bounds().prunes(prepared_->bound())) nodes_.push(prepared_);
+    if (!shared_bounds_.global_bounds().prunes(prepared_->bound())) nodes_.push(prepared_);
     ++count_;
   }
-  ledger_.expect_trees_from(forest_.next_bound());
+  shared_bounds_.expect_trees_from(forest_.next_bound());
   prepared_ = nullptr;
   preparing_ = false;
-  ledger_.nodes_changed();
+  shared_bounds_.nodes_changed();
   if (has_root) announcements_.event(RunEvent::kTree);
 }
 
@@ -108,7 +108,7 @@ void CentralTrees::grow() {
 // path for each agent.
 bool CentralTrees::claim_preparation() {
   const bool wanted = options_.policy == Policy::kFixed && !options_.omega.is_infinite() &&
-                      ledger_.trees_from() < kInfiniteCost && !ledger_.over();
+                      shared_bounds_.trees_from() < kInfiniteCost && !shared_bounds_.over();
   return wanted && !preparing_.exchange(true);
 }
 
@@ -116,7 +116,7 @@ bool CentralTrees::claim_preparation() {
 void CentralTrees::prepare_tree() {
   const std::unique_lock lock(growing_, std::try_to_lock);
   if (lock && (prepared_ || (prepared_ = forest_.next_root()))) {
-    ledger_.expect_trees_from(std::min(prepared_->bound(), forest_.next_bound()));
+    shared_bounds_.expect_trees_from(std::min(prepared_->bound(), forest_.next_bound()));
     ++prepared_count_;
   } else {
     preparing_ = false;
@@ -129,7 +129,7 @@ void CentralTrees::prepare_tree() {
 bool CentralTrees::restart() {
   const Cost proven = nodes_.evicted_bound();
   if (proven == kInfiniteCost || options_.omega.is_infinite()) return false;
-  if (ledger_.trees_from() < proven) {
+  if (shared_bounds_.trees_from() < proven) {
     grow();
     return true;
   }
@@ -139,7 +139,7 @@ bool CentralTrees::restart() {
   std::vector<NodePtr> roots;
   for (const NodePtr& root : roots_) {
     announcements_.root(root);
-    if (!ledger_.global_bounds().prunes(root->bound())) roots.push_back(root);
+    if (!shared_bounds_.global_bounds().prunes(root->bound())) roots.push_back(root);
   }
   nodes_.restart(roots, proven);
   return true;

@@ -22,8 +22,8 @@ namespace grove::detail {
 class CentralTrees : public TreeSource {
  public:
   // All must outlive this.
-  CentralTrees(const SolveOptions& options, Forest& forest, LiveNodes& nodes, CentralBounds& ledger,
-               RunEvents& announcements);
+  CentralTrees(const SolveOptions& options, Forest& forest, LiveNodes& nodes,
+               CentralBounds& shared_bounds, RunEvents& announcements);
 
   // Call first, on one thread. resume_with(): adds one tree of an earlier run, after the forest has
   // made the same tree and before its nodes are pushed. begin(): then instantiates the first tree
@@ -53,7 +53,7 @@ class CentralTrees : public TreeSource {
   const SolveOptions& options_;
   Forest& forest_;  // under growing_
   LiveNodes& nodes_;
-  CentralBounds& ledger_;
+  CentralBounds& shared_bounds_;
   RunEvents& announcements_;
 
   mutable std::mutex growing_;  // guards the forest and what follows

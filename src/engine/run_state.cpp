@@ -39,13 +39,13 @@ RunState::RunState(const Problem& problem, const SolveOptions& options, const Li
       forest_(make_forest(problem, stops_, pool, options, limits)),
       restored_trees_(problem, stops_, pool),
       announcements_(observer, [this] { return progress(); }),
-      ledger_(problem.instance, options.omega, limits, nodes, announcements_,
-              forest_->next_bound()),
-      trees_(options, *forest_, nodes, ledger_, announcements_) {}
+      shared_bounds_(problem.instance, options.omega, limits, nodes, announcements_,
+                     forest_->next_bound()),
+      trees_(options, *forest_, nodes, shared_bounds_, announcements_) {}
 
 void RunState::begin() {
-  ledger_.nodes_changed();
-  if (options_.start) ledger_.post(*options_.start, PlanSource::kStart);
+  shared_bounds_.nodes_changed();
+  if (options_.start) shared_bounds_.post(*options_.start, PlanSource::kStart);
   trees_.begin();
 }
 
@@ -55,9 +55,9 @@ std::optional<std::vector<NodePtr>> RunState::restore(const CheckpointHeader& he
   resumed_ = true;
   before_.counters = header.counters;
   before_.seconds = header.seconds;
-  ledger_.resume_at(header.lower_bound);
-  if (header.incumbent) ledger_.post(*header.incumbent, PlanSource::kStart);
-  if (options_.start) ledger_.post(*options_.start, PlanSource::kStart);
+  shared_bounds_.resume_at(header.lower_bound);
+  if (header.incumbent) shared_bounds_.post(*header.incumbent, PlanSource::kStart);
+  if (options_.start) shared_bounds_.post(*options_.start, PlanSource::kStart);
   std::vector<NodePtr> roots;
   for (const TreeRecord& tree : header.trees) {
     const NodePtr same = forest_->next_root();
@@ -72,7 +72,7 @@ std::optional<std::vector<NodePtr>> RunState::restore(const CheckpointHeader& he
 }
 
 void RunState::restored() {
-  ledger_.nodes_changed();
+  shared_bounds_.nodes_changed();
   trees_.begin();
 }
 
@@ -80,8 +80,8 @@ CheckpointHeader RunState::checkpoint_header(std::int64_t trees, Cost evicted_bo
   CheckpointHeader header;
   header.fingerprint = fingerprint(instance_);
   header.policy = options_.policy == Policy::kFixed ? Policy::kFixed : Policy::kFree;
-  header.incumbent = ledger_.global_bounds().incumbent();
-  header.lower_bound = ledger_.lower_bound();
+  header.incumbent = shared_bounds_.global_bounds().incumbent();
+  header.lower_bound = shared_bounds_.lower_bound();
   header.evicted_bound = evicted_bound;
   header.trees_instantiated = trees;
   header.trees = trees_.records(trees);
@@ -98,12 +98,12 @@ std::int64_t RunState::nodes_before() const {
 
 Progress RunState::progress() const {
   const LiveNodes::Counts counts = nodes_.counts();
-  return {counts.expanded, counts.open, trees_.count(), ledger_.lower_bound(),
-          ledger_.global_bounds().incumbent_cost()};
+  return {counts.expanded, counts.open, trees_.count(), shared_bounds_.lower_bound(),
+          shared_bounds_.global_bounds().incumbent_cost()};
 }
 
 Solution RunState::conclude() const {
-  const GlobalBounds& global_bounds = ledger_.global_bounds();
+  const GlobalBounds& global_bounds = shared_bounds_.global_bounds();
   Solution solution;
   solution.omega = options_.omega;
   solution.plan = global_bounds.incumbent();
@@ -112,10 +112,11 @@ Solution RunState::conclude() const {
   if (global_bounds.proven_infeasible()) {
     solution.status = Status::kInfeasible;
     solution.lower_bound = 0;
-    if (ledger_.has_no_joint_plan()) solution.stats.texts["reason"] = CentralBounds::kNoJointPlan;
+    if (shared_bounds_.has_no_joint_plan())
+      solution.stats.texts["reason"] = CentralBounds::kNoJointPlan;
   }
   trees_.add_counts(solution.stats);
-  ledger_.add_counts(solution.stats);
+  shared_bounds_.add_counts(solution.stats);
   if (resumed_) {
     solution.stats.counts["nodes_expanded_before"] = nodes_before();
     solution.stats.measures["seconds_before"] = before_.seconds;

@@ -29,8 +29,8 @@ class RunState {
            RunObserver& observer, NodePool& pool, LiveNodes& nodes);
 
   // For the threads that expand nodes. Thread-safe.
-  CentralBounds& ledger() { return ledger_; }
-  const CentralBounds& ledger() const { return ledger_; }
+  CentralBounds& shared_bounds() { return shared_bounds_; }
+  const CentralBounds& shared_bounds() const { return shared_bounds_; }
   CentralTrees& trees() { return trees_; }
   RunEvents& announcements() { return announcements_; }
   // The agents' stops as cached while the first tree was made; initial cache of the workers.
@@ -65,7 +65,7 @@ class RunState {
   const std::unique_ptr<Forest> forest_;
   Trees restored_trees_;
   RunEvents announcements_;
-  CentralBounds ledger_;
+  CentralBounds shared_bounds_;
   CentralTrees trees_;
 
   const Limits::Clock::time_point started_ = limits_.now();

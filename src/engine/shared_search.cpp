@@ -96,7 +96,7 @@ void MemoryBudgets::settled() {
 }
 
 SharedSearch::SharedSearch(const SolveOptions& options, const Limits& limits, LocalNodes& nodes,
-                           SharedBounds& ledger, TreeSource& trees, WorkObserver& observer)
+                           SharedBounds& shared_bounds, TreeSource& trees, WorkObserver& observer)
     : omega_(options.omega),
       uses_estimates_(techniques_of(options).has(Technique::kEstimates)),
       cost_per_conflict_(options.tuning.cost_per_conflict),
@@ -104,7 +104,7 @@ SharedSearch::SharedSearch(const SolveOptions& options, const Limits& limits, Lo
       nodes_(nodes),
       pool_(nodes.pool),
       frontier_(nodes.frontier),
-      ledger_(ledger),
+      shared_bounds_(shared_bounds),
       trees_(trees),
       observer_(observer),
       lagrangian_(options.tuning),
@@ -125,19 +125,20 @@ NodePtr SharedSearch::take() {
 NodePtr SharedSearch::take_open() {
   NodePtr node;
   if (plan_is_wanted())
-    node = frontier_.take_by_estimate(omega_, ledger_.lower_bound(), cost_per_conflict_);
+    node = frontier_.take_by_estimate(omega_, shared_bounds_.lower_bound(), cost_per_conflict_);
   return node ? node : frontier_.take();
 }
 
 bool SharedSearch::gap_is_large() const {
-  const Cost cost = ledger_.cutoff();
+  const Cost cost = shared_bounds_.cutoff();
   return cost<kInfiniteCost&& static_cast<double>(cost)>(1 + large_gap_) *
-         static_cast<double>(ledger_.lower_bound());
+         static_cast<double>(shared_bounds_.lower_bound());
 }
 
 // True if the next node is selected by its expected plan cost.
 bool SharedSearch::plan_is_wanted() {
-  if (omega_ == Omega() || ledger_.cutoff() < kInfiniteCost || !uses_estimates_) return false;
+  if (omega_ == Omega() || shared_bounds_.cutoff() < kInfiniteCost || !uses_estimates_)
+    return false;
   return ++estimates_turn_ % 2 != 0;
 }
 
@@ -162,11 +163,11 @@ void SharedSearch::finish(const NodePtr& node, Expansion expansion, int worker) 
   observer_.expanded(node, expansion, worker);
   for (const NodePtr& child : expansion.children) {
     ++nodes_generated_;
-    if (child->bound() < ledger_.cutoff()) frontier_.push(child);
+    if (child->bound() < shared_bounds_.cutoff()) frontier_.push(child);
   }
-  if (expansion.plan) ledger_.post(std::move(*expansion.plan), PlanSource::kTree);
+  if (expansion.plan) shared_bounds_.post(std::move(*expansion.plan), PlanSource::kTree);
   frontier_.settle(node);
-  ledger_.nodes_changed();
+  shared_bounds_.nodes_changed();
 }
 
 // Evicts the worst nodes. These include the nodes that need not be expanded any more because the

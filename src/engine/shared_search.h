@@ -47,14 +47,14 @@ class SharedSearch {
  public:
   // All must outlive this.
   SharedSearch(const SolveOptions& options, const Limits& limits, LocalNodes& nodes,
-               SharedBounds& ledger, TreeSource& trees, WorkObserver& observer);
+               SharedBounds& shared_bounds, TreeSource& trees, WorkObserver& observer);
   ~SharedSearch();
 
-  SharedBounds& ledger() { return ledger_; }
+  SharedBounds& shared_bounds() { return shared_bounds_; }
   TreeSource& trees() { return trees_; }
   WorkObserver& observer() { return observer_; }
   LagrangianScheduler& lagrangian() { return lagrangian_; }
-  bool over() const { return ledger_.over(); }
+  bool over() const { return shared_bounds_.over(); }
 
   // Takes a node to expand, or returns nullptr if there is none now. The caller must return the
   // node by finish().
@@ -73,7 +73,7 @@ class SharedSearch {
   }
 
   // True if more is proven outside the tree search than by its nodes.
-  bool tree_bound_is_dominated() const { return frontier_.bound() < ledger_.lower_bound(); }
+  bool tree_bound_is_dominated() const { return frontier_.bound() < shared_bounds_.lower_bound(); }
 
   // True if the gap exceeds large_gap.
   bool gap_is_large() const;
@@ -102,7 +102,7 @@ class SharedSearch {
   LocalNodes& nodes_;
   NodePool& pool_;
   Frontier& frontier_;
-  SharedBounds& ledger_;
+  SharedBounds& shared_bounds_;
   TreeSource& trees_;
   WorkObserver& observer_;
   LagrangianScheduler lagrangian_;

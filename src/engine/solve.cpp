@@ -65,7 +65,8 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
                 RunObserver& observer) {
   LocalNodes nodes;
   RunState run(problem, options, limits, observer, nodes.pool, nodes);
-  SharedSearch shared(options, limits, nodes, run.ledger(), run.trees(), run.announcements());
+  SharedSearch shared(options, limits, nodes, run.shared_bounds(), run.trees(),
+                      run.announcements());
   LocalCheckpoints checkpoints(options, limits, run, nodes);
   Stats stats;  // of destroyed workers
   std::optional<Workers> workers;
@@ -73,7 +74,7 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
     Stats so_far = stats;
     if (workers) workers->add_counts(so_far);
     shared.add_counts(so_far);
-    run.ledger().add_counts(so_far);
+    run.shared_bounds().add_counts(so_far);
     return RunStatistics{{std::move(so_far.counts), shared.memory_use()}, {}};
   });
   bool begun = false;

@@ -80,7 +80,7 @@ std::optional<Worker::WorkItem> Worker::choose() {
     }
     return turn;
   };
-  if (shared_.lagrangian().due(shared_.ledger().cutoff() < kInfiniteCost))
+  if (shared_.lagrangian().due(shared_.shared_bounds().cutoff() < kInfiniteCost))
     if (auto turn = lagrangian()) return turn;
   const bool has_primal = techniques_of(options_).has(Technique::kPrimal);
   if (has_primal && share_->may_begin() && share_->due(primal())) return one(Job::kPrimal);
@@ -102,7 +102,8 @@ PrimalSearch& Worker::primal() {
     primal_ = std::make_unique<PrimalSearch>(problem_, primal_stops_,
                                              options_.seed + static_cast<std::uint64_t>(number_),
                                              options_.techniques, options_.tuning);
-  if (const auto plan = shared_.ledger().plan_below(primal_->best_cost().value_or(kInfiniteCost)))
+  if (const auto plan =
+          shared_.shared_bounds().plan_below(primal_->best_cost().value_or(kInfiniteCost)))
     primal_->adopt(*plan);
   if (techniques_of(options_).has(Technique::kLagrangianLns))
     primal_->use(shared_.lagrangian().price_list());
@@ -136,14 +137,15 @@ void Worker::perform(WorkItem& turn, Expander& by) {
 
 void Worker::expand(WorkItem& turn, Expander& by) const {
   weigh(turn, by, [&] {
-    turn.expansion = by.expand(turn.node, shared_.ledger().cutoff(), limits_, turn.bounding_effort);
+    turn.expansion =
+        by.expand(turn.node, shared_.shared_bounds().cutoff(), limits_, turn.bounding_effort);
   });
 }
 
 void Worker::help(WorkItem& turn, Expander& by) {
   const double share = number_ * kGoldenRatio - std::floor(number_ * kGoldenRatio);
   weigh(turn, by, [&] {
-    if (!by.help(turn.node, shared_.ledger().cutoff(), share, limits_)) helped_ = turn.node;
+    if (!by.help(turn.node, shared_.shared_bounds().cutoff(), share, limits_)) helped_ = turn.node;
   });
 }
 
@@ -154,15 +156,15 @@ void Worker::step_primal(WorkItem& turn) {
 }
 
 void Worker::step_joint(WorkItem& turn) {
-  turn.proven = joint_->step(shared_.ledger().cutoff(), limits_);
+  turn.proven = joint_->step(shared_.shared_bounds().cutoff(), limits_);
   turn.plan = joint_->plan();
 }
 
 void Worker::step_lagrangian(WorkItem& turn) {
   if (!pricer_) pricer_.emplace(shared_.lagrangian().pricer(primal_stops_));
-  const SharedBounds& ledger = shared_.ledger();
-  shared_.lagrangian().perform(turn.lagrangian, *pricer_, ledger.cutoff(), ledger.lower_bound(),
-                               limits_);
+  const SharedBounds& shared_bounds = shared_.shared_bounds();
+  shared_.lagrangian().perform(turn.lagrangian, *pricer_, shared_bounds.cutoff(),
+                               shared_bounds.lower_bound(), limits_);
 }
 
 void Worker::publish(WorkItem& turn) {
@@ -172,18 +174,18 @@ void Worker::publish(WorkItem& turn) {
 void Worker::commit(WorkItem& turn) {
   count(turn);
   if (turn.job == WorkItem::Job::kPrimal) {
-    if (turn.plan) shared_.ledger().post(std::move(*turn.plan), primal_->source());
+    if (turn.plan) shared_.shared_bounds().post(std::move(*turn.plan), primal_->source());
     share_->add_primal_work(*primal_, turn.work);
     add_other_work(turn.work);
   } else if (turn.job == WorkItem::Job::kJoint) {
-    if (turn.plan) shared_.ledger().post(std::move(*turn.plan), PlanSource::kJointSearch);
-    if (options_.proof != nullptr && turn.proven > shared_.ledger().lower_bound())
+    if (turn.plan) shared_.shared_bounds().post(std::move(*turn.plan), PlanSource::kJointSearch);
+    if (options_.proof != nullptr && turn.proven > shared_.shared_bounds().lower_bound())
       options_.proof->joint(turn.proven);
-    shared_.ledger().prove(turn.proven, BoundSource::kJointSearch);
+    shared_.shared_bounds().prove(turn.proven, BoundSource::kJointSearch);
   } else if (turn.job == WorkItem::Job::kLagrangian) {
     const Cost proven = shared_.lagrangian().commit(std::move(turn.lagrangian));
-    if (proven > shared_.ledger().lower_bound())
-      shared_.ledger().prove(proven, BoundSource::kLagrangian);
+    if (proven > shared_.shared_bounds().lower_bound())
+      shared_.shared_bounds().prove(proven, BoundSource::kLagrangian);
   } else if (turn.job != WorkItem::Job::kPrepare) {
     turn.memory->trim();
     if (turn.job == WorkItem::Job::kExpand)

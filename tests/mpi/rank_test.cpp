@@ -54,7 +54,7 @@ class RankWithRoot {
     const NodePtr node = search.take();
     if (!node) return false;
     expander_.turn_to(search.memory());
-    search.finish(node, expander_.expand(node, search.ledger().cutoff(), limits_), 0);
+    search.finish(node, expander_.expand(node, search.shared_bounds().cutoff(), limits_), 0);
     return true;
   }
   Cost bound() const { return bound_; }
