@@ -112,7 +112,7 @@ Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, co
       load_balancer_(children_.ranks(), options.tuning),
       timer_(options.checkpoints, limits),
       heard_at_(limits.now()) {
-  run_.announcements().survey_by([this] { return survey(); });
+  run_.run_events().survey_by([this] { return survey(); });
 }
 
 // The observer comes first: it may write the plan to disk.
@@ -183,7 +183,7 @@ void Coordinator::heard(int child, message::Status status) {
   if (status.proven > 0) run_.shared_bounds().prove(status.proven, status.proven_by);
   nodes_.update(child, std::move(status));
   run_.shared_bounds().nodes_changed();
-  run_.announcements().worked();
+  run_.run_events().worked();
   if (ending_) return;  // a batch sent after a RankFinished would be left in transit
   run_.trees().instantiate_due_tree();
   while (const auto gift = load_balancer_.next())
@@ -229,7 +229,7 @@ std::int64_t Coordinator::check_unresponsive_ranks() {
   if (!stopped_at_) stopped_at_ = now;
   if (now - std::max(heard_at_, *stopped_at_) < kLongSilence) return 0;
   if (gathering_) {
-    run_.announcements().checkpoint({.failure = "a rank is unresponsive"});
+    run_.run_events().checkpoint({.failure = "a rank is unresponsive"});
     gathering_.reset();
     gathered_at_end_ = true;
     return 0;

@@ -98,7 +98,7 @@ void DistributedCheckpoint::ask_next() {
   }
   write([&] { writer_->finish(); });
   report_.seconds = std::chrono::duration<double>(limits_.now() - begin_).count();
-  run_.announcements().checkpoint(report_);
+  run_.run_events().checkpoint(report_);
   done_ = true;
 }
 

@@ -35,9 +35,9 @@ void CentralBounds::post(Plan plan, PlanSource source) {
   const Cost before = global_bounds_.incumbent_cost().value_or(cost);
   if (!global_bounds_.post(std::move(plan))) return;
   count(source, before - cost);
-  announcements_.incumbent(*global_bounds_.incumbent(), source);
+  run_events_.incumbent(*global_bounds_.incumbent(), source);
   nodes_.prune(cost);
-  announcements_.event(RunEvent::kIncumbent);
+  run_events_.event(RunEvent::kIncumbent);
 }
 
 void CentralBounds::count(PlanSource source, Cost gain) {
@@ -50,16 +50,16 @@ void CentralBounds::count(PlanSource source, Cost gain) {
 void CentralBounds::nodes_changed() {
   const Cost trees = trees_from_;  // before the nodes' bound: see (a)
   global_bounds_.update(nodes_.bound(), trees);
-  announcements_.bound(global_bounds_.lower_bound());
+  run_events_.bound(global_bounds_.lower_bound());
 }
 
 void CentralBounds::prove(Cost bound, BoundSource by) {
-  announcements_.bound_beside(by, [&] {
+  run_events_.bound_beside(by, [&] {
     global_bounds_.update(bound, bound);
     return global_bounds_.lower_bound();
   });
   if (bound >= kInfiniteCost && global_bounds_.proven_infeasible() && !ended_beside_.exchange(true))
-    announcements_.infeasible(kNoJointPlan);
+    run_events_.infeasible(kNoJointPlan);
 }
 
 void CentralBounds::add_counts(Stats& stats) const {
@@ -73,7 +73,7 @@ void CentralBounds::add_counts(Stats& stats) const {
 
 void CentralBounds::resume_at(Cost lower_bound) {
   global_bounds_.update(lower_bound, lower_bound);
-  announcements_.bound_is_known(lower_bound);
+  run_events_.bound_is_known(lower_bound);
 }
 
 }  // namespace grove::detail

@@ -22,10 +22,10 @@ class CentralBounds : public SharedBounds {
  public:
   // All must outlive this. `trees_from`: lower bound on all trees of the run.
   CentralBounds(const Instance& instance, Omega omega, const Limits& limits, LiveNodes& nodes,
-                RunEvents& announcements, Cost trees_from)
+                RunEvents& run_events, Cost trees_from)
       : limits_(limits),
         nodes_(nodes),
-        announcements_(announcements),
+        run_events_(run_events),
         global_bounds_(instance, omega),
         trees_from_(trees_from) {}
 
@@ -61,7 +61,7 @@ class CentralBounds : public SharedBounds {
 
   const Limits& limits_;
   LiveNodes& nodes_;
-  RunEvents& announcements_;
+  RunEvents& run_events_;
   GlobalBounds global_bounds_;
   std::atomic<Cost> trees_from_;
   std::atomic<bool> out_of_nodes_{false};

@@ -16,12 +16,12 @@ constexpr Cost kNoTree = -1;
 }  // namespace
 
 CentralTrees::CentralTrees(const SolveOptions& options, Forest& forest, LiveNodes& nodes,
-                           CentralBounds& shared_bounds, RunEvents& announcements)
+                           CentralBounds& shared_bounds, RunEvents& run_events)
     : options_(options),
       forest_(forest),
       nodes_(nodes),
       shared_bounds_(shared_bounds),
-      announcements_(announcements),
+      run_events_(run_events),
       last_cost_(kNoTree) {}
 
 void CentralTrees::resume_with(const NodePtr& root) {
@@ -76,7 +76,7 @@ bool CentralTrees::is_due() const {
 }
 
 void CentralTrees::instantiate(const NodePtr& root) {
-  announcements_.root(root);
+  run_events_.root(root);
   if (options_.proof != nullptr) log_proof(*root);
   roots_.push_back(root);
   last_cost_ = root->cost();
@@ -101,7 +101,7 @@ void CentralTrees::grow() {
   prepared_ = nullptr;
   preparing_ = false;
   shared_bounds_.nodes_changed();
-  if (has_root) announcements_.event(RunEvent::kTree);
+  if (has_root) run_events_.event(RunEvent::kTree);
 }
 
 // Only the trees of policy kFixed are prepared: making one solves sequencing problems and plans a
@@ -138,7 +138,7 @@ bool CentralTrees::restart() {
   ++restarts_;
   std::vector<NodePtr> roots;
   for (const NodePtr& root : roots_) {
-    announcements_.root(root);
+    run_events_.root(root);
     if (!shared_bounds_.global_bounds().prunes(root->bound())) roots.push_back(root);
   }
   nodes_.restart(roots, proven);

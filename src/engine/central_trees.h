@@ -23,7 +23,7 @@ class CentralTrees : public TreeSource {
  public:
   // All must outlive this.
   CentralTrees(const SolveOptions& options, Forest& forest, LiveNodes& nodes,
-               CentralBounds& shared_bounds, RunEvents& announcements);
+               CentralBounds& shared_bounds, RunEvents& run_events);
 
   // Call first, on one thread. resume_with(): adds one tree of an earlier run, after the forest has
   // made the same tree and before its nodes are pushed. begin(): then instantiates the first tree
@@ -54,7 +54,7 @@ class CentralTrees : public TreeSource {
   Forest& forest_;  // under growing_
   LiveNodes& nodes_;
   CentralBounds& shared_bounds_;
-  RunEvents& announcements_;
+  RunEvents& run_events_;
 
   mutable std::mutex growing_;  // guards the forest and what follows
   std::vector<NodePtr> roots_;  // by the number of the tree

@@ -45,7 +45,7 @@ void LocalCheckpoints::write() {
     report.failure = "not enough memory to write it";
   }
   report.seconds = std::chrono::duration<double>(limits_.now() - begin).count();
-  run_.announcements().checkpoint(report);
+  run_.run_events().checkpoint(report);
 }
 
 bool restore(CheckpointReader& checkpoint, const Instance& instance, RunState& run,

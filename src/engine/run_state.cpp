@@ -38,10 +38,10 @@ RunState::RunState(const Problem& problem, const SolveOptions& options, const Li
       stops_(problem.instance, problem.distances),
       forest_(make_forest(problem, stops_, pool, options, limits)),
       restored_trees_(problem, stops_, pool),
-      announcements_(observer, [this] { return progress(); }),
-      shared_bounds_(problem.instance, options.omega, limits, nodes, announcements_,
+      run_events_(observer, [this] { return progress(); }),
+      shared_bounds_(problem.instance, options.omega, limits, nodes, run_events_,
                      forest_->next_bound()),
-      trees_(options, *forest_, nodes, shared_bounds_, announcements_) {}
+      trees_(options, *forest_, nodes, shared_bounds_, run_events_) {}
 
 void RunState::begin() {
   shared_bounds_.nodes_changed();

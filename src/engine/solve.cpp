@@ -65,12 +65,11 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
                 RunObserver& observer) {
   LocalNodes nodes;
   RunState run(problem, options, limits, observer, nodes.pool, nodes);
-  SharedSearch shared(options, limits, nodes, run.shared_bounds(), run.trees(),
-                      run.announcements());
+  SharedSearch shared(options, limits, nodes, run.shared_bounds(), run.trees(), run.run_events());
   LocalCheckpoints checkpoints(options, limits, run, nodes);
   Stats stats;  // of destroyed workers
   std::optional<Workers> workers;
-  run.announcements().survey_by([&] {
+  run.run_events().survey_by([&] {
     Stats so_far = stats;
     if (workers) workers->add_counts(so_far);
     shared.add_counts(so_far);

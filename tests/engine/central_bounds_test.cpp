@@ -65,11 +65,11 @@ class CentralBoundsTest : public ::testing::Test {
   Limits limits_;
   ScriptedNodes nodes_;
   Listener listener_;
-  RunEvents announcements_{
+  RunEvents run_events_{
       listener_, [this] {
         return Progress{0, 0, 0, bounds_.lower_bound(), bounds_.global_bounds().incumbent_cost()};
       }};
-  CentralBounds bounds_{instance_, Omega(), limits_, nodes_, announcements_, 5};
+  CentralBounds bounds_{instance_, Omega(), limits_, nodes_, run_events_, 5};
 };
 
 TEST_F(CentralBoundsTest, BoundCoversNodesAndTreesAndNeverFalls) {
@@ -179,12 +179,12 @@ TEST_F(CentralBoundsTest, IsOverIfOptimalOrEndedOrAtALimit) {
   bounds_.nodes_changed();
   EXPECT_TRUE(bounds_.over());
 
-  CentralBounds ended(instance_, Omega(), limits_, nodes_, announcements_, 5);
+  CentralBounds ended(instance_, Omega(), limits_, nodes_, run_events_, 5);
   EXPECT_FALSE(ended.over());
   ended.end();
   EXPECT_TRUE(ended.over());
 
-  CentralBounds stopped(instance_, Omega(), limits_, nodes_, announcements_, 5);
+  CentralBounds stopped(instance_, Omega(), limits_, nodes_, run_events_, 5);
   limits_.set_deadline(testing::kPast);
   EXPECT_TRUE(stopped.over());
 }

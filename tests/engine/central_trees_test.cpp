@@ -50,9 +50,9 @@ class CentralTreesTest : public ::testing::Test {
 
   void begin(std::deque<Cost> costs) {
     forest_.emplace(search_, std::move(costs));
-    bounds_.emplace(search_.instance, options_.omega, limits_, nodes_, announcements_,
+    bounds_.emplace(search_.instance, options_.omega, limits_, nodes_, run_events_,
                     forest_->next_bound());
-    trees_.emplace(options_, *forest_, nodes_, *bounds_, announcements_);
+    trees_.emplace(options_, *forest_, nodes_, *bounds_, run_events_);
     trees_->begin();
   }
   std::int64_t count(const std::string& name) {
@@ -67,7 +67,7 @@ class CentralTreesTest : public ::testing::Test {
   SolveOptions options_;
   WatchedNodes nodes_;
   RunObserver observer_;
-  RunEvents announcements_{observer_, [] { return Progress(); }};
+  RunEvents run_events_{observer_, [] { return Progress(); }};
   std::optional<ScriptedForest> forest_;
   std::optional<CentralBounds> bounds_;
   std::optional<CentralTrees> trees_;
@@ -192,8 +192,8 @@ TEST_F(CentralTreesTest, InstantiatesTreesBelowTheEvictedBoundBeforeARestart) {
 
 TEST_F(CentralTreesTest, ResumesWithTheGivenTrees) {
   forest_.emplace(search_, std::deque<Cost>{10});
-  bounds_.emplace(search_.instance, options_.omega, limits_, nodes_, announcements_, 8);
-  trees_.emplace(options_, *forest_, nodes_, *bounds_, announcements_);
+  bounds_.emplace(search_.instance, options_.omega, limits_, nodes_, run_events_, 8);
+  trees_.emplace(options_, *forest_, nodes_, *bounds_, run_events_);
   trees_->resume_with(search_.root);
   EXPECT_EQ(trees_->count(), 1);
   EXPECT_EQ(bounds_->trees_from(), 10);
