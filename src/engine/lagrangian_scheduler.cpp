@@ -71,9 +71,9 @@ LagrangianBound* LagrangianScheduler::bound() const {
   return bound_.get();
 }
 
-std::shared_ptr<const DualSolution> LagrangianScheduler::price_list() const {
+std::shared_ptr<const DualSolution> LagrangianScheduler::dual_solution() const {
   const LagrangianBound* const bound = this->bound();
-  return bound == nullptr ? nullptr : bound->price_list();
+  return bound == nullptr ? nullptr : bound->dual_solution();
 }
 
 bool LagrangianScheduler::has_jobs() const {

@@ -48,7 +48,7 @@ class LagrangianScheduler {
   void log_proof(ProofLog& proof) const;
   // Returns the dual solution for the primal search, or nullptr if there is none yet or another
   // rank owns the bound.
-  std::shared_ptr<const DualSolution> price_list() const;
+  std::shared_ptr<const DualSolution> dual_solution() const;
 
   // Call on rank 0 before the search: `ranks` ranks share it.
   void set_ranks(int ranks) {

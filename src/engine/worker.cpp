@@ -106,7 +106,7 @@ PrimalSearch& Worker::primal() {
           shared_.shared_bounds().plan_below(primal_->best_cost().value_or(kInfiniteCost)))
     primal_->adopt(*plan);
   if (techniques_of(options_).has(Technique::kLagrangianLns))
-    primal_->use(shared_.lagrangian().price_list());
+    primal_->use(shared_.lagrangian().dual_solution());
   return *primal_;
 }
 

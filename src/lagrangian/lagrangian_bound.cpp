@@ -322,7 +322,7 @@ void LagrangianBound::move_multipliers(Cost cutoff, Cost known) {
   begin_pricing();
 }
 
-std::shared_ptr<const DualSolution> LagrangianBound::price_list() const {
+std::shared_ptr<const DualSolution> LagrangianBound::dual_solution() const {
   const std::lock_guard lock(mutex_);
   return list_;
 }

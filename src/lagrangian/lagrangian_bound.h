@@ -70,7 +70,7 @@ class LagrangianBound {
   const Multipliers& multipliers() const { return rows_.multipliers(); }
   // The dual solution of a round with the best bound so far; nullptr: none yet. It is replaced now
   // and then, when a job is committed.
-  std::shared_ptr<const DualSolution> price_list() const;
+  std::shared_ptr<const DualSolution> dual_solution() const;
 
  private:
   enum class Phase : std::uint8_t { kPricing, kBetween, kEnded };

@@ -95,9 +95,9 @@ TEST_F(LagrangianBoundTest, HasTheDualSolutionOfItsBestRounds) {
     ASSERT_TRUE(job);
     const Cost proven = bound->lower_bound();
     bound->perform(*job, pricer, 20, 0, {});
-    EXPECT_EQ(bound->price_list(), last);
+    EXPECT_EQ(bound->dual_solution(), last);
     bound->commit(std::move(*job));
-    const auto solution = bound->price_list();
+    const auto solution = bound->dual_solution();
     if (solution == last) continue;
     last = solution;
     ++solutions;

@@ -23,7 +23,7 @@ inline std::shared_ptr<const DualSolution> prices_of(const Instance& instance,
     bound->perform(*job, pricer, kAnyCost, 0, {});
     bound->commit(std::move(*job));
   }
-  return bound->price_list();
+  return bound->dual_solution();
 }
 
 }  // namespace grove::detail::testing
