@@ -183,19 +183,18 @@ SequenceStages* LateGoals::over(SequenceStages& plain, const Limits& limits) {
   auto matrix = late_cost_matrix(world_, intervals_, plain.stops(), plain_cost);
   if (!matrix) return nullptr;
   goals_.reset();
-  const bool known = completions_ && agent_ == plain.stops().agent() &&
-                     class_ == plain.sequence_class() &&
-                     completions_->matrix().cost == matrix->cost;
+  const bool known = cost_to_go_ && agent_ == plain.stops().agent() &&
+                     class_ == plain.sequence_class() && cost_to_go_->matrix().cost == matrix->cost;
   if (!known) {  // otherwise reuses the costs to go of an earlier call
     agent_ = plain.stops().agent();
     class_ = plain.sequence_class();
-    completions_ = late_completions(plain.stops(), std::move(*matrix));
-    if (auto of_class = completions_->of_class(class_)) completions_ = std::move(of_class);
+    cost_to_go_ = late_completions(plain.stops(), std::move(*matrix));
+    if (auto of_class = cost_to_go_->of_class(class_)) cost_to_go_ = std::move(of_class);
   }
-  completions_->reset();
-  goals_.emplace(plain.stops(), plain.sequence_class(), *completions_);
-  while (completions_->beyond() <= plain_cost && least_cost(*goals_) >= completions_->beyond())
-    if (!completions_->widen(completions_->beyond(), limits)) break;
+  cost_to_go_->reset();
+  goals_.emplace(plain.stops(), plain.sequence_class(), *cost_to_go_);
+  while (cost_to_go_->beyond() <= plain_cost && least_cost(*goals_) >= cost_to_go_->beyond())
+    if (!cost_to_go_->widen(cost_to_go_->beyond(), limits)) break;
   return least_cost(*goals_) > plain_cost ? &*goals_ : nullptr;
 }
 

@@ -29,10 +29,10 @@ class LateGoals {
  private:
   const World& world_;
   SafeIntervals& intervals_;
-  std::optional<CostToGo> completions_;
+  std::optional<CostToGo> cost_to_go_;
   AgentIndex agent_ = 0;                 // their agent,
   SequenceClass class_;                  // and their class
-  std::optional<SequenceStages> goals_;  // over completions_
+  std::optional<SequenceStages> goals_;  // over cost_to_go_
 };
 
 }  // namespace grove::detail

@@ -85,7 +85,7 @@ Time SequenceDag::cost_to_go(StopSet left, int port) const {
   const int stop = port / ports_;
   if ((node.at & bit(stop)) == 0) return kNever;
   const auto state = node.first + std::popcount(node.at & (bit(stop) - 1));
-  return completions_[state * ports_ + port % ports_];
+  return cost_to_go_[state * ports_ + port % ports_];
 }
 
 template <int kPorts>
@@ -244,7 +244,7 @@ class SequenceDagBuilder {
   Time next_reach() const {
     std::size_t count = 0;
     for (std::size_t excess = 0; excess < dropped_.size(); ++excess)
-      if ((count += dropped_[excess]) >= dag_.completions_.size() / 2)
+      if ((count += dropped_[excess]) >= dag_.cost_to_go_.size() / 2)
         return std::max(dag_.beyond_, reach_ + 1 + static_cast<Time>(excess));
     return std::max(dag_.beyond_, reach_ + static_cast<Time>(dropped_.size()));
   }
@@ -253,14 +253,14 @@ class SequenceDagBuilder {
     return cost < kNever && parity_ >= 0 && (cost & 1) != parity_ ? cost + 1 : cost;
   }
 
-  Time* costs_of(std::uint32_t state) { return &dag_.completions_[state * std::size_t{kPorts}]; }
+  Time* costs_of(std::uint32_t state) { return &dag_.cost_to_go_[state * std::size_t{kPorts}]; }
 
-  // Moves the groups that hold a state into the graph. Until the backward pass, completions_ holds
+  // Moves the groups that hold a state into the graph. Until the backward pass, cost_to_go_ holds
   // the costs of reaching the states.
   void close_layer() {
     tails_.clear();
     auto first = static_cast<std::uint32_t>(dag_.state_count());
-    dag_.completions_.resize((first + states_.size()) * kPorts);
+    dag_.cost_to_go_.resize((first + states_.size()) * kPorts);
     for (Group& group : groups_) {
       group.node.first = first;
       if (group.node.at == 0) continue;
@@ -355,7 +355,7 @@ class SequenceDagBuilder {
   // Any vector may double when it grows next, so this requests as much memory again beforehand.
   bool may_go_on() {
     const std::size_t bytes = dag_.nodes_.capacity() * sizeof(SequenceDag::Node) +
-                              dag_.completions_.capacity() * sizeof(Time) + dag_.index_.bytes() +
+                              dag_.cost_to_go_.capacity() * sizeof(Time) + dag_.index_.bytes() +
                               groups_.capacity() * sizeof(Group) +
                               tails_.capacity() * sizeof(OneTreeRelaxation::Tail) +
                               states_.capacity() * sizeof(State) + group_index_.bytes();

@@ -62,7 +62,7 @@ class SequenceDag {
   // graph. Returns kNever if there is none, or if the state is outside the graph.
   Time cost_to_go(StopSet left, int port) const;
 
-  std::size_t state_count() const { return completions_.size() / static_cast<std::size_t>(ports_); }
+  std::size_t state_count() const { return cost_to_go_.size() / static_cast<std::size_t>(ports_); }
 
  private:
   template <int kPorts>
@@ -78,9 +78,9 @@ class SequenceDag {
   int ports_ = 1;
   Time beyond_ = 0;
   Time next_reach_ = 0;
-  std::vector<Node> nodes_;        // in descending order of |left|
-  std::vector<Time> completions_;  // cost to go, `ports_` entries per state
-  StopSetIndex index_;             // into nodes_
+  std::vector<Node> nodes_;       // in descending order of |left|
+  std::vector<Time> cost_to_go_;  // cost to go, `ports_` entries per state
+  StopSetIndex index_;            // into nodes_
 };
 
 }  // namespace grove::detail
