@@ -67,7 +67,7 @@ void LargeNeighborhoodSearch::step(const Limits& limits) {
   ++steps_;
   const std::vector<AgentIndex>& agents = neighborhoods_.choose();
   RepairOperator& way = choose_repair();
-  const std::int64_t work_before = router_.work();
+  const std::int64_t work_before = low_level_.work();
   Cost old_cost = 0;
   old_paths_.clear();
   for (AgentIndex agent : agents) {
@@ -78,14 +78,15 @@ void LargeNeighborhoodSearch::step(const Limits& limits) {
   if (!plan_anew(agents, old_cost + worse_allowed(others + old_cost), way, limits)) restore(agents);
   const Cost gain = std::max<Cost>(0, others + old_cost - paths_.cost());
   neighborhoods_.reward(gain);
-  const std::int64_t work = router_.work() - work_before;
+  const std::int64_t work = low_level_.work() - work_before;
   way.gain = kRepairDecay * way.gain + static_cast<double>(gain);
   way.work = kRepairDecay * way.work + static_cast<double>(work);
 }
 
 LargeNeighborhoodSearch::RepairOperator& LargeNeighborhoodSearch::choose_repair() {
   const std::span<RepairOperator> ways(
-      repair_operators_.data(), repair_operators_.size() - (router_.prices() == nullptr ? 1 : 0));
+      repair_operators_.data(),
+      repair_operators_.size() - (low_level_.prices() == nullptr ? 1 : 0));
   if (random_.below(kRepairExplorationPeriod) == 0) return ways[random_.below(ways.size())];
   return *std::ranges::max_element(
       ways, {}, [](const RepairOperator& way) { return (way.gain + 1) / way.work; });
@@ -108,9 +109,9 @@ Cost LargeNeighborhoodSearch::worse_allowed(Cost cost) {
 bool LargeNeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost most,
                                         RepairOperator& way, const Limits& limits) {
   Cost left = most;
-  for (AgentIndex agent : agents) left -= router_.individual_cost(agent);
+  for (AgentIndex agent : agents) left -= low_level_.individual_cost(agent);
   for (AgentIndex agent : agents) {
-    const Cost cutoff = left + router_.individual_cost(agent);
+    const Cost cutoff = left + low_level_.individual_cost(agent);
     if (!find(agent, cutoff, way, limits)) return false;
     paths_.put(agent, std::move(path_));
     path_.clear();
@@ -128,14 +129,14 @@ bool LargeNeighborhoodSearch::find(AgentIndex agent, Cost cutoff, RepairOperator
       .reservations = &paths_.reservations(),
       .inflation_percent = way.inflation_percent,
       .known_sequences = true};
-  const std::int64_t before = router_.expanded();
-  if (router_.find(agent, query, limits, path_) != PathOutcome::kFound) {
+  const std::int64_t before = low_level_.expanded();
+  if (low_level_.find(agent, query, limits, path_) != PathOutcome::kFound) {
     if (way.found <= 0 && way.first_labels < kMostFirstLabels) way.first_labels *= 2;
     return false;
   }
   if (way.priced)
-    router_.improve(agent, paths_.reservations(), static_cast<Time>(cutoff), limits, path_);
-  way.labels = kRepairDecay * way.labels + static_cast<double>(router_.expanded() - before);
+    low_level_.improve(agent, paths_.reservations(), static_cast<Time>(cutoff), limits, path_);
+  way.labels = kRepairDecay * way.labels + static_cast<double>(low_level_.expanded() - before);
   way.found = kRepairDecay * way.found + 1;
   return true;
 }

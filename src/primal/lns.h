@@ -22,13 +22,13 @@ namespace grove::detail {
 class LargeNeighborhoodSearch {
  public:
   // All references must outlive this.
-  LargeNeighborhoodSearch(const Problem& problem, PrimalLowLevel& router, PlannedPaths& paths,
+  LargeNeighborhoodSearch(const Problem& problem, PrimalLowLevel& low_level, PlannedPaths& paths,
                           Random& random, const Tuning& tuning)
-      : router_(router),
+      : low_level_(low_level),
         paths_(paths),
         random_(random),
         tuning_(tuning),
-        neighborhoods_(problem, router, paths, random, tuning) {}
+        neighborhoods_(problem, low_level, paths, random, tuning) {}
 
   // One iteration. All agents must have paths. They also have paths afterwards, even if a limit is
   // reached.
@@ -63,7 +63,7 @@ class LargeNeighborhoodSearch {
   bool find(AgentIndex agent, Cost cutoff, RepairOperator& way, const Limits& limits);
   void restore(const std::vector<AgentIndex>& agents);
 
-  PrimalLowLevel& router_;
+  PrimalLowLevel& low_level_;
   PlannedPaths& paths_;
   Random& random_;
   const Tuning& tuning_;

@@ -87,11 +87,11 @@ void Neighborhoods::add_delayed() {
   const AgentIndex agent = some_delayed_agent();
   if (agent == ReservationTable::kNobody) return;
   add(agent);
-  add_those_in_the_way(agent, router_.individual_path(agent), 0);
-  const Time delay = paths_.cost(agent) - router_.individual_cost(agent);
+  add_those_in_the_way(agent, low_level_.individual_path(agent), 0);
+  const Time delay = paths_.cost(agent) - low_level_.individual_cost(agent);
   for (int tries = 0; tries < kAgentBasedTries && !full(); ++tries) {
     const AgentIndex member = chosen_[random_.below(chosen_.size())];
-    add_those_in_the_way(member, router_.individual_path(member), random_.below(delay + 1));
+    add_those_in_the_way(member, low_level_.individual_path(member), random_.below(delay + 1));
   }
 }
 
@@ -99,11 +99,11 @@ AgentIndex Neighborhoods::some_delayed_agent() {
   Cost sum = 0;
   const int agents = problem_.instance.agent_count();
   for (AgentIndex agent = 0; agent < agents; ++agent)
-    sum += paths_.cost(agent) - router_.individual_cost(agent);
+    sum += paths_.cost(agent) - low_level_.individual_cost(agent);
   if (sum <= 0) return ReservationTable::kNobody;
   Cost at = random_.below(sum);
   for (AgentIndex agent = 0; agent < agents; ++agent) {
-    at -= paths_.cost(agent) - router_.individual_cost(agent);
+    at -= paths_.cost(agent) - low_level_.individual_cost(agent);
     if (at < 0) return agent;
   }
   return ReservationTable::kNobody;
@@ -131,10 +131,10 @@ void Neighborhoods::add_by_reduced_cost() {
 }
 
 void Neighborhoods::update_reduced_costs() {
-  const DualSolution& list = *router_.prices();
+  const DualSolution& list = *low_level_.prices();
   const auto agents = paths_.paths().size();
-  if (seen_prices_ != router_.price_changes()) {
-    seen_prices_ = router_.price_changes();
+  if (seen_prices_ != low_level_.price_changes()) {
+    seen_prices_ = low_level_.price_changes();
     reduced_cost_.resize(agents);
     seen_editions_.assign(agents, 0);
   }
@@ -156,8 +156,8 @@ AgentIndex Neighborhoods::some_overpaying_agent() {
 }
 
 const Path& Neighborhoods::wanted_path(AgentIndex agent) const {
-  const Path& path = router_.prices()->paths[agent];
-  return path.empty() ? router_.individual_path(agent) : path;
+  const Path& path = low_level_.prices()->paths[agent];
+  return path.empty() ? low_level_.individual_path(agent) : path;
 }
 
 // Adds the visitors of places in breadth-first order around a random position of a random agent's

@@ -100,17 +100,17 @@ class PrimalSearch::Impl {
         may_guide_(may_configure_),
         agents_(problem.instance.agent_count()),
         random_(seed),
-        router_(problem, stops),
+        low_level_(problem, stops),
         paths_(problem.instance),
         planned_(problem.instance),
-        planning_(problem.instance.world(), router_, planned_, random_, tuning_),
-        neighborhoods_(problem, router_, paths_, random_, tuning_) {}
+        planning_(problem.instance.world(), low_level_, planned_, random_, tuning_),
+        neighborhoods_(problem, low_level_, paths_, random_, tuning_) {}
 
   std::optional<Plan> step(const Limits& limits);
   void adopt(const Plan& plan);
   void use(std::shared_ptr<const DualSolution> prices) {
-    if (prices && prices.get() != router_.prices() && is_near(prices->bound()))
-      router_.use(std::move(prices));
+    if (prices && prices.get() != low_level_.prices() && is_near(prices->bound()))
+      low_level_.use(std::move(prices));
   }
 
   PlanSource source() const { return source_; }
@@ -128,7 +128,7 @@ class PrimalSearch::Impl {
   }
   bool optimal() const { return met_ == agents_ && own_costs_are_least_ && best_ <= own_costs_; }
   std::int64_t work() const {
-    return router_.work() + (paths_.steps_moved() + planned_.steps_moved()) / work::kStepsMoved +
+    return low_level_.work() + (paths_.steps_moved() + planned_.steps_moved()) / work::kStepsMoved +
            joint_steps_ * agents_ + guided_work_;
   }
   std::int64_t work_at_last_plan() const { return work_at_last_plan_; }
@@ -137,8 +137,8 @@ class PrimalSearch::Impl {
             planning_.attempts(),
             joint_steps_ + guided_joint_steps_,
             neighborhoods_.steps(),
-            router_.calls(),
-            router_.expanded()};
+            low_level_.calls(),
+            low_level_.expanded()};
   }
 
  private:
@@ -174,7 +174,7 @@ class PrimalSearch::Impl {
   bool may_guide_;  // LaCAM with traffic; at most once per search
   const int agents_;
   Random random_;
-  PrimalLowLevel router_;
+  PrimalLowLevel low_level_;
   PlannedPaths paths_;    // the plan that LNS improves, or no paths
   PlannedPaths planned_;  // of prioritised planning
   PrioritizedPlanning planning_;
@@ -228,7 +228,7 @@ std::optional<Plan> PrimalSearch::Impl::step(const Limits& limits) {
   if (best_ == told_ || !may_tell(limits)) return std::nullopt;
   told_ = best_;
   work_when_told_ = work();
-  return router_.plan(best_paths_);
+  return low_level_.plan(best_paths_);
 }
 
 void PrimalSearch::Impl::keep_best() {
@@ -269,11 +269,11 @@ void PrimalSearch::Impl::advance(const Limits& limits) {
 
 void PrimalSearch::Impl::meet(const Limits& limits) {
   const std::int64_t before = work();
-  const bool met = router_.meet(met_, limits);
+  const bool met = low_level_.meet(met_, limits);
   meeting_work_ += work() - before;
   if (!met) return;
-  own_costs_are_least_ = own_costs_are_least_ && router_.knows_best(met_);
-  own_costs_ += router_.individual_cost(met_++);
+  own_costs_are_least_ = own_costs_are_least_ && low_level_.knows_best(met_);
+  own_costs_ += low_level_.individual_cost(met_++);
   if (met_ < agents_) return;
   begin_round(true);
   if (adopted_) put_all(*std::exchange(adopted_, std::nullopt), PlanSource::kStart);
@@ -283,7 +283,7 @@ void PrimalSearch::Impl::begin_round(bool first) {
   std::vector<std::pair<double, AgentIndex>> keys;
   for (AgentIndex agent = 0; agent < agents_; ++agent) {
     const double spread = first ? 0 : kOrderNoise * (random_.unit() - 0.5);
-    keys.emplace_back((1 + spread) * router_.individual_cost(agent), agent);
+    keys.emplace_back((1 + spread) * low_level_.individual_cost(agent), agent);
   }
   std::ranges::sort(keys);
   std::vector<AgentIndex> order;
@@ -377,7 +377,7 @@ void PrimalSearch::Impl::guide(const Limits& limits) {
 std::vector<Sequence> PrimalSearch::Impl::own_orders() const {
   std::vector<Sequence> orders;
   for (AgentIndex agent = 0; agent < agents_; ++agent)
-    orders.push_back(router_.individual_order(agent));
+    orders.push_back(low_level_.individual_order(agent));
   separate_ends(problem_.instance, orders);
   return orders;
 }

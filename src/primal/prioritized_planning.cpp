@@ -74,15 +74,15 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
                                                        std::int64_t patience) {
   if (next_ == order_.size()) return Outcome::kDone;
   const AgentIndex agent = order_[next_];
-  const std::int64_t before = router_.expanded();
+  const std::int64_t before = low_level_.expanded();
   const std::int64_t most =
       greedily_ ? label_limit() : std::min(label_limit(), most_exact_labels());
   const PathQuery query{.label_limit = std::min(patience, most),
                         .reservations = &paths_.reservations(),
                         .inflation_percent = greedily_ ? kGreedPercent : 0,
                         .known_sequences = true};
-  const PathOutcome outcome = router_.find(agent, query, limits, path_);
-  const std::int64_t labels = router_.expanded() - before;
+  const PathOutcome outcome = low_level_.find(agent, query, limits, path_);
+  const std::int64_t labels = low_level_.expanded() - before;
   labels_of_order_ += labels;
   if (outcome == PathOutcome::kFound) {
     note_labels(labels);
@@ -111,8 +111,8 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
 void PrioritizedPlanning::remove_blocking_agents(AgentIndex agent) {
   has_failed_[agent] = true;
   std::vector<bool> gone(order_.size(), false);
-  for_each_blocking_agent(world_, paths_.reservations(), agent, router_.individual_path(agent), 0,
-                          [&](AgentIndex other) {
+  for_each_blocking_agent(world_, paths_.reservations(), agent, low_level_.individual_path(agent),
+                          0, [&](AgentIndex other) {
                             gone[other] = true;
                             return true;
                           });

@@ -24,22 +24,22 @@ Instance crossing(int count) {
 // The same instance with a collision-free path for each agent.
 struct Planned {
   explicit Planned(int count) : instance(crossing(count)) {
-    PrioritizedPlanning planning(instance.world(), router, paths, random, tuning);
+    PrioritizedPlanning planning(instance.world(), low_level, paths, random, tuning);
     std::vector<AgentIndex> order;
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
-      EXPECT_TRUE(router.meet(agent, Limits()));
+      EXPECT_TRUE(low_level.meet(agent, Limits()));
       order.push_back(agent);
     }
     planning.begin(order);
     while (planning.step(Limits()) == PrioritizedPlanning::Outcome::kWorking) {
     }
   }
-  Neighborhoods neighborhoods() { return {problem, router, paths, random, tuning}; }
+  Neighborhoods neighborhoods() { return {problem, low_level, paths, random, tuning}; }
 
   const Instance instance;
   const Problem problem{instance, Limits()};
   AgentStopsCache stops{instance, problem.distances};
-  PrimalLowLevel router{problem, stops};
+  PrimalLowLevel low_level{problem, stops};
   PlannedPaths paths{instance};
   Random random{1};
   const Tuning tuning;
@@ -97,10 +97,10 @@ TEST(Neighborhoods, PreferAgentsOfHighReducedCost) {
   DualSolution dual{Multipliers(instance.world(), instance.agent_count()), {}, {}};
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
     dual.prices.push_back(dual.multipliers.price(agent, planned.paths.path(agent)));
-    dual.paths.push_back(planned.router.individual_path(agent));
+    dual.paths.push_back(planned.low_level.individual_path(agent));
   }
   dual.prices[kHighReducedCost] -= 10 * Penalties::kUnit;
-  planned.router.use(std::make_shared<const DualSolution>(std::move(dual)));
+  planned.low_level.use(std::make_shared<const DualSolution>(std::move(dual)));
   EXPECT_GT(times_chosen(), before + 80);
 }
 
