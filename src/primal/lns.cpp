@@ -66,7 +66,7 @@ constexpr std::int64_t kMostFirstLabels = std::int64_t{1} << 40;
 void LargeNeighborhoodSearch::step(const Limits& limits) {
   ++steps_;
   const std::vector<AgentIndex>& agents = neighborhoods_.choose();
-  RepairOperator& way = choose_repair();
+  RepairOperator& repair = choose_repair();
   const std::int64_t work_before = low_level_.work();
   Cost old_cost = 0;
   old_paths_.clear();
@@ -75,21 +75,22 @@ void LargeNeighborhoodSearch::step(const Limits& limits) {
     old_paths_.push_back(paths_.take(agent));
   }
   const Cost others = paths_.cost();
-  if (!plan_anew(agents, old_cost + worse_allowed(others + old_cost), way, limits)) restore(agents);
+  if (!plan_anew(agents, old_cost + worse_allowed(others + old_cost), repair, limits))
+    restore(agents);
   const Cost gain = std::max<Cost>(0, others + old_cost - paths_.cost());
   neighborhoods_.reward(gain);
   const std::int64_t work = low_level_.work() - work_before;
-  way.gain = kRepairDecay * way.gain + static_cast<double>(gain);
-  way.work = kRepairDecay * way.work + static_cast<double>(work);
+  repair.gain = kRepairDecay * repair.gain + static_cast<double>(gain);
+  repair.work = kRepairDecay * repair.work + static_cast<double>(work);
 }
 
 LargeNeighborhoodSearch::RepairOperator& LargeNeighborhoodSearch::choose_repair() {
-  const std::span<RepairOperator> ways(
+  const std::span<RepairOperator> repairs(
       repair_operators_.data(),
       repair_operators_.size() - (low_level_.prices() == nullptr ? 1 : 0));
-  if (random_.below(kRepairExplorationPeriod) == 0) return ways[random_.below(ways.size())];
+  if (random_.below(kRepairExplorationPeriod) == 0) return repairs[random_.below(repairs.size())];
   return *std::ranges::max_element(
-      ways, {}, [](const RepairOperator& way) { return (way.gain + 1) / way.work; });
+      repairs, {}, [](const RepairOperator& repair) { return (repair.gain + 1) / repair.work; });
 }
 
 // By how much the next plan may exceed `cost`, the cost of the current plan.
@@ -107,12 +108,12 @@ Cost LargeNeighborhoodSearch::worse_allowed(Cost cost) {
 
 // Returns false if the agents, planned in this order, find no paths of total cost `most` or less.
 bool LargeNeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost most,
-                                        RepairOperator& way, const Limits& limits) {
+                                        RepairOperator& repair, const Limits& limits) {
   Cost left = most;
   for (AgentIndex agent : agents) left -= low_level_.individual_cost(agent);
   for (AgentIndex agent : agents) {
     const Cost cutoff = left + low_level_.individual_cost(agent);
-    if (!find(agent, cutoff, way, limits)) return false;
+    if (!find(agent, cutoff, repair, limits)) return false;
     paths_.put(agent, std::move(path_));
     path_.clear();
     left = cutoff - paths_.cost(agent);
@@ -120,24 +121,25 @@ bool LargeNeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, C
   return true;
 }
 
-bool LargeNeighborhoodSearch::find(AgentIndex agent, Cost cutoff, RepairOperator& way,
+bool LargeNeighborhoodSearch::find(AgentIndex agent, Cost cutoff, RepairOperator& repair,
                                    const Limits& limits) {
-  const double of_others = kRepairLabels + kRepairLabelsFactor * way.labels / way.found;
+  const double of_others = kRepairLabels + kRepairLabelsFactor * repair.labels / repair.found;
   const PathQuery query{
       .cutoff = static_cast<Time>(cutoff),
-      .label_limit = way.found > 0 ? static_cast<std::int64_t>(of_others) : way.first_labels,
+      .label_limit = repair.found > 0 ? static_cast<std::int64_t>(of_others) : repair.first_labels,
       .reservations = &paths_.reservations(),
-      .inflation_percent = way.inflation_percent,
+      .inflation_percent = repair.inflation_percent,
       .known_sequences = true};
   const std::int64_t before = low_level_.expanded();
   if (low_level_.find(agent, query, limits, path_) != PathOutcome::kFound) {
-    if (way.found <= 0 && way.first_labels < kMostFirstLabels) way.first_labels *= 2;
+    if (repair.found <= 0 && repair.first_labels < kMostFirstLabels) repair.first_labels *= 2;
     return false;
   }
-  if (way.priced)
+  if (repair.priced)
     low_level_.improve(agent, paths_.reservations(), static_cast<Time>(cutoff), limits, path_);
-  way.labels = kRepairDecay * way.labels + static_cast<double>(low_level_.expanded() - before);
-  way.found = kRepairDecay * way.found + 1;
+  repair.labels =
+      kRepairDecay * repair.labels + static_cast<double>(low_level_.expanded() - before);
+  repair.found = kRepairDecay * repair.found + 1;
   return true;
 }
 

@@ -58,9 +58,9 @@ class LargeNeighborhoodSearch {
 
   RepairOperator& choose_repair();
   Cost worse_allowed(Cost cost);
-  bool plan_anew(const std::vector<AgentIndex>& agents, Cost most, RepairOperator& way,
+  bool plan_anew(const std::vector<AgentIndex>& agents, Cost most, RepairOperator& repair,
                  const Limits& limits);
-  bool find(AgentIndex agent, Cost cutoff, RepairOperator& way, const Limits& limits);
+  bool find(AgentIndex agent, Cost cutoff, RepairOperator& repair, const Limits& limits);
   void restore(const std::vector<AgentIndex>& agents);
 
   PrimalLowLevel& low_level_;
