@@ -225,7 +225,7 @@ MemoryUse SharedSearch::memory_use() const {
   const auto known = memory();
   return {.process = static_cast<std::int64_t>(resident_bytes()),
           .nodes = static_cast<std::int64_t>(pool_.bytes()),
-          .prices = static_cast<std::int64_t>(known->situations.bytes()),
+          .prices = static_cast<std::int64_t>(known->subproblems.bytes()),
           .path_sets = static_cast<std::int64_t>(known->path_sets.bytes()),
           .groups = static_cast<std::int64_t>(known->excesses.bytes())};
 }

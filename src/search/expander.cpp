@@ -150,7 +150,7 @@ double Expander::whole_work() const {
   return static_cast<double>(planner_.work() + done.group_work) +
          work::kPerOptimalNode * static_cast<double>(done.optimal_nodes) +
          work::kPerJointPair * static_cast<double>(done.joint_mdd_nodes) +
-         work::kPerSituation * static_cast<double>(done.situations) +
+         work::kPerSituation * static_cast<double>(done.subproblems) +
          work::kPerGroup * static_cast<double>(done.groups) +
          work::kPerStepSeen * static_cast<double>(done.path_steps);
 }
@@ -165,7 +165,7 @@ ExpansionCounts Expander::counts() const {
   counts.joint_mdd_nodes = dependencies_.joint_mdd_nodes();
   counts.group_states = dependencies_.joint_groups().states();
   counts.group_work = dependencies_.joint_groups().work();
-  counts.situations = memory_.asked();
+  counts.subproblems = memory_.asked();
   counts.groups = memory_.groups_asked();
   counts.path_steps = view_.steps() + dependencies_.steps();
   std::ranges::copy(brancher_.splits(), counts.splits.begin());

@@ -43,7 +43,7 @@ struct ExpansionCounts {
   std::int64_t joint_mdd_nodes = 0;  // pairs of MDD nodes compared (joint MDDs)
   std::int64_t group_states = 0;     // states examined by joint search of pairs and groups
   std::int64_t group_work = 0;       // work of joint search, in the unit of work.h
-  std::int64_t situations = 0;       // look-ups of subproblems
+  std::int64_t subproblems = 0;      // look-ups of subproblems
   std::int64_t groups = 0;           // groups looked up
   std::int64_t path_steps = 0;       // path steps searched for conflicts
   // Branching: splits by the kind of their second constraint (brancher.h), bypasses, strong

@@ -29,12 +29,12 @@ void NodeView::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
 void NodeView::look_at_constraints() {
   node_->constraints(demands_);
   for (auto* by_agent : {&kept_.demands, &kept_.constraints}) by_agent->resize(demands_.size());
-  kept_.situations.resize(demands_.size());
+  kept_.subproblems.resize(demands_.size());
   for (const AgentIndex agent : scope_) {
     if (demands_[agent] == kept_.demands[agent]) continue;
     kept_.constraints[agent] = demands_[agent];
     canonical(kept_.constraints[agent]);
-    kept_.situations[agent] = {};
+    kept_.subproblems[agent] = {};
     std::swap(demands_[agent], kept_.demands[agent]);  // last: the rest may throw
   }
 }
@@ -44,9 +44,9 @@ void NodeView::find_conflicts() {
   for (const AgentIndex agent : scope_) steps_ += std::ssize(paths_[agent]);
 }
 
-SubproblemTable::Id NodeView::situation(AgentIndex agent) {
+SubproblemTable::Id NodeView::subproblem(AgentIndex agent) {
   GROVE_ASSERT(is_in_scope(agent), "of others nothing is kept up to date");
-  Kept::KnownSituation& known = kept_.situations[agent];
+  Kept::KnownSituation& known = kept_.subproblems[agent];
   const AgentSequencing& order = this->order(agent);
   if (known.order != &order || known.numbering != memory_.numbering())
     known = {&order, memory_.numbering(), memory_.id(agent, order, kept_.constraints[agent])};

@@ -34,7 +34,7 @@ class NodeView {
     // node.
     std::vector<std::vector<Constraint>> constraints;  // in canonical order
     std::vector<std::vector<Constraint>> demands;      // in the order of the node
-    std::vector<KnownSituation> situations;
+    std::vector<KnownSituation> subproblems;
   };
 
   // All arguments must outlive this. `memory` may be shared with others of the same thread.
@@ -57,7 +57,7 @@ class NodeView {
     GROVE_ASSERT(is_in_scope(agent), "of others nothing is kept up to date");
     return kept_.constraints[agent];
   }
-  SubproblemTable::Id situation(AgentIndex agent);
+  SubproblemTable::Id subproblem(AgentIndex agent);
   // Its constraints and `more`, in canonical order. Valid until the next call.
   std::span<const Constraint> constraints_with(AgentIndex agent, const Constraint& more);
 

@@ -124,7 +124,7 @@ bool WdgHeuristic::help(const NodePtr& node, NodeView& view, Cost cutoff, double
 
 void WdgHeuristic::look_at(NodeView& view) {
   for (AgentIndex agent = 0; agent < agents_; ++agent) {
-    situation_[agent] = view.situation(agent);
+    situation_[agent] = view.subproblem(agent);
     GROVE_ASSERT(may_cost(agent, view.cost_of(agent)),
                  "an agent's path at a node is a cheapest one in its situation");
   }
@@ -189,13 +189,13 @@ const Mdd* WdgHeuristic::optimal_paths(NodeView& view, AgentIndex agent, const L
 WdgHeuristic::Outcome WdgHeuristic::solve_groups(NodeView& view, Cost slack, const Limits& limits) {
   for (const auto& group : groups_in_conflict(view)) {
     if (group.size() < 3 || std::ssize(group) > kMaxGroupAgents) continue;
-    const auto situations = key(group);
-    Known known = memory_.of_group(situations);
+    const auto subproblems = key(group);
+    Known known = memory_.of_group(subproblems);
     if (known.exact || known.expansions > 0) continue;
     if (work() >= give_up_at_) return Outcome::kUnfinished;
     if (!solve(view, group, slack, tuning_.group_expansions, limits, known))
       return Outcome::kStopped;
-    memory_.merge_group(group, situations, known);
+    memory_.merge_group(group, subproblems, known);
   }
   return Outcome::kDone;
 }
@@ -320,7 +320,7 @@ void WdgHeuristic::collect(std::vector<GroupExcess>& statements) {
     partners_.clear();
     memory_.partners(situation_[a], partners_);
     for (const DependencyTable::Partner& b : partners_)
-      if (situation_[b.agent] == b.situation) statements.push_back({{a, b.agent}, b.excess});
+      if (situation_[b.agent] == b.subproblem) statements.push_back({{a, b.agent}, b.excess});
   }
   memory_.groups_at(situation_, [&](const DependencyTable::Group& group) {
     if (group.known.excess > 0) statements.push_back({group.agents, group.known.excess});

@@ -182,8 +182,8 @@ TEST(Expander, OneExpanderServesTwoWorkersLikeTwoExpanders) {
     }
     return std::pair(
         nodes.size(),
-        expander_of(0).counts().situations +
-            (&expander_of(0) == &expander_of(1) ? 0 : expander_of(1).counts().situations));
+        expander_of(0).counts().subproblems +
+            (&expander_of(0) == &expander_of(1) ? 0 : expander_of(1).counts().subproblems));
   };
   const SearchOptions options{Techniques::defaults(), 0};
   std::deque<Expander> own;

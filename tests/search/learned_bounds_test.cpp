@@ -102,8 +102,8 @@ struct TwoTrees {
   }
   DependencyTable::Known of_pair(std::size_t first, std::size_t second,
                                  const std::vector<Constraint>& constraints) {
-    return memory.excesses.of_pair(memory.situations.id(0, *orders[first], {}),
-                                   memory.situations.id(1, *orders[second], constraints));
+    return memory.excesses.of_pair(memory.subproblems.id(0, *orders[first], {}),
+                                   memory.subproblems.id(1, *orders[second], constraints));
   }
 
   std::vector<std::shared_ptr<const AgentSequencing>> orders;
@@ -119,8 +119,8 @@ TEST(LearnedBound, AppliesToTheOrdersItWasProvenFor) {
   TwoTrees here;
   here.memory.take_new_entries();
   CacheDelta found;
-  found.pairs.push_back({here.memory.situations.id(0, *here.orders[0], {}),
-                         here.memory.situations.id(1, *here.orders[2], constraints),
+  found.pairs.push_back({here.memory.subproblems.id(0, *here.orders[0], {}),
+                         here.memory.subproblems.id(1, *here.orders[2], constraints),
                          1,
                          {5, true, 9}});
   here.memory.merge(found);
@@ -128,7 +128,7 @@ TEST(LearnedBound, AppliesToTheOrdersItWasProvenFor) {
   ASSERT_EQ(bounds.size(), 1u);
 
   TwoTrees there;
-  there.memory.situations.id(1, *there.orders[1], {});  // so that numbers differ
+  there.memory.subproblems.id(1, *there.orders[1], {});  // so that numbers differ
   merge(bounds[0], there.known, there.memory);
   EXPECT_EQ(there.of_pair(0, 2, constraints).excess, 5);
   EXPECT_TRUE(there.of_pair(0, 2, constraints).exact);

@@ -51,7 +51,7 @@ TEST(DependencyTable, ListsPartnersWithExcessOnce) {
   const auto partners = partners_of(table, 3);
   ASSERT_EQ(partners.size(), 1u);
   EXPECT_EQ(partners[0].agent, 2);
-  EXPECT_EQ(partners[0].situation, 6);
+  EXPECT_EQ(partners[0].subproblem, 6);
   EXPECT_EQ(partners[0].excess, 4);
   EXPECT_TRUE(partners_of(table, 6).empty());
 }
@@ -184,7 +184,7 @@ struct TwoWorkers : testing::RootFixture {
 // A worker reads its own new entries at once, the others only after they are published.
 TEST(WorkerCache, IsPrivateUntilPublished) {
   TwoWorkers s;
-  const SubproblemTable::Id id = s.view.situation(0);
+  const SubproblemTable::Id id = s.view.subproblem(0);
   std::vector<SubproblemTable::Id> trio;
   for (AgentIndex agent = 0; agent < 3; ++agent)
     trio.push_back(s.memory.id(agent, s.view.order(0), {}));
@@ -231,7 +231,7 @@ TEST(WorkerCache, DropsUnpublishedEntriesWhenItSwitchesCaches) {
 
 TEST(WorkerCache, BuildsAnMddOnce) {
   TwoWorkers s;
-  const SubproblemTable::Id id = s.view.situation(0);
+  const SubproblemTable::Id id = s.view.subproblem(0);
   const auto ask = [&](WorkerCache& memory) {
     return memory.paths(id, 0, s.view.order(0), s.view.constraints(0), 2, s.limits);
   };

@@ -43,7 +43,7 @@ TEST(SubproblemTable, IdIsUniquePerAgentOrderAndConstraints) {
       subproblems.merge(id, {id, true});
     }
     EXPECT_EQ(keys.at(id), key);
-    const AgentSubproblem subproblem = subproblems.situation(id);
+    const AgentSubproblem subproblem = subproblems.subproblem(id);
     EXPECT_EQ(subproblem.agent, agent);
     EXPECT_EQ(subproblem.order, &order);
     EXPECT_EQ(subproblem.constraints, PackedConstraints(constraints));
