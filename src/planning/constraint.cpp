@@ -44,9 +44,9 @@ bool rests_by(const World& world, const Path& path, const Constraint& c) {
 bool ends_traversal(const World& world, const Path& path, Time arrival,
                     const Corridors& corridors) {
   const auto place = [&](Time t) { return world.place(path[t]); };
-  const int chain = corridors.corridor_of(place(arrival - 1));
+  const int corridor = corridors.corridor_of(place(arrival - 1));
   Time before = arrival - 1;  // the last time before it was inside
-  while (before >= 0 && corridors.corridor_of(place(before)) == chain) --before;
+  while (before >= 0 && corridors.corridor_of(place(before)) == corridor) --before;
   if (before < 0) return false;
   return place(before) != place(arrival) || place(before + 1) != place(arrival - 1);
 }
