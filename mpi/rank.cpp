@@ -174,7 +174,7 @@ bool Rank::keeps_next() const {
 void Rank::release(const message::ReleaseCustody& covered) {
   Peer& peer = peers_[covered.to];
   while (!peer.custody.empty() && peer.custody.begin()->first <= covered.batches) {
-    for (const NodePtr& node : peer.custody.begin()->second) nodes_.frontier.settle(node);
+    for (const NodePtr& node : peer.custody.begin()->second) nodes_.frontier.complete(node);
     in_custody_ -= std::ssize(peer.custody.begin()->second);
     peer.custody.erase(peer.custody.begin());
   }

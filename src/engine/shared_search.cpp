@@ -166,7 +166,7 @@ void SharedSearch::finish(const NodePtr& node, Expansion expansion, int worker) 
     if (child->bound() < shared_bounds_.cutoff()) frontier_.push(child);
   }
   if (expansion.plan) shared_bounds_.post(std::move(*expansion.plan), PlanSource::kTree);
-  frontier_.settle(node);
+  frontier_.complete(node);
   shared_bounds_.nodes_changed();
 }
 

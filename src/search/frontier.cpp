@@ -108,7 +108,7 @@ std::vector<NodePtr> Frontier::take_for_transfer(std::size_t count, bool keeps_n
   return spare;
 }
 
-void Frontier::settle(const NodePtr& node) {
+void Frontier::complete(const NodePtr& node) {
   const std::lock_guard lock(mutex_);
   release_locked(node);
 }

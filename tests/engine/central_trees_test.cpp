@@ -60,7 +60,7 @@ class CentralTreesTest : public ::testing::Test {
     trees_->add_counts(stats);
     return stats.counts.at(name);
   }
-  void settle_best() { nodes_.frontier.settle(nodes_.frontier.take()); }
+  void settle_best() { nodes_.frontier.complete(nodes_.frontier.take()); }
 
   testing::SmallSearch search_;
   Limits limits_;
@@ -120,7 +120,7 @@ TEST_F(CentralTreesTest, IsNotOverWhileANodeIsLive) {
   const NodePtr taken = nodes_.frontier.take();
   trees_->refill_nodes();
   EXPECT_FALSE(bounds_->over());
-  nodes_.frontier.settle(taken);
+  nodes_.frontier.complete(taken);
   trees_->refill_nodes();
   EXPECT_TRUE(bounds_->over());
 }

@@ -51,7 +51,7 @@ TEST_F(FrontierTest, CountsTakenNodesAsLive) {
   frontier_.push(node(4));
   const NodePtr taken = frontier_.take();
   EXPECT_EQ(frontier_.bound(), 1);
-  frontier_.settle(taken);
+  frontier_.complete(taken);
   EXPECT_EQ(frontier_.bound(), 4);
 }
 
@@ -65,10 +65,10 @@ TEST_F(FrontierTest, TransferredNodesCountUntilTheyAreSettled) {
   EXPECT_EQ(frontier_.open(), 3);
   EXPECT_EQ(frontier_.live(), 6);
   EXPECT_EQ(frontier_.levels(9), (std::vector<Frontier::Level>{{3, 2}, {8, 1}}));
-  frontier_.settle(frontier_.take());
-  frontier_.settle(frontier_.take());
+  frontier_.complete(frontier_.take());
+  frontier_.complete(frontier_.take());
   EXPECT_EQ(frontier_.bound(), 3);
-  for (const NodePtr& given : spare) frontier_.settle(given);
+  for (const NodePtr& given : spare) frontier_.complete(given);
   EXPECT_EQ(frontier_.bound(), 8);
 }
 
@@ -90,7 +90,7 @@ TEST_F(FrontierTest, NextNodeIsTransferredWithoutKeepsNext) {
   ASSERT_EQ(spare.size(), 1);
   EXPECT_EQ(spare.front()->bound(), 3);
   EXPECT_EQ(frontier_.bound(), 2);
-  frontier_.settle(taken);
+  frontier_.complete(taken);
   EXPECT_EQ(frontier_.bound(), 3);
 }
 
@@ -99,7 +99,7 @@ TEST_F(FrontierTest, TakenNodesOfEqualBoundAreCountedSeparately) {
   frontier_.push(node(1));
   const NodePtr first = frontier_.take();
   const NodePtr second = frontier_.take();
-  frontier_.settle(first);
+  frontier_.complete(first);
   EXPECT_EQ(frontier_.bound(), 1);
   frontier_.reinsert(second);
   EXPECT_EQ(frontier_.bound(), 1);
@@ -110,8 +110,8 @@ TEST_F(FrontierTest, PrunesOnlyFromTheGivenBoundOn) {
   for (Time bound : {1, 2, 3, 3, 5}) frontier_.push(node(bound));
   EXPECT_EQ(frontier_.prune(3), 3u);
   EXPECT_EQ(frontier_.open(), 2u);
-  frontier_.settle(frontier_.take());
-  frontier_.settle(frontier_.take());
+  frontier_.complete(frontier_.take());
+  frontier_.complete(frontier_.take());
   EXPECT_TRUE(frontier_.empty());
 }
 
@@ -131,7 +131,7 @@ TEST_F(FrontierTest, TakeByEstimateStaysWithinOmega) {
   const NodePtr taken = frontier_.take_by_estimate(half, 4, 1);
   EXPECT_EQ(taken, promising);
   EXPECT_EQ(frontier_.bound(), 4);
-  frontier_.settle(taken);
+  frontier_.complete(taken);
   EXPECT_EQ(frontier_.take_by_estimate(half, 4, 1), with_six_conflicts);
   EXPECT_EQ(frontier_.take_by_estimate(half, 4, 1), nullptr);
   EXPECT_EQ(frontier_.take_by_estimate(Omega::infinite(), 4, 1), too_expensive);
@@ -146,8 +146,8 @@ TEST_F(FrontierTest, EvictsTheWorstAndKeepsTheirLeastBound) {
   EXPECT_EQ(frontier_.evicted_bound(), 4);
   EXPECT_EQ(frontier_.open(), 2u);
   EXPECT_EQ(frontier_.bound(), 2);
-  frontier_.settle(frontier_.take());
-  frontier_.settle(frontier_.take());
+  frontier_.complete(frontier_.take());
+  frontier_.complete(frontier_.take());
   EXPECT_EQ(frontier_.take(), nullptr);
   // No node is live, but nothing is proven above the bound of the evicted nodes.
   EXPECT_EQ(frontier_.bound(), 4);
@@ -191,10 +191,10 @@ TEST_F(FrontierTest, RestartKeepsTheProvenBoundAndTakesNewestFirst) {
   const NodePtr first = frontier_.take();
   EXPECT_EQ(first, newest);
   EXPECT_EQ(frontier_.bound(), 4);
-  frontier_.settle(first);
+  frontier_.complete(first);
   const NodePtr second = frontier_.take();
   EXPECT_EQ(second->bound(), 1);
-  frontier_.settle(second);
+  frontier_.complete(second);
   EXPECT_EQ(frontier_.bound(), 5);
 }
 
