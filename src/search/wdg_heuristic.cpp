@@ -90,10 +90,10 @@ WdgHeuristic::Outcome WdgHeuristic::find_bound(const NodePtr& node, NodeView& vi
   }
   std::vector<GroupExcess> statements;
   collect(statements);
-  const auto dearest = std::ranges::max_element(statements, {}, &GroupExcess::excess);
+  const auto max_excess = std::ranges::max_element(statements, {}, &GroupExcess::excess);
   // A single statement that reaches the cutoff proves it without the others.
-  if (dearest != statements.end() && dearest->excess > slack)
-    statements = {*dearest};
+  if (max_excess != statements.end() && max_excess->excess > slack)
+    statements = {*max_excess};
   else
     bound = std::min(cutoff, node->cost() + covering_bound(statements, kCoveringSteps, limits));
   if (proof_ != nullptr && bound > node->bound()) log_bound(view, statements, bound);
@@ -104,8 +104,8 @@ WdgHeuristic::Outcome WdgHeuristic::compute_weights(NodeView& view, Cost slack,
                                                     const Limits& limits) {
   // If an earlier cache was dropped because it was full, results of this call may be dropped as
   // well before a later call uses them. So there is no limit, and this call does all the work.
-  give_up_at_ = memory_.common()->follows_another ? std::numeric_limits<std::int64_t>::max()
-                                                  : work() + tuning_.bound_work;
+  abort_at_ = memory_.common()->follows_another ? std::numeric_limits<std::int64_t>::max()
+                                                : work() + tuning_.bound_work;
   const Outcome outcome = solve_conflicting(view, slack, 0, limits);
   if (outcome != Outcome::kDone || !techniques_.has(Technique::kClusters)) return outcome;
   return solve_groups(view, slack, limits);
@@ -117,7 +117,7 @@ bool WdgHeuristic::help(const NodePtr& node, NodeView& view, Cost cutoff, double
   if (slack < 0) return false;
   look_at(view);
   const std::int64_t before = work();
-  give_up_at_ = before + tuning_.bound_work;
+  abort_at_ = before + tuning_.bound_work;
   solve_conflicting(view, slack, share, limits);
   return work() > before;
 }
@@ -149,7 +149,7 @@ WdgHeuristic::Outcome WdgHeuristic::solve_conflicting(NodeView& view, Cost slack
   for (const auto& [a, b] : pairs) {
     Known known = this->known(a, b);
     if (known.exact || known.excess > slack || known.expansions > 0) continue;
-    if (work() >= give_up_at_) return Outcome::kUnfinished;
+    if (work() >= abort_at_) return Outcome::kUnfinished;
     if (techniques_.has(Technique::kJointMdd) && known.excess == 0) {
       const auto dependence = compare(view, a, b, limits);
       if (!dependence) return Outcome::kStopped;
@@ -192,7 +192,7 @@ WdgHeuristic::Outcome WdgHeuristic::solve_groups(NodeView& view, Cost slack, con
     const auto subproblems = key(group);
     Known known = memory_.of_group(subproblems);
     if (known.exact || known.expansions > 0) continue;
-    if (work() >= give_up_at_) return Outcome::kUnfinished;
+    if (work() >= abort_at_) return Outcome::kUnfinished;
     if (!solve(view, group, slack, tuning_.group_expansions, limits, known))
       return Outcome::kStopped;
     memory_.merge_group(group, subproblems, known);
@@ -235,7 +235,7 @@ bool WdgHeuristic::solve(const NodeView& view, std::span<const AgentIndex> group
   if (!solve_by_splits(view.node(), group, slack, most_expansions, limits, known)) return false;
   if (known.exact || known.excess > slack || !techniques_.has(Technique::kJointGroups)) return true;
   const Cost by_splits = known.excess;
-  if (!joint_groups_.settle(view, group, slack, limits, known)) return false;
+  if (!joint_groups_.solve(view, group, slack, limits, known)) return false;
   if (proof_ != nullptr && known.excess > by_splits)
     log_lemma(view, group, known.excess, kNoProof, {});
   return true;

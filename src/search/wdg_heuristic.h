@@ -119,7 +119,7 @@ class WdgHeuristic {
   std::vector<ProofSplit> written_;  // of the current group, if a certificate is written
   std::vector<DependencyTable::Partner> partners_;
   std::int64_t expansions_ = 0;
-  std::int64_t give_up_at_ = 0;  // a value of work()
+  std::int64_t abort_at_ = 0;  // a value of work()
 };
 
 }  // namespace grove::detail

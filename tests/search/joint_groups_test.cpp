@@ -87,13 +87,13 @@ TEST(JointGroups, ExcessEqualsThatOfAnExhaustiveSearch) {
     Tuning tuning;
     JointGroups groups(s.instance, tuning, s.planner);
     Known known;
-    ASSERT_TRUE(groups.settle(s.view, group, slack, s.limits, known));
+    ASSERT_TRUE(groups.solve(s.view, group, slack, s.limits, known));
     ASSERT_EQ(known.excess, *truth);
     ASSERT_EQ(known.exact, *truth <= slack);
     ++(known.exact ? exact : above);
     tuning.joint_group_work = s.below(40);
     Known less;
-    ASSERT_TRUE(groups.settle(s.view, group, slack, s.limits, less));
+    ASSERT_TRUE(groups.solve(s.view, group, slack, s.limits, less));
     ASSERT_LE(less.excess, *truth);
     if (less.exact) {
       ASSERT_EQ(less.excess, *truth);
