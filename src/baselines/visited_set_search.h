@@ -48,7 +48,7 @@ class VisitedSetSearch : public BaselineSearch {
   // Of the call in progress.
   const AgentStops* stops_ = nullptr;
   SpanningTreeBound* bound_ = nullptr;
-  Time settled_ = 0;
+  Time static_from_ = 0;
   StopSetIndex sets_;   // numbers of the sets found
   StopSetIndex index_;  // (number of the set, time, cell) as one key: into labels_
   std::vector<Label> labels_;

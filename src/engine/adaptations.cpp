@@ -252,8 +252,8 @@ Solution solve_with_destinations_first(const Instance& instance, const SolveOpti
   Told told(observer);
   const Limits part(limits, kShareOfFirst * limits.seconds_left());
   Solution solution = solve_b(instance, options, part, observer, told);
-  const bool is_settled = is_within_omega(solution) || solution.status == Status::kInfeasible;
-  if (!is_settled && !limits.stop_requested()) {
+  const bool is_final = is_within_omega(solution) || solution.status == Status::kInfeasible;
+  if (!is_final && !limits.stop_requested()) {
     SolveOptions from_there = options;
     from_there.start = solution.plan;
     solution = both(solution, solve_a(instance, from_there, limits, told));

@@ -65,7 +65,7 @@ class MemoryBudgets {
   // Cuts the budgets, given the bytes held now. The caller then evicts down to both budgets,
   // returns free memory to the system, and calls settled().
   void cut(std::size_t nodes_hold, std::size_t expanders_hold);
-  void settled();
+  void memory_returned();
 
   // Budgets in bytes.
   std::size_t for_nodes() const { return for_nodes_; }
@@ -90,7 +90,7 @@ void MemoryBudgets::cut(std::size_t nodes_hold, std::size_t expanders_hold) {
   for_expanders_ = std::min(for_expanders_, std::max(kLeast, held / 8 * 3));
 }
 
-void MemoryBudgets::settled() {
+void MemoryBudgets::memory_returned() {
   const std::size_t limit = *limits_.memory_limit();
   alarm_ = std::max(alarm_, limit - room(limit) / 2);
 }
@@ -181,7 +181,7 @@ void SharedSearch::keep_within_memory() {
     shares_->cut(pool_.bytes(), known);
     evict_to(shares_->for_nodes());
     ::malloc_trim(0);
-    shares_->settled();
+    shares_->memory_returned();
   } else if (pool_.bytes() > shares_->for_nodes()) {
     evict_to(shares_->for_nodes() / 8 * 7);
   }

@@ -26,8 +26,8 @@ void append(SequenceClass& work, Stop stop) {
 }
 
 // Applies the constraints on the next stop.
-void settle_next(SequenceClass& work, const AgentStops& stops,
-                 std::span<const Constraint> constraints) {
+void fix_next(SequenceClass& work, const AgentStops& stops,
+              std::span<const Constraint> constraints) {
   const auto number = static_cast<Time>(work.prefix.size());
   std::optional<Stop> next;
   for (const Constraint& c : constraints) {
@@ -42,7 +42,7 @@ void settle_next(SequenceClass& work, const AgentStops& stops,
 }
 
 // If only one stop may be next, appends it.
-void settle_forced(SequenceClass& work, const AgentStops& stops) {
+void fix_forced(SequenceClass& work, const AgentStops& stops) {
   StopSet allowed = stops.all() & ~work.forbidden_next;
   for (const Stop stop : work.prefix) allowed &= ~(StopSet{1} << stop);
   if (std::has_single_bit(allowed)) append(work, static_cast<Stop>(std::countr_zero(allowed)));
@@ -52,10 +52,10 @@ void settle_forced(SequenceClass& work, const AgentStops& stops) {
 
 SequenceClass narrowed(SequenceClass work, const AgentStops& stops,
                        std::span<const Constraint> constraints) {
-  for (std::size_t settled = work.prefix.size();; settled = work.prefix.size()) {
-    settle_next(work, stops, constraints);
-    if (work.prefix.size() == settled) settle_forced(work, stops);
-    if (work.prefix.size() == settled) break;
+  for (std::size_t memory_returned = work.prefix.size();; memory_returned = work.prefix.size()) {
+    fix_next(work, stops, constraints);
+    if (work.prefix.size() == memory_returned) fix_forced(work, stops);
+    if (work.prefix.size() == memory_returned) break;
   }
   const auto beyond = [&](const Constraint& c) {
     return is_about_sequence(c) && c.begin > static_cast<Time>(work.prefix.size());

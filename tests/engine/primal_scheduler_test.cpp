@@ -33,7 +33,7 @@ Instance dense_instance() {
 }
 
 // Scheduler of a long tree, after the primal search has used up its credit.
-PrimalScheduler settled(const PrimalSearch& primal, int agents) {
+PrimalScheduler memory_returned(const PrimalSearch& primal, int agents) {
   PrimalScheduler scheduler(agents, Tuning());
   scheduler.add_tree_work(kLong);
   scheduler.add_primal_work(primal, 8 * kLong);
@@ -76,10 +76,10 @@ TEST(PrimalScheduler, CapGrowsFromAQuarterWithTheTreeWork) {
 TEST(PrimalScheduler, RatioWithoutAPlanIsEightUntilManyAttemptsFailed) {
   // The agents cannot pass each other, which the primal search does not detect.
   Setting s(testing::instance_of({"......"}, {{{0, 0}, Position{5, 0}}, {{5, 0}, Position{0, 0}}}));
-  expect_ratio(settled(s.primal, 2), s.primal, 8);
+  expect_ratio(memory_returned(s.primal, 2), s.primal, 8);
   for (int i = 0; i < 10'000 && s.primal.counts().attempts <= 4; ++i) s.primal.step(s.limits);
   ASSERT_GT(s.primal.counts().attempts, 4);
-  expect_ratio(settled(s.primal, 2), s.primal, 1);
+  expect_ratio(memory_returned(s.primal, 2), s.primal, 1);
 }
 
 TEST(PrimalScheduler, RatioWithAPlanFollowsItsSuccess) {
@@ -94,7 +94,7 @@ TEST(PrimalScheduler, RatioWithAPlanFollowsItsSuccess) {
         static_cast<double>(s.primal.work_at_last_plan()) / static_cast<double>(s.primal.work());
     min_x = std::min(min_x, x);
     max_x = std::max(max_x, x);
-    expect_ratio(settled(s.primal, 12), s.primal, std::clamp(8 * x * x * x, 1.0 / 32, 8.0));
+    expect_ratio(memory_returned(s.primal, 12), s.primal, std::clamp(8 * x * x * x, 1.0 / 32, 8.0));
   }
   EXPECT_LT(min_x, 0.2) << "too successful to be a test";
   EXPECT_EQ(max_x, 1);
@@ -138,7 +138,7 @@ TEST(PrimalScheduler, RatioIsAtLeastOneWhileTheGapIsLarge) {
   while (s.primal.work() < 4 * s.primal.work_at_last_plan() && !s.primal.optimal())
     s.primal.step(s.limits);
   ASSERT_FALSE(s.primal.optimal());
-  PrimalScheduler scheduler = settled(s.primal, 12);
+  PrimalScheduler scheduler = memory_returned(s.primal, 12);
   PrimalScheduler large_gap = scheduler;
   scheduler.add_tree_work(1'000'000);
   large_gap.add_tree_work(1'000'000, {.gap_is_large = true});
@@ -151,7 +151,7 @@ TEST(PrimalScheduler, SearchThatExpectsAPlanIsDueAndNotCharged) {
   const Setting s(dense_instance());
   const Setting expecting(dense_instance(), Techniques::defaults());
   ASSERT_TRUE(expecting.primal.expects_plan());
-  PrimalScheduler scheduler = settled(s.primal, 12);
+  PrimalScheduler scheduler = memory_returned(s.primal, 12);
   scheduler.add_primal_work(expecting.primal, kLong);
   EXPECT_TRUE(scheduler.due(s.primal)) << "nothing was charged";
   scheduler.add_primal_work(s.primal, 1);
