@@ -115,7 +115,7 @@ class SequenceDagBuilder {
         return is_too_large() ? SequenceDag::End::kTooLarge : SequenceDag::End::kStopped;
       layer = end;
     }
-    if (!settle_completions()) return SequenceDag::End::kStopped;
+    if (!compute_cost_to_go()) return SequenceDag::End::kStopped;
     dag_.next_reach_ = next_reach();
     dag = std::move(dag_);
     return SequenceDag::End::kBuilt;
@@ -282,7 +282,7 @@ class SequenceDagBuilder {
   // Expands every node of [begin, end) to every stop left. Returns false if a limit was reached.
   bool expand(std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (i % kPollInterval == 0 && !may_go_on()) return false;
+      if (i % kPollInterval == 0 && !may_continue()) return false;
       const SequenceDag::Node& node = dag_.nodes_[i];
       if (direct_ != nullptr) walk(node);
       for_each_stop(node.left, [&](int next) {
@@ -353,7 +353,7 @@ class SequenceDagBuilder {
   }
 
   // Any vector may double when it grows next, so this requests as much memory again beforehand.
-  bool may_go_on() {
+  bool may_continue() {
     const std::size_t bytes = dag_.nodes_.capacity() * sizeof(SequenceDag::Node) +
                               dag_.cost_to_go_.capacity() * sizeof(Time) + dag_.index_.bytes() +
                               groups_.capacity() * sizeof(Group) +
@@ -365,11 +365,11 @@ class SequenceDagBuilder {
   }
   bool is_too_large() const { return dag_.state_count() + states_.size() > most_states_; }
 
-  bool settle_completions() {
+  bool compute_cost_to_go() {
     for (std::size_t i = dag_.nodes_.size(); i-- > 0;) {
-      if (i % kPollInterval == 0 && !may_go_on()) return false;
+      if (i % kPollInterval == 0 && !may_continue()) return false;
       if (direct_ != nullptr && dag_.nodes_[i].left != 0)
-        settle_walks(dag_.nodes_[i]);
+        compute_walks(dag_.nodes_[i]);
       else
         settle(dag_.nodes_[i]);
     }
@@ -377,7 +377,7 @@ class SequenceDagBuilder {
   }
 
   // Computes the cost to go from each port of a visited stop by direct legs, to a fixed point.
-  void settle_walks(const SequenceDag::Node& node) {
+  void compute_walks(const SequenceDag::Node& node) {
     walked_.fill(kNever);
     std::array<Time, kMaxTasksPerAgent * kPorts> onward;
     for_each_stop(node.left, [&](int next) {
