@@ -133,8 +133,8 @@ bool CentralTrees::restart() {
     grow();
     return true;
   }
-  if (proven <= begun_anew_at_) return false;
-  begun_anew_at_ = proven;
+  if (proven <= restarted_at_) return false;
+  restarted_at_ = proven;
   ++restarts_;
   std::vector<NodePtr> roots;
   for (const NodePtr& root : roots_) {

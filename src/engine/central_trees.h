@@ -59,7 +59,7 @@ class CentralTrees : public TreeSource {
   mutable std::mutex growing_;  // guards the forest and what follows
   std::vector<NodePtr> roots_;  // by the number of the tree
   NodePtr prepared_;            // root of the next tree if prepared, else null
-  Cost begun_anew_at_ = -1;     // evicted_bound() at the last restart; -1: none
+  Cost restarted_at_ = -1;      // evicted_bound() at the last restart; -1: none
   std::int64_t restarts_ = 0;
 
   std::atomic<Cost> last_cost_;  // of the tree instantiated last
