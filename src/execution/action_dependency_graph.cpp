@@ -61,7 +61,7 @@ struct Stay {
 };
 
 // True if a step of a turn from state `from` continues the turn `turn`.
-bool goes_on(const Instance& instance, const Action& turn, State from) {
+bool continues(const Instance& instance, const Action& turn, State from) {
   return turn.kind == Action::Kind::kTurn && turn.to == from && instance.pose_of(from).steps > 0;
 }
 
@@ -98,7 +98,7 @@ void ActionDependencyGraph::add_actions(const Instance& instance, AgentIndex age
     do_work_until(t, from);
     const bool is_turn = world.place(from) == world.place(to);
     if (is_turn && static_cast<ActionIndex>(actions_.size()) > first_.back() &&
-        goes_on(instance, actions_.back(), from)) {
+        continues(instance, actions_.back(), from)) {
       actions_.back().to = to;
       ++actions_.back().steps;
     } else {

@@ -105,12 +105,12 @@ Plan executed_plan(const Instance& instance, const Plan& plan, const ActionDepen
 
 std::vector<BlockedRobot> stuck(const ActionDependencyGraph& order, const ExecutionTrace& drive) {
   std::vector<BlockedRobot> stuck;
-  std::vector<bool> is_told(static_cast<std::size_t>(order.agent_count()));
+  std::vector<bool> is_listed(static_cast<std::size_t>(order.agent_count()));
   for (std::int32_t number = 0; number < order.step_count(); ++number) {
     for (const ActionIndex a : order.step(number)) {
       const AgentIndex agent = order.actions()[a].agent;
-      if (drive.end[a] < kNever || is_told[agent]) continue;
-      is_told[agent] = true;
+      if (drive.end[a] < kNever || is_listed[agent]) continue;
+      is_listed[agent] = true;
       stuck.push_back({agent, waits_for(order, drive, number)});
     }
   }

@@ -189,10 +189,10 @@ class AgentCheck {
       }
     }
     const auto begun = begun_before();
-    const auto goes_on = [&](const WorkTime& w) {
+    const auto continues = [&](const WorkTime& w) {
       return w.task == begun->first && w.begin == -begun->second;
     };
-    if (begun && std::ranges::none_of(plan_.work, goes_on))
+    if (begun && std::ranges::none_of(plan_.work, continues))
       report_.add(place_ + "/work",
                   "agent '{}' starts at work on task '{}', {} steps of it done; expected it to "
                   "continue, with begin {}",
