@@ -229,7 +229,7 @@ Time finish_of(const Path& path) {
   return static_cast<Time>(std::max<std::size_t>(until_rest(path).size(), 1) - 1);
 }
 
-void count_anew(Plan& plan) {
+void recompute_costs(Plan& plan) {
   plan.cost = 0;
   for (AgentPlan& agent : plan.agents) {
     agent.cost = finish_of(agent.path);
@@ -275,7 +275,7 @@ RecountedPlan read_and_recount(const std::filesystem::path& path, const Instance
   if (claimed.solution.plan && claims("cost")) result.claimed_cost = claimed.solution.plan->cost;
   if (claims("lower bound")) result.claimed_lower_bound = claimed.solution.lower_bound;
   result.solution = std::move(claimed.solution);
-  if (result.solution.plan && paths_are_places(instance)) count_anew(*result.solution.plan);
+  if (result.solution.plan && paths_are_places(instance)) recompute_costs(*result.solution.plan);
   forget_claims(result.solution);
   return result;
 }
