@@ -59,7 +59,7 @@ class EpeaStar::Search {
         agents_(std::move(agents)),
         most_bytes_(most_bytes),
         groups_(instance, agents_),
-        from_on_(static_cast<std::size_t>(instance.world().place_count()), kNobody),
+        from_on_(static_cast<std::size_t>(instance.world().place_count()), kNoAgent),
         to_on_(from_on_) {
     if (std::ranges::any_of(agents_, [](const auto& agent) { return agent.count() == 0; })) return;
     for (const AgentGraph& agent : agents_) alone_ += agent.to_go(AgentGraph::start());
@@ -105,7 +105,7 @@ class EpeaStar::Search {
   std::int64_t work() const { return groups_.work() + made_ / kMadePerWork; }
 
  private:
-  static constexpr std::int8_t kNobody = -1;
+  static constexpr std::int8_t kNoAgent = -1;
 
   struct Record {
     Index parent = kNone;
@@ -226,7 +226,7 @@ class EpeaStar::Search {
       from_on_[place(i, from_)] = static_cast<std::int8_t>(i);
     choose(0, 0, 0, 0);
     reach_next();
-    for (std::size_t i = 0; i < size(); ++i) from_on_[place(i, from_)] = kNobody;
+    for (std::size_t i = 0; i < size(); ++i) from_on_[place(i, from_)] = kNoAgent;
     if (next_budget_ == kNever) return;
     Record& record = records_[state];
     const Cost layer = record.cost + record.alone + next_budget_;
@@ -277,17 +277,17 @@ class EpeaStar::Search {
       to_[agent] = move.to;
       to_on_[there] = static_cast<std::int8_t>(agent);
       choose(agent + 1, sum, cost + (graph.rests(move.to) ? 0 : 1), alone + graph.to_go(move.to));
-      to_on_[there] = kNobody;
+      to_on_[there] = kNoAgent;
     }
   }
 
   // True if the move collides with that of an earlier agent or, where following is forbidden, with
   // the present place of any agent.
   bool collides(std::size_t agent, std::size_t here, std::size_t there) const {
-    if (to_on_[there] != kNobody) return true;
+    if (to_on_[there] != kNoAgent) return true;
     if (here == there) return false;
     const std::int8_t who = from_on_[there];
-    if (who == kNobody) return false;
+    if (who == kNoAgent) return false;
     if (!instance_.may_follow()) return true;
     return who < static_cast<std::int8_t>(agent) &&
            place(static_cast<std::size_t>(who), to_) == here;

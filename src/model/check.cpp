@@ -32,8 +32,8 @@ class CollisionCheck {
         plan_(plan),
         may_follow_(may_follow),
         report_(report),
-        before_(static_cast<std::size_t>(steps.places()), kNobody),
-        now_(static_cast<std::size_t>(steps.places()), kNobody) {}
+        before_(static_cast<std::size_t>(steps.places()), kNoAgent),
+        now_(static_cast<std::size_t>(steps.places()), kNoAgent) {}
 
   void run() {
     std::size_t end = 0;
@@ -45,13 +45,13 @@ class CollisionCheck {
       if (t > 0 && !may_follow_)
         for (AgentIndex i = 0; i < agent_count(); ++i) check_following(i, t);
       if (t > 0)
-        for (AgentIndex i = 0; i < agent_count(); ++i) before_[at(i, t - 1)] = kNobody;
+        for (AgentIndex i = 0; i < agent_count(); ++i) before_[at(i, t - 1)] = kNoAgent;
       std::swap(before_, now_);
     }
   }
 
  private:
-  static constexpr AgentIndex kNobody = -1;
+  static constexpr AgentIndex kNoAgent = -1;
 
   AgentIndex agent_count() const { return static_cast<AgentIndex>(plan_.agents.size()); }
 
@@ -63,7 +63,7 @@ class CollisionCheck {
   void enter(AgentIndex agent, std::size_t t) {
     const Place place = at(agent, t);
     const AgentIndex other = std::exchange(now_[place], agent);
-    if (other != kNobody && is_new(vertex_pairs_, other, agent))
+    if (other != kNoAgent && is_new(vertex_pairs_, other, agent))
       report_.add(where(agent, t), "agents '{}' and '{}' are both on {} at time {}", id(other),
                   id(agent), steps_.name(place), t);
   }
@@ -72,7 +72,7 @@ class CollisionCheck {
     const Place from = at(agent, t - 1);
     const Place to = at(agent, t);
     const AgentIndex other = before_[to];
-    if (from == to || other == kNobody || other == agent || at(other, t) != from) return;
+    if (from == to || other == kNoAgent || other == agent || at(other, t) != from) return;
     if (is_new(edge_pairs_, other, agent))
       report_.add(where(agent, t), "agents '{}' and '{}' swap {} and {} between times {} and {}",
                   id(agent), id(other), steps_.name(from), steps_.name(to), t - 1, t);
@@ -81,7 +81,7 @@ class CollisionCheck {
   void check_following(AgentIndex agent, std::size_t t) {
     const Place to = at(agent, t);
     const AgentIndex other = before_[to];
-    if (other == kNobody || other == agent || at(other, t) == to) return;
+    if (other == kNoAgent || other == agent || at(other, t) == to) return;
     if (is_new(following_pairs_, other, agent))
       report_.add(where(agent, t),
                   "agent '{}' enters {} at time {}, as '{}' leaves it; expected no following",

@@ -75,7 +75,7 @@ void Neighborhoods::reward(Cost gain) {
 }
 
 void Neighborhoods::add(AgentIndex agent) {
-  if (agent == ReservationTable::kNobody || full()) return;
+  if (agent == ReservationTable::kNoAgent || full()) return;
   if (std::ranges::find(chosen_, agent) == chosen_.end()) chosen_.push_back(agent);
 }
 
@@ -85,7 +85,7 @@ void Neighborhoods::add_anyone() {
 
 void Neighborhoods::add_delayed() {
   const AgentIndex agent = some_delayed_agent();
-  if (agent == ReservationTable::kNobody) return;
+  if (agent == ReservationTable::kNoAgent) return;
   add(agent);
   add_those_in_the_way(agent, low_level_.individual_path(agent), 0);
   const Time delay = paths_.cost(agent) - low_level_.individual_cost(agent);
@@ -100,13 +100,13 @@ AgentIndex Neighborhoods::some_delayed_agent() {
   const int agents = problem_.instance.agent_count();
   for (AgentIndex agent = 0; agent < agents; ++agent)
     sum += paths_.cost(agent) - low_level_.individual_cost(agent);
-  if (sum <= 0) return ReservationTable::kNobody;
+  if (sum <= 0) return ReservationTable::kNoAgent;
   Cost at = random_.below(sum);
   for (AgentIndex agent = 0; agent < agents; ++agent) {
     at -= paths_.cost(agent) - low_level_.individual_cost(agent);
     if (at < 0) return agent;
   }
-  return ReservationTable::kNobody;
+  return ReservationTable::kNoAgent;
 }
 
 // Adds the agents with which `agent` would collide on `path`, begun `late` steps late.
@@ -121,7 +121,7 @@ void Neighborhoods::add_those_in_the_way(AgentIndex agent, const Path& path, Tim
 void Neighborhoods::add_by_reduced_cost() {
   update_reduced_costs();
   const AgentIndex agent = some_overpaying_agent();
-  if (agent == ReservationTable::kNobody) return;
+  if (agent == ReservationTable::kNoAgent) return;
   add(agent);
   add_those_in_the_way(agent, wanted_path(agent), 0);
   for (int tries = 0; tries < kAgentBasedTries && !full(); ++tries) {
@@ -148,7 +148,7 @@ void Neighborhoods::update_reduced_costs() {
 
 AgentIndex Neighborhoods::some_overpaying_agent() {
   const ScaledCost sum = std::accumulate(reduced_cost_.begin(), reduced_cost_.end(), ScaledCost{0});
-  if (sum <= 0) return ReservationTable::kNobody;
+  if (sum <= 0) return ReservationTable::kNoAgent;
   ScaledCost at = random_.below(sum);
   AgentIndex agent = 0;
   while ((at -= reduced_cost_[agent]) >= 0) ++agent;

@@ -31,7 +31,7 @@ class PibtGenerator {
                               std::span<const LacamConstraint> orders, SplitMix64& dice);
 
  private:
-  static constexpr AgentIndex kNobody = Swaps::kNobody;
+  static constexpr AgentIndex kNoAgent = Swaps::kNoAgent;
 
   struct Candidate {
     State state;

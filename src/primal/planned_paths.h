@@ -70,7 +70,7 @@ template <class Visit>
 void for_each_blocking_agent(const World& world, const ReservationTable& reservations,
                              AgentIndex agent, const Path& path, Time late, Visit visit) {
   const auto ends_at = [&](AgentIndex other) {
-    return other != ReservationTable::kNobody && other != agent && !visit(other);
+    return other != ReservationTable::kNoAgent && other != agent && !visit(other);
   };
   const Time margin = reservations.margin();
   for (Time t = 1; t < static_cast<Time>(path.size()); ++t) {

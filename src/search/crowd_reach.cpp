@@ -149,7 +149,7 @@ class Membership {
         crowds_(arrangement.size(), kStuck),
         queues_(crossings.ways().size()) {
     std::vector<int> counts;
-    for (const AgentIndex agent : arrangement) counts.push_back(agent == kNobody ? 1 : 0);
+    for (const AgentIndex agent : arrangement) counts.push_back(agent == kNoAgent ? 1 : 0);
     free_ = board().sums(std::move(counts));
     for (PebbleNode node = 0; node < board().size(); ++node)
       if (!is_free(node) && crossings.is_crossing(node) && !is_held(node))
@@ -170,7 +170,7 @@ class Membership {
                ? 0
                : crossings_.free() - board().beyond(way.from, way.nodes.front(), free_);
   }
-  bool is_free(PebbleNode node) const { return arrangement_[node] == kNobody; }
+  bool is_free(PebbleNode node) const { return arrangement_[node] == kNoAgent; }
 
  private:
   const PebbleGraph& board() const { return crossings_.board(); }
@@ -240,7 +240,7 @@ class CrowdReach : public ReachableConfigurations {
  public:
   CrowdReach(const PebbleGraph& board, const PebbleConfiguration& start, bool may_follow)
       : start_(start),
-        crossings_(board, static_cast<int>(std::ranges::count(start, kNobody)), may_follow),
+        crossings_(board, static_cast<int>(std::ranges::count(start, kNoAgent)), may_follow),
         now_(crossings_, start_),
         sizes_(board.sums(std::vector<int>(start.size(), 1))),
         spots_(start.size()),

@@ -44,8 +44,8 @@ bool are_the_same(std::vector<AgentIndex> a, std::vector<AgentIndex> b) {
 
 // Tests whether both are the same cyclic order.
 bool are_in_the_same_order(std::vector<AgentIndex> a, std::vector<AgentIndex> b) {
-  std::erase(a, kNobody);
-  std::erase(b, kNobody);
+  std::erase(a, kNoAgent);
+  std::erase(b, kNoAgent);
   if (a.empty()) return b.empty();
   const auto first = std::ranges::find(b, a.front());
   if (first == b.end()) return false;
@@ -110,7 +110,7 @@ class SmallPart {
   }
   template <class Visit>
   void for_each_next(const std::vector<AgentIndex>& now, Visit visit) const {
-    const auto free = static_cast<std::size_t>(std::ranges::find(now, kNobody) - now.begin());
+    const auto free = static_cast<std::size_t>(std::ranges::find(now, kNoAgent) - now.begin());
     if (free < now.size())
       for (const std::size_t other : neighbors_[free]) {
         std::vector<AgentIndex> next = now;
@@ -173,7 +173,7 @@ class OneFreeReach : public ReachableConfigurations {
  private:
   PebbleConfiguration with_free_root(PebbleConfiguration arrangement) const {
     auto free =
-        static_cast<PebbleNode>(std::ranges::find(arrangement, kNobody) - arrangement.begin());
+        static_cast<PebbleNode>(std::ranges::find(arrangement, kNoAgent) - arrangement.begin());
     for (; free != 0; free = board_.parent(free))
       std::swap(arrangement[free], arrangement[board_.parent(free)]);
     return arrangement;
@@ -189,7 +189,7 @@ class OneFreeReach : public ReachableConfigurations {
     if (block.nodes.size() > kMostSearched) return !block.is_bipartite || is_even(a, b);
     PebbleConfiguration from = start_;
     PebbleConfiguration to = then;
-    from[block.nodes.front()] = to[block.nodes.front()] = kNobody;
+    from[block.nodes.front()] = to[block.nodes.front()] = kNoAgent;
     return SmallPart(board_, block.nodes).leads(from, to);
   }
 
@@ -250,7 +250,7 @@ class FullReach : public ReachableConfigurations {
 std::unique_ptr<ReachableConfigurations> reachable_without_room(const PebbleGraph& board,
                                                                 const PebbleConfiguration& start,
                                                                 bool may_follow) {
-  const auto free = std::ranges::count(start, kNobody);
+  const auto free = std::ranges::count(start, kNoAgent);
   if (free == 0 && !may_follow) return std::make_unique<FixedReach>(start);
   if (board.is_ring()) return std::make_unique<RingReach>(board, start);
   if (free == 0) return std::make_unique<FullReach>(board, start);
@@ -260,7 +260,7 @@ std::unique_ptr<ReachableConfigurations> reachable_without_room(const PebbleGrap
 std::unique_ptr<ReachableConfigurations> reach_of(const PebbleGraph& board,
                                                   const PebbleConfiguration& start,
                                                   bool may_follow) {
-  const auto free = std::ranges::count(start, kNobody);
+  const auto free = std::ranges::count(start, kNoAgent);
   const bool has_room = free > 1 || (free == 1 && may_follow);
   return has_room && !board.is_ring() ? reachable_with_room(board, start, may_follow)
                                       : reachable_without_room(board, start, may_follow);

@@ -88,7 +88,7 @@ class Crowd {
       : instance_(instance),
         agents_(std::move(agents)),
         board_(instance.world(), std::move(part), root),
-        start_(static_cast<std::size_t>(board_.size()), kNobody) {
+        start_(static_cast<std::size_t>(board_.size()), kNoAgent) {
     for (const AgentIndex agent : agents_)
       start_[board_.node(start(instance.agent(agent)))] = agent;
     reach_ = reach_of(board_, start_, instance.may_follow());
@@ -125,7 +125,7 @@ class Crowd {
         agents_, [&](AgentIndex agent) { return instance_.agent(agent).goal.has_value(); });
   }
   PebbleConfiguration goals() const {
-    PebbleConfiguration goals(start_.size(), kNobody);
+    PebbleConfiguration goals(start_.size(), kNoAgent);
     for (const AgentIndex agent : agents_) goals[board_.node(*instance_.agent(agent).goal)] = agent;
     return goals;
   }
@@ -138,7 +138,7 @@ class Crowd {
 };
 
 std::vector<AgentIndex> agents_by_place(const Instance& instance) {
-  std::vector<AgentIndex> on(static_cast<std::size_t>(instance.world().place_count()), kNobody);
+  std::vector<AgentIndex> on(static_cast<std::size_t>(instance.world().place_count()), kNoAgent);
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
     on[instance.world().place(instance.agent(agent).start)] = agent;
   return on;
@@ -150,7 +150,7 @@ Crowd crowd_on(const std::vector<Place>& part, const Instance& instance,
   std::vector<AgentIndex> agents;
   Place root = part.front();
   for (const Place place : part)
-    if (const AgentIndex agent = on[place]; agent != kNobody)
+    if (const AgentIndex agent = on[place]; agent != kNoAgent)
       agents.push_back(agent);
     else
       root = place;

@@ -10,9 +10,9 @@
 
 namespace grove::detail {
 
-// By node of a graph: the agent there, or kNobody.
+// By node of a graph: the agent there, or kNoAgent.
 using PebbleConfiguration = std::vector<AgentIndex>;
-inline constexpr AgentIndex kNobody = -1;
+inline constexpr AgentIndex kNoAgent = -1;
 
 // The configurations reachable from one configuration, at any cost and by any moves of the agents.
 class ReachableConfigurations {

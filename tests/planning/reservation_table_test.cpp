@@ -48,9 +48,9 @@ TEST(ReservationTable, HoldsTheStaysOfPathsInOrderOfTime) {
   EXPECT_EQ(reservations.count(), 9);
   EXPECT_EQ(reservations.agent_at(0, 0), 3);
   EXPECT_EQ(reservations.agent_at(0, 2), 7);
-  EXPECT_EQ(reservations.agent_at(0, 3), ReservationTable::kNobody);
+  EXPECT_EQ(reservations.agent_at(0, 3), ReservationTable::kNoAgent);
   EXPECT_EQ(reservations.agent_at(0, kNever), 7);
-  EXPECT_EQ(reservations.agent_at(6, 0), ReservationTable::kNobody);
+  EXPECT_EQ(reservations.agent_at(6, 0), ReservationTable::kNoAgent);
 
   reservations.remove(7, {4, 0, 0, 1, 0});
   EXPECT_EQ(stays_of(reservations, 0), (std::vector<StayIs>{{0, 0, 1, 3}}));

@@ -7,14 +7,14 @@
 namespace grove::detail::testing {
 namespace {
 
-constexpr int kNobody = -1;
+constexpr int kNoAgent = -1;
 constexpr double kLongestStep_s = 0.001;
 constexpr double kNoEnd_s = 1000;
 
 }  // namespace
 
 SimulatedRanks::SimulatedRanks(int ranks, std::uint64_t seed)
-    : alive_(static_cast<std::size_t>(ranks), true), random_(seed), turn_(kNobody) {}
+    : alive_(static_cast<std::size_t>(ranks), true), random_(seed), turn_(kNoAgent) {}
 
 void SimulatedRanks::run(const std::function<void(int rank)>& body) {
   std::vector<std::jthread> threads;
@@ -23,7 +23,7 @@ void SimulatedRanks::run(const std::function<void(int rank)>& body) {
   {
     std::unique_lock lock(mutex_);
     pass_turn();
-    changed_.wait(lock, [&] { return turn_ == kNobody; });
+    changed_.wait(lock, [&] { return turn_ == kNoAgent; });
   }
   threads.clear();
   if (failure_) std::rethrow_exception(failure_);
@@ -66,7 +66,7 @@ void SimulatedRanks::pass_turn() {
   for (int rank = 0; rank < static_cast<int>(alive_.size()); ++rank)
     if (alive_[static_cast<std::size_t>(rank)]) ranks.push_back(rank);
   turn_ = ranks.empty()
-              ? kNobody
+              ? kNoAgent
               : ranks[std::uniform_int_distribution<std::size_t>(0, ranks.size() - 1)(random_)];
   changed_.notify_all();
 }
