@@ -88,15 +88,15 @@ std::optional<LagrangianBound::Job> LagrangianBound::next() {
   const std::lock_guard lock(mutex_);
   std::optional<Job> job;
   if (phase_ == Phase::kPricing) job = next_price();
-  if (phase_ == Phase::kBetween && in_hand_ == 0) job.emplace();
-  if (job) ++in_hand_;
+  if (phase_ == Phase::kBetween && in_progress_ == 0) job.emplace();
+  if (job) ++in_progress_;
   return job;
 }
 
 bool LagrangianBound::has_jobs() const {
   const std::lock_guard lock(mutex_);
   return phase_ == Phase::kPricing ? next_agent_ < end_agent_ || asked_ < taken_over_
-                                   : phase_ == Phase::kBetween && in_hand_ == 0;
+                                   : phase_ == Phase::kBetween && in_progress_ == 0;
 }
 
 std::optional<LagrangianBound::Job> LagrangianBound::next_price() {
@@ -143,7 +143,7 @@ ScaledCost LagrangianBound::known_price(AgentIndex agent) const {
 
 void LagrangianBound::commit(Job job) {
   const std::lock_guard lock(mutex_);
-  --in_hand_;
+  --in_progress_;
   if (job.failed) phase_ = Phase::kEnded;
   if (phase_ == Phase::kEnded) return;
   if (job.first == job.end) {
@@ -170,7 +170,7 @@ bool LagrangianBound::take_price(AgentIndex agent, ScaledCost price, Path path) 
 }
 
 void LagrangianBound::end_pricing_if_done() {
-  if (phase_ != Phase::kPricing || unpriced_ > 0 || in_hand_ > 0) return;
+  if (phase_ != Phase::kPricing || unpriced_ > 0 || in_progress_ > 0) return;
   phase_ = Phase::kBetween;
   ++rounds_;
   work_between_ = 0;

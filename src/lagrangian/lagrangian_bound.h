@@ -122,7 +122,7 @@ class LagrangianBound {
 
   mutable std::mutex mutex_;  // guards:
   Phase phase_ = Phase::kPricing;
-  int in_hand_ = 0;  // jobs in progress
+  int in_progress_ = 0;  // jobs in progress
   int rounds_ = 0;
   ScaledCost best_ = 0;
   std::vector<RowMultiplier> reasons_;  // multipliers that prove best_, if they are recorded

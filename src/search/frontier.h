@@ -101,7 +101,7 @@ class Frontier {
   mutable std::mutex mutex_;
   std::map<Cost, std::vector<Open>> open_;  // heaps, by rank
   std::map<Cost, std::size_t> taken_;       // number of taken nodes of each rank
-  std::vector<NodePtr> in_hand_;            // the taken nodes; few
+  std::vector<NodePtr> in_progress_;        // the taken nodes; few
   Cost evicted_ = kInfiniteCost;
   Cost proven_ = -1;  // bound proven before the last restart; -1 if there was no restart
   std::size_t open_count_ = 0;
