@@ -345,8 +345,8 @@ void PrimalSearch::Impl::configure(const Limits& limits) {
 }
 
 void PrimalSearch::Impl::begin_guiding(const Plan& plan) {
-  const double crowded = (1 + kMinLossForGuidance) * static_cast<double>(own_costs_);
-  if (!may_guide_ || !may_configure_ || static_cast<double>(plan.cost) < crowded) return;
+  const double min_cost_to_guide = (1 + kMinLossForGuidance) * static_cast<double>(own_costs_);
+  if (!may_guide_ || !may_configure_ || static_cast<double>(plan.cost) < min_cost_to_guide) return;
   may_guide_ = false;
   guided_ = std::make_unique<TrafficGuidedLacam>(problem_, own_orders(),
                                                  static_cast<double>(own_costs_) / agents_,

@@ -27,7 +27,7 @@ class Traffic {
   void fade(double left);
   void add(const Path& path, double weight);
   // Computes the costs that field() uses from the current counts.
-  void set_prices();
+  void update_edge_costs();
 
   // The least cost, congestion included, in units of 1 / kStep step, from every state to a state
   // that is 0 in `distance`; kNever if there is no path. O(states).
@@ -47,10 +47,10 @@ class Traffic {
   const World& world_;
   const double usual_;
   const Tuning& tuning_;
-  std::vector<Move> first_;       // by place
-  std::vector<double> there_;     // by place: steps that end there
-  std::vector<double> moving_;    // by move
-  std::vector<Time> price_back_;  // by move: cost of the reverse move
+  std::vector<Move> first_;      // by place
+  std::vector<double> there_;    // by place: steps that end there
+  std::vector<double> moving_;   // by move
+  std::vector<Time> edge_cost_;  // by move: cost of the reverse move
   std::vector<std::vector<State>> buckets_;
 };
 

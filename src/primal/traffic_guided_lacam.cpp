@@ -51,7 +51,7 @@ void TrafficGuidedLacam::learn(const Plan& plan) {
     traffic_.add(path, weight);
     work_ += static_cast<std::int64_t>(path.size()) / work::kStepsMoved;
   }
-  traffic_.set_prices();
+  traffic_.update_edge_costs();
   next_field_ = fields_.begin();
   lacam_.reset();
 }

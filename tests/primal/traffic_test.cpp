@@ -13,14 +13,14 @@ using testing::instance_of;
 
 // Two paths of equal length around a block on cells 0 to 14, and distance fields to any cell.
 struct Block {
-  Block() { traffic.set_prices(); }
+  Block() { traffic.update_edge_costs(); }
   DistanceField field(Place to) {
     const DistanceField steps = distance_field(world, to);
     return traffic.field(DistanceView(steps));
   }
   void walk(const Path& path) {
     traffic.add(path, 1);
-    traffic.set_prices();
+    traffic.update_edge_costs();
   }
 
   const Instance instance = instance_of({".....", ".@@@.", "....."}, {{{0, 1}, Position{4, 1}}});
@@ -37,7 +37,7 @@ TEST(Traffic, StepsCostEightWithoutTraffic) {
     const World& world = instance.world();
     const Tuning tuning;
     Traffic traffic(world, 3, tuning);
-    traffic.set_prices();
+    traffic.update_edge_costs();
     const DistanceFields distances(instance);
     for (TaskIndex task = 0; task < instance.task_count(); ++task) {
       const DistanceView steps = distances.to_task(task);
@@ -80,7 +80,7 @@ TEST(Traffic, FadesToNothingWithFactorZero) {
   const DistanceField before = block.field(9);
   block.walk(block.above);
   block.traffic.fade(0);
-  block.traffic.set_prices();
+  block.traffic.update_edge_costs();
   EXPECT_EQ(block.field(9), before);
 }
 
@@ -88,7 +88,7 @@ TEST(Traffic, FadesToNothingWithFactorZero) {
 TEST(Traffic, EdgeCostIsCapped) {
   Block block;
   for (int i = 0; i < 10'000; ++i) block.traffic.add(block.above, 1);
-  block.traffic.set_prices();
+  block.traffic.update_edge_costs();
   const DistanceField field = block.field(5);
   for (State state = 0; state < block.world.state_count(); ++state)
     EXPECT_EQ(field[state] < kNever, !block.world.moves(state).empty());
