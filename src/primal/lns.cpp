@@ -75,8 +75,7 @@ void LargeNeighborhoodSearch::step(const Limits& limits) {
     old_paths_.push_back(paths_.take(agent));
   }
   const Cost others = paths_.cost();
-  if (!plan_anew(agents, old_cost + worse_allowed(others + old_cost), repair, limits))
-    restore(agents);
+  if (!replan(agents, old_cost + worse_allowed(others + old_cost), repair, limits)) restore(agents);
   const Cost gain = std::max<Cost>(0, others + old_cost - paths_.cost());
   neighborhoods_.reward(gain);
   const std::int64_t work = low_level_.work() - work_before;
@@ -97,9 +96,9 @@ LargeNeighborhoodSearch::RepairOperator& LargeNeighborhoodSearch::choose_repair(
 Cost LargeNeighborhoodSearch::worse_allowed(Cost cost) {
   if (cost < least_) {
     least_ = cost;
-    in_vain_ = 0;
+    failures_ = 0;
   }
-  if (++in_vain_ <= kRecordDeviationStart * std::ssize(paths_.paths())) return 0;
+  if (++failures_ <= kRecordDeviationStart * std::ssize(paths_.paths())) return 0;
   const auto loss = static_cast<double>(least_ - own_costs_);
   if (loss > tuning_.record_deviation_max_loss * static_cast<double>(own_costs_)) return 0;
   const double more = tuning_.record_deviation * loss;
@@ -107,8 +106,8 @@ Cost LargeNeighborhoodSearch::worse_allowed(Cost cost) {
 }
 
 // Returns false if the agents, planned in this order, find no paths of total cost `most` or less.
-bool LargeNeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost most,
-                                        RepairOperator& repair, const Limits& limits) {
+bool LargeNeighborhoodSearch::replan(const std::vector<AgentIndex>& agents, Cost most,
+                                     RepairOperator& repair, const Limits& limits) {
   Cost left = most;
   for (AgentIndex agent : agents) left -= low_level_.individual_cost(agent);
   for (AgentIndex agent : agents) {

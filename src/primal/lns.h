@@ -58,8 +58,8 @@ class LargeNeighborhoodSearch {
 
   RepairOperator& choose_repair();
   Cost worse_allowed(Cost cost);
-  bool plan_anew(const std::vector<AgentIndex>& agents, Cost most, RepairOperator& repair,
-                 const Limits& limits);
+  bool replan(const std::vector<AgentIndex>& agents, Cost most, RepairOperator& repair,
+              const Limits& limits);
   bool find(AgentIndex agent, Cost cutoff, RepairOperator& repair, const Limits& limits);
   void restore(const std::vector<AgentIndex>& agents);
 
@@ -72,7 +72,7 @@ class LargeNeighborhoodSearch {
       RepairOperator{0, false}, RepairOperator{30, false}, RepairOperator{0, true}};
   Cost own_costs_ = 0;
   Cost least_ = kInfiniteCost;  // least plan cost since begin()
-  std::int64_t in_vain_ = 0;    // iterations since least_ improved
+  std::int64_t failures_ = 0;   // iterations since least_ improved
   std::vector<Path> old_paths_;
   Path path_;
   std::int64_t steps_ = 0;

@@ -53,7 +53,7 @@ const std::vector<AgentIndex>& Neighborhoods::choose() {
 // neighbourhoods may gain where small ones no longer do (variable neighbourhood search: Mladenovic
 // and Hansen 1997).
 std::int64_t Neighborhoods::most_wanted() const {
-  const std::int64_t times = 1 + in_vain_ / (kGrowthFailures * problem_.instance.agent_count());
+  const std::int64_t times = 1 + failures_ / (kGrowthFailures * problem_.instance.agent_count());
   return kMaxNeighborhood * std::min<std::int64_t>(times, kMaxGrowth);
 }
 
@@ -69,7 +69,7 @@ Neighborhoods::Kind Neighborhoods::choose_kind() {
 }
 
 void Neighborhoods::reward(Cost gain) {
-  in_vain_ = gain > 0 ? 0 : in_vain_ + 1;
+  failures_ = gain > 0 ? 0 : failures_ + 1;
   double& weight = weights_[kind_];
   weight = kDestroyDecay * weight + (1 - kDestroyDecay) * static_cast<double>(gain);
 }

@@ -60,7 +60,7 @@ class Neighborhoods {
   std::array<double, kKinds> weights_{1, 1, 1, 1};
   Kind kind_ = kRandom;
   std::int64_t wanted_ = 0;
-  std::int64_t in_vain_ = 0;  // neighbourhoods since the last cost reduction
+  std::int64_t failures_ = 0;  // neighbourhoods since the last cost reduction
   std::vector<AgentIndex> chosen_;
   int seen_prices_ = 0;                      // PrimalLowLevel::price_changes() of reduced_cost_
   std::vector<ScaledCost> reduced_cost_;     // by agent: of its path

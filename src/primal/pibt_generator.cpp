@@ -34,14 +34,14 @@ std::span<const State> PibtGenerator::step(std::span<const Standing> from,
   std::ranges::fill(to_, kNoState);
   for (std::size_t agent = 0; agent < from.size(); ++agent)
     now_[world_.place(from[agent].state)] = static_cast<AgentIndex>(agent);
-  const bool done = obey(orders) && std::ranges::all_of(priority, [&](AgentIndex agent) {
+  const bool done = apply(orders) && std::ranges::all_of(priority, [&](AgentIndex agent) {
                       return to_[agent] != kNoState || push(agent);
                     });
   clear();
   return done ? std::span<const State>(to_) : std::span<const State>();
 }
 
-bool PibtGenerator::obey(std::span<const LacamConstraint> orders) {
+bool PibtGenerator::apply(std::span<const LacamConstraint> orders) {
   return std::ranges::all_of(orders, [&](const LacamConstraint& order) {
     if (collides(order.agent, order.state)) return false;
     move(order.agent, order.state);

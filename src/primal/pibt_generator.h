@@ -38,7 +38,7 @@ class PibtGenerator {
     std::int64_t key;
   };
 
-  bool obey(std::span<const LacamConstraint> orders);
+  bool apply(std::span<const LacamConstraint> orders);
   bool push(AgentIndex agent);
   bool try_candidates(AgentIndex agent, std::size_t first);
   void pull(AgentIndex agent, State state);

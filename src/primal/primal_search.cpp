@@ -198,7 +198,7 @@ class PrimalSearch::Impl {
   std::int64_t steps_ = 0;
   std::int64_t joint_steps_ = 0;
   std::int64_t work_at_last_plan_ = 0;
-  std::int64_t rounds_in_vain_ = 0;  // of traffic-guided LaCAM, without a cheaper plan
+  std::int64_t rounds_without_gain_ = 0;  // of traffic-guided LaCAM, without a cheaper plan
   std::int64_t guided_work_ = 0;
   std::int64_t guided_joint_steps_ = 0;
   // State of the current round.
@@ -360,17 +360,18 @@ void PrimalSearch::Impl::guide(const Limits& limits) {
   guided_work_ = guided_->work();
   guided_joint_steps_ = guided_->joint_steps();
   if (outcome == Outcome::kWorking || limits.stop_requested()) return;
-  ++rounds_in_vain_;
+  ++rounds_without_gain_;
   if (outcome == Outcome::kFound) {
     const Plan& plan = guided_->plan();
     if (plan.cost < paths_.cost()) {
       put_all(plan, PlanSource::kLacam);
-      rounds_in_vain_ = 0;
+      rounds_without_gain_ = 0;
     }
     guided_->learn(plan);
   }
   // Where memory is short it is left to others.
-  if (outcome == Outcome::kStopped || rounds_in_vain_ >= kGuidedRoundsWithoutGain) guided_.reset();
+  if (outcome == Outcome::kStopped || rounds_without_gain_ >= kGuidedRoundsWithoutGain)
+    guided_.reset();
 }
 
 // The sequences of the individual paths, with distinct last stops (separate_ends()).
