@@ -77,7 +77,7 @@ class Searching {
 // kMostAtOnce_s: messages that arrived in that time are not received yet.
 class ReceiveTimeout {
  public:
-  void go_on(double now, bool heard) {
+  void update(double now, bool heard) {
     seconds_ = heard ? 0 : seconds_ + std::min(now - last_, kMostAtOnce_s);
     last_ = now;
   }
@@ -129,7 +129,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
       said_farewell = true;
     }
     if (heard) heard_at = now;
-    silence.go_on(now, heard);
+    silence.update(now, heard);
     if (!member.coordinator() && std::min(silence.seconds(), -limits.seconds_left()) > patience)
       throw std::runtime_error(fmt::format(
           "rank 0 has not responded for {} s after the limit; the job ends without an answer",
