@@ -15,8 +15,8 @@
 // *Shortcut.* The test examines all places, so it is skipped where there is room: if at least k + 3
 // places of a connected component have three neighbours or more, where k is the number of agents.
 // *Proof.* With m free places the component has at most k + m places. A path between crossings on
-// which an agent may be stuck, or which may separate crowds (crowd_reach.cpp), has at least m - 2
-// places with two neighbours. That leaves at most k + 2 others.
+// which an agent may be stuck, or which may separate crowds (reach_with_room.cpp), has at least m -
+// 2 places with two neighbours. That leaves at most k + 2 others.
 #include "search/pebble_motion.h"
 
 #include <fmt/format.h>
@@ -81,10 +81,10 @@ class Parts {
 };
 
 // The agents of one component.
-class Crowd {
+class ComponentAgents {
  public:
-  Crowd(const Instance& instance, std::vector<AgentIndex> agents, std::vector<Place> part,
-        Place root)
+  ComponentAgents(const Instance& instance, std::vector<AgentIndex> agents, std::vector<Place> part,
+                  Place root)
       : instance_(instance),
         agents_(std::move(agents)),
         board_(instance.world(), std::move(part), root),
@@ -145,8 +145,8 @@ std::vector<AgentIndex> agents_by_place(const Instance& instance) {
 }
 
 // `on`: by place.
-Crowd crowd_on(const std::vector<Place>& part, const Instance& instance,
-               const std::vector<AgentIndex>& on) {
+ComponentAgents agents_on(const std::vector<Place>& part, const Instance& instance,
+                          const std::vector<AgentIndex>& on) {
   std::vector<AgentIndex> agents;
   Place root = part.front();
   for (const Place place : part)
@@ -167,7 +167,7 @@ std::optional<std::string> pebble_motion_infeasibility(const Instance& instance)
   for (const Agent& agent : instance.agents()) {
     if (!parts.is_tight(instance.world().place(agent.start), part)) continue;
     if (on.empty()) on = agents_by_place(instance);
-    if (auto reason = crowd_on(part, instance, on).infeasibility()) return reason;
+    if (auto reason = agents_on(part, instance, on).infeasibility()) return reason;
   }
   return std::nullopt;
 }

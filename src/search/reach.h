@@ -30,8 +30,8 @@ std::unique_ptr<ReachableConfigurations> reach_of(const PebbleGraph& board,
                                                   const PebbleConfiguration& start,
                                                   bool may_follow);
 
-// The two cases of reach_of(). The arguments are at the heads of crowd_reach.cpp (with room) and
-// packed_reach.cpp (without).
+// The two cases of reach_of(). The arguments are at the heads of reach_with_room.cpp (with room)
+// and reach_without_room.cpp (without).
 std::unique_ptr<ReachableConfigurations> reachable_with_room(const PebbleGraph& board,
                                                              const PebbleConfiguration& start,
                                                              bool may_follow);

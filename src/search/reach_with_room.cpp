@@ -84,12 +84,12 @@ class Crossings {
   }
   int need(PebbleNode crossing) const { return may_follow_ && board_.is_on_ring(crossing) ? 1 : 2; }
   // The number of the set of joined crossings that contains `crossing`; it identifies the crowd.
-  PebbleNode crowd(PebbleNode crossing) const { return joined_[crossing]; }
+  PebbleNode group(PebbleNode crossing) const { return joined_[crossing]; }
   // The max distance from `crossing` of an agent that is not stuck as seen from it.
   int most_steps(PebbleNode crossing) const { return free_ + 1 - need(crossing); }
-  bool is_reached(PebbleNode crowd_there, PebbleNode node) const {
-    return (is_crossing(node) && crowd(node) == crowd_there) ||
-           std::ranges::binary_search(near_, std::pair(node, crowd_there));
+  bool is_reached(PebbleNode group_there, PebbleNode node) const {
+    return (is_crossing(node) && group(node) == group_there) ||
+           std::ranges::binary_search(near_, std::pair(node, group_there));
   }
   // Whether `way` is the one of its two directions that is used.
   bool is_first(const Way& way) const { return !is_between(way) || way.from < way.nodes.back(); }
@@ -126,9 +126,9 @@ class Crossings {
   }
   void add_nodes_near(const Way& way) {
     if (way.from == PebbleGraph::kNone) return;
-    const PebbleNode crowd_there = crowd(way.from);
+    const PebbleNode group_there = group(way.from);
     for (int t = 1; t <= std::min(way.length(), most_steps(way.from)); ++t)
-      near_.emplace_back(way.nodes[t - 1], crowd_there);
+      near_.emplace_back(way.nodes[t - 1], group_there);
   }
 
   const PebbleGraph& board_;
@@ -146,21 +146,21 @@ class Membership {
   Membership(const Crossings& crossings, const PebbleConfiguration& arrangement)
       : crossings_(crossings),
         arrangement_(arrangement),
-        crowds_(arrangement.size(), kStuck),
+        groups_(arrangement.size(), kStuck),
         queues_(crossings.ways().size()) {
     std::vector<int> counts;
     for (const AgentIndex agent : arrangement) counts.push_back(agent == kNoAgent ? 1 : 0);
     free_ = board().sums(std::move(counts));
     for (PebbleNode node = 0; node < board().size(); ++node)
       if (!is_free(node) && crossings.is_crossing(node) && !is_held(node))
-        crowds_[node] = crossings.crowd(node);
+        groups_[node] = crossings.group(node);
     for (const Way& way : crossings.ways()) add_those_near(way);
     for (std::size_t way = 0; way < queues_.size(); ++way)
       if (crossings.is_first(crossings.ways()[way])) find_queue(way);
   }
 
   // The crowd of the agent on `node`; kStuck if the agent is stuck or the node is free.
-  PebbleNode crowd(PebbleNode node) const { return crowds_[node]; }
+  PebbleNode group(PebbleNode node) const { return groups_[node]; }
   // By way: the nodes of the agents that are stuck on it, in order.
   const std::vector<std::vector<PebbleNode>>& queues() const { return queues_; }
   // The number of free nodes on the side of the crossing at the beginning of the way, that crossing
@@ -187,15 +187,15 @@ class Membership {
   }
   void add_those_near(const Way& way) {
     if (way.from == PebbleGraph::kNone) return;
-    const PebbleNode crowd_there = crossings_.crowd(way.from);
+    const PebbleNode group_there = crossings_.group(way.from);
     int steps_less_free = -free_before(way);
     for (const PebbleNode node : way.nodes) {
       if (is_free(node)) continue;
       if (++steps_less_free > 1 - crossings_.need(way.from)) return;
-      crowds_[node] = crowd_there;
+      groups_[node] = group_there;
     }
   }
-  bool is_stuck(PebbleNode node) const { return !is_free(node) && crowds_[node] == kStuck; }
+  bool is_stuck(PebbleNode node) const { return !is_free(node) && groups_[node] == kStuck; }
   void find_queue(std::size_t number) {
     const Way& way = crossings_.ways()[number];
     std::vector<PebbleNode>& queue = queues_[number];
@@ -210,19 +210,19 @@ class Membership {
   const Crossings& crossings_;
   const PebbleConfiguration& arrangement_;
   std::vector<int> free_;  // free nodes per subtree, see PebbleGraph::sums()
-  std::vector<PebbleNode> crowds_;
+  std::vector<PebbleNode> groups_;
   std::vector<std::vector<PebbleNode>> queues_;  // by way
 };
 
 // All pairs of an agent and its crowd, sorted.
-std::vector<std::pair<AgentIndex, PebbleNode>> crowds_of(const PebbleConfiguration& arrangement,
+std::vector<std::pair<AgentIndex, PebbleNode>> groups_of(const PebbleConfiguration& arrangement,
                                                          const Membership& membership) {
-  std::vector<std::pair<AgentIndex, PebbleNode>> crowds;
+  std::vector<std::pair<AgentIndex, PebbleNode>> groups;
   for (PebbleNode node = 0; node < static_cast<PebbleNode>(arrangement.size()); ++node)
-    if (membership.crowd(node) != kStuck)
-      crowds.emplace_back(arrangement[node], membership.crowd(node));
-  std::ranges::sort(crowds);
-  return crowds;
+    if (membership.group(node) != kStuck)
+      groups.emplace_back(arrangement[node], membership.group(node));
+  std::ranges::sort(groups);
+  return groups;
 }
 
 // The stuck agents in order, by way.
@@ -236,9 +236,9 @@ std::vector<std::vector<AgentIndex>> queues_of(const PebbleConfiguration& arrang
   return queues;
 }
 
-class CrowdReach : public ReachableConfigurations {
+class ReachWithRoom : public ReachableConfigurations {
  public:
-  CrowdReach(const PebbleGraph& board, const PebbleConfiguration& start, bool may_follow)
+  ReachWithRoom(const PebbleGraph& board, const PebbleConfiguration& start, bool may_follow)
       : start_(start),
         crossings_(board, static_cast<int>(std::ranges::count(start, kNoAgent)), may_follow),
         now_(crossings_, start_),
@@ -250,7 +250,7 @@ class CrowdReach : public ReachableConfigurations {
   }
 
   bool has(PebbleNode from, PebbleNode to) const override {
-    if (now_.crowd(from) != kStuck) return crossings_.is_reached(now_.crowd(from), to);
+    if (now_.group(from) != kStuck) return crossings_.is_reached(now_.group(from), to);
     const auto nodes_before = nodes_before_on(held_on(from), to);
     if (!nodes_before) return false;
     const int free_before = *nodes_before - agents_before_[from];
@@ -259,7 +259,7 @@ class CrowdReach : public ReachableConfigurations {
 
   bool has(const PebbleConfiguration& arrangement) const override {
     const Membership then(crossings_, arrangement);
-    return crowds_of(start_, now_) == crowds_of(arrangement, then) &&
+    return groups_of(start_, now_) == groups_of(arrangement, then) &&
            queues_of(start_, now_) == queues_of(arrangement, then);
   }
 
@@ -318,7 +318,7 @@ class CrowdReach : public ReachableConfigurations {
 std::unique_ptr<ReachableConfigurations> reachable_with_room(const PebbleGraph& board,
                                                              const PebbleConfiguration& start,
                                                              bool may_follow) {
-  return std::make_unique<CrowdReach>(board, start, may_follow);
+  return std::make_unique<ReachWithRoom>(board, start, may_follow);
 }
 
 }  // namespace grove::detail
