@@ -43,14 +43,14 @@ std::string until(Time end) {
 }
 
 // "3 bar 17 4 4"
-std::string proof_text(const AgentConstraint& demand, const Instance& instance) {
-  const Constraint& c = demand.constraint;
+std::string proof_text(const AgentConstraint& constraint, const Instance& instance) {
+  const Constraint& c = constraint.constraint;
   const auto text = [&](std::string_view what, auto... values) {
-    std::string line = fmt::format("{} {}", demand.agent, what);
+    std::string line = fmt::format("{} {}", constraint.agent, what);
     ((line += fmt::format(" {}", values)), ...);
     return line;
   };
-  const auto task = [&] { return instance.agent(demand.agent).stops[c.from]; };
+  const auto task = [&] { return instance.agent(constraint.agent).stops[c.from]; };
   switch (c.kind) {
     case ConstraintKind::kVertexOrEdge:
       if (c.is_move()) return text("move", c.from, c.cell, std::max(c.begin, 0), until(c.end));
@@ -130,8 +130,8 @@ class LemmaWriter : public ProofLog {
     if (!needed_.contains(key)) return;
     if (!numbers_.emplace(key, std::ssize(numbers_)).second) return;
     output_.line(fmt::format("lemma {} {}", proof_text(lemma.bound), fmt::join(lemma.agents, " ")));
-    for (const AgentConstraint& demand : lemma.demands)
-      output_.line("demand " + proof_text(demand, instance_));
+    for (const AgentConstraint& constraint : lemma.constraints)
+      output_.line("demand " + proof_text(constraint, instance_));
     if (splits.empty()) return output_.line("joint");
     ProofEntries entries;
     for (const ProofSplit& split : splits) entries[split.node].split = split;

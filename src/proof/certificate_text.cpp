@@ -38,7 +38,8 @@ class Summary : public CertificateVisitor {
 
   void following(bool may_follow) override { read_.may_follow = may_follow; }
   void theorem(Cost bound) override { read_.bound = bound; }
-  void split(const CertificateDemand& /*one*/, const CertificateDemand& /*other*/) override {
+  void split(const CertificateConstraint& /*one*/,
+             const CertificateConstraint& /*other*/) override {
     ++splits;
   }
   void later(const CertificateLate& /*one*/, const CertificateLate& /*other*/,

@@ -29,7 +29,7 @@ constexpr std::int64_t kNoSteps = 0;
 
 bool LemmaTable::Before::operator()(LemmaNumber a, LemmaNumber b) const {
   const auto key = [&](LemmaNumber lemma) {
-    return std::tie(table.lemmas_[lemma].agents, table.lemmas_[lemma].demands);
+    return std::tie(table.lemmas_[lemma].agents, table.lemmas_[lemma].constraints);
   };
   return key(a) < key(b);
 }
@@ -53,7 +53,7 @@ LemmaTable::Leaf LemmaTable::leaf(std::span<const LemmaNumber> named, Cost bound
   if (leaf.names.size() > kMostNames) return leaf;
   // Lemmas with most constraints are removed first.
   std::ranges::stable_sort(leaf.names, {},
-                           [&](LemmaNumber name) { return lemmas_[name].demands.size(); });
+                           [&](LemmaNumber name) { return lemmas_[name].constraints.size(); });
   std::vector<ProofExcess> excesses;
   Cost sum = 0;
   for (const LemmaNumber name : leaf.names) {

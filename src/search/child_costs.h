@@ -30,8 +30,8 @@ class ChildCosts {
 
   // Computes by how much the individual costs of the agents in scope rise in total if `demand` is
   // added; kInfiniteCost if by more than `slack`.
-  Outcome increase(NodeView& view, const AgentConstraint& demand, Cost slack, const Limits& limits,
-                   Cost& increase);
+  Outcome increase(NodeView& view, const AgentConstraint& constraint, Cost slack,
+                   const Limits& limits, Cost& increase);
 
   // Computes the cost of the agent under the additional constraint `more`. If it is above `cutoff`,
   // returns some value above `cutoff`. kTooHard only if the computation takes more than

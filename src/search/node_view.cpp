@@ -27,15 +27,16 @@ void NodeView::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
 
 // Updates only agents whose constraints differ from those at the last node; most have the same.
 void NodeView::look_at_constraints() {
-  node_->constraints(demands_);
-  for (auto* by_agent : {&kept_.demands, &kept_.constraints}) by_agent->resize(demands_.size());
-  kept_.subproblems.resize(demands_.size());
+  node_->constraints(constraints_);
+  for (auto* by_agent : {&kept_.constraints, &kept_.constraints})
+    by_agent->resize(constraints_.size());
+  kept_.subproblems.resize(constraints_.size());
   for (const AgentIndex agent : scope_) {
-    if (demands_[agent] == kept_.demands[agent]) continue;
-    kept_.constraints[agent] = demands_[agent];
+    if (constraints_[agent] == kept_.constraints[agent]) continue;
+    kept_.constraints[agent] = constraints_[agent];
     canonical(kept_.constraints[agent]);
     kept_.subproblems[agent] = {};
-    std::swap(demands_[agent], kept_.demands[agent]);  // last: the rest may throw
+    std::swap(constraints_[agent], kept_.constraints[agent]);  // last: the rest may throw
   }
 }
 
@@ -66,10 +67,10 @@ const Conflict* NodeView::conflict_between(AgentIndex a, AgentIndex b) const {
   return found == conflicts_.end() ? nullptr : &*found;
 }
 
-void NodeView::affected_agents(const AgentConstraint& demand,
+void NodeView::affected_agents(const AgentConstraint& constraint,
                                std::vector<AgentIndex>& agents) const {
   agents.clear();
-  for_each_implied_constraint(demand, scope_, [&](AgentIndex agent, const Constraint& c) {
+  for_each_implied_constraint(constraint, scope_, [&](AgentIndex agent, const Constraint& c) {
     if (is_about_sequence(c) ||
         !satisfies(problem_.instance.world(), paths_[agent], c, problem_.corridors))
       agents.push_back(agent);
