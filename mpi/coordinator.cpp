@@ -216,8 +216,8 @@ void Coordinator::step() {
 }
 
 void Coordinator::leave(const message::RankFinished& said) {
-  add(said, farewell_);
-  if (++farewells_ == children_.count()) children_.send_message_counts({farewell_.messages});
+  add(said, finished_);
+  if (++farewells_ == children_.count()) children_.send_message_counts({finished_.messages});
 }
 
 // The last report of an unresponsive rank stays valid. Silence before the limit does not count:
@@ -235,7 +235,7 @@ std::int64_t Coordinator::check_unresponsive_ranks() {
     return 0;
   }
   if (!ending_ || now - *stopped_at_ < 2 * kLongSilence) return 0;
-  const auto& said = farewell_.survey.ranks;
+  const auto& said = finished_.survey.ranks;
   return transport_.ranks() - std::ssize(said) - (said.contains(0) ? 0 : 1);
 }
 
@@ -249,7 +249,7 @@ Solution Coordinator::conclude() {
 // The final statistics of the ranks that have finished, and the latest statistics of the others. A
 // simulated run that reaches a limit ends without RankFinished.
 RunStatistics Coordinator::told() const {
-  RunStatistics all = farewell_.survey;
+  RunStatistics all = finished_.survey;
   for (const auto& [rank, survey] : surveys_)
     if (!all.ranks.contains(rank)) add(survey, all);
   return all;

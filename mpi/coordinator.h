@@ -91,7 +91,7 @@ class Coordinator {
   // When check_unresponsive_ranks() first saw that a limit was reached.
   std::optional<Clock::time_point> stopped_at_;
   int farewells_ = 0;
-  message::RankFinished farewell_;        // sum over the children that have finished
+  message::RankFinished finished_;        // sum over the children that have finished
   std::map<int, RunStatistics> surveys_;  // by rank: the latest statistics before its RankFinished
 };
 

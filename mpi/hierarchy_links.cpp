@@ -25,9 +25,9 @@ void ChildLinks::broadcast(const message::Message& message) {
     transport_.send(hierarchy_.child(post_, child).rank, bytes);
 }
 
-void ChildLinks::send_message_counts(const message::MessageCounts& goodbye) {
+void ChildLinks::send_message_counts(const message::MessageCounts& message_counts) {
   std::vector<message::MessageCounts> parts(static_cast<std::size_t>(count()));
-  for (const auto& [rank, messages] : goodbye.messages)
+  for (const auto& [rank, messages] : message_counts.messages)
     parts.at(static_cast<std::size_t>(with(rank))).messages[rank] = messages;
   for (int child = 0; child < count(); ++child) tell(child, parts[static_cast<std::size_t>(child)]);
 }

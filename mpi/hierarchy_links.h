@@ -30,7 +30,7 @@ class ChildLinks {
   void tell(int child, const message::Message& message);
   void broadcast(const message::Message& message);
   // Sends each child the counts of the ranks that it is or that are below it.
-  void send_message_counts(const message::MessageCounts& goodbye);
+  void send_message_counts(const message::MessageCounts& message_counts);
 
  private:
   Transport& transport_;

@@ -184,8 +184,8 @@ void serialize(Archive& archive, Restart& restart) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, MessageCounts& goodbye) {
-  archive(goodbye.messages);
+void serialize(Archive& archive, MessageCounts& message_counts) {
+  archive(message_counts.messages);
 }
 
 template <class Archive>

@@ -55,8 +55,8 @@ Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& li
       trees_(problem, stops_, nodes_.pool),
       shared_bounds_(limits, nodes_.frontier),
       search_(options, limits, nodes_, shared_bounds_, elsewhere_, unwatched_),
-      knowledge_(transport.rank(), transport.ranks(),
-                 options.tuning.bound_broadcast_rate * kBytesPerMegabyte) {
+      bound_broadcast_(transport.rank(), transport.ranks(),
+                       options.tuning.bound_broadcast_rate * kBytesPerMegabyte) {
   if (transport.rank() == 0) search_.lagrangian().set_ranks(transport.ranks());
   if (transport.ranks() > 1) others_wait();
 }
@@ -66,47 +66,48 @@ void Rank::handle(int from, message::Message&& message) {
     throw std::invalid_argument("rank: unexpected message type");
   };
   std::visit(
-      Overloaded{
-          [&](message::NodeBatch& batch) {
-            ++heard_;
-            take_over(from, batch);
-          },
-          [&](message::RequestPricing& ask) {
-            ++heard_;
-            search_.lagrangian().help(problem_.instance, std::move(ask.share));
-          },
-          [&](message::PricingDone& prices) {
-            ++heard_;
-            shared_bounds_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
-                                 BoundSource::kLagrangian);
-          },
-          [&](message::LearnedBounds& facts) {
-            ++heard_;
-            receive(facts);
-          },
-          [&](message::NewTree& tree) {
-            const NodePtr& root = roots_[tree.number] = trees_.add(tree.tree, tree.number);
-            trees_of_facts_.add(root->tree());
-            take_over_held();
-          },
-          [&](message::AssignNodes& entrusted) { accept(entrusted); },
-          [&](message::SendNodes& order) { give(order); },
-          [&](message::ReleaseCustody& covered) { release(covered); },
-          [&](message::Incumbent& incumbent) {
-            const Cost cost = incumbent.plan.cost;
-            shared_bounds_.adopt(std::move(incumbent.plan));
-            nodes_.prune(cost);
-          },
-          [&](message::Restart& order) { restart(order.proven); },
-          [&](message::SnapshotRequest&) { gather(); },
-          [&](message::SnapshotNext&) { send_part(); }, [](message::Heartbeat&) {},
-          [&](message::Terminate&) {
-            ended_ = true;
-            parent_.end_reports();
-            shared_bounds_.end();
-          },
-          [&](message::MessageCounts& goodbye) { to_hear_ = goodbye.messages[transport_.rank()]; },
-          unexpected},
+      Overloaded{[&](message::NodeBatch& batch) {
+                   ++heard_;
+                   take_over(from, batch);
+                 },
+                 [&](message::RequestPricing& ask) {
+                   ++heard_;
+                   search_.lagrangian().help(problem_.instance, std::move(ask.share));
+                 },
+                 [&](message::PricingDone& prices) {
+                   ++heard_;
+                   shared_bounds_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
+                                        BoundSource::kLagrangian);
+                 },
+                 [&](message::LearnedBounds& facts) {
+                   ++heard_;
+                   receive(facts);
+                 },
+                 [&](message::NewTree& tree) {
+                   const NodePtr& root = roots_[tree.number] = trees_.add(tree.tree, tree.number);
+                   trees_of_facts_.add(root->tree());
+                   take_over_held();
+                 },
+                 [&](message::AssignNodes& entrusted) { accept(entrusted); },
+                 [&](message::SendNodes& order) { give(order); },
+                 [&](message::ReleaseCustody& covered) { release(covered); },
+                 [&](message::Incumbent& incumbent) {
+                   const Cost cost = incumbent.plan.cost;
+                   shared_bounds_.adopt(std::move(incumbent.plan));
+                   nodes_.prune(cost);
+                 },
+                 [&](message::Restart& order) { restart(order.proven); },
+                 [&](message::SnapshotRequest&) { gather(); },
+                 [&](message::SnapshotNext&) { send_part(); }, [](message::Heartbeat&) {},
+                 [&](message::Terminate&) {
+                   ended_ = true;
+                   parent_.end_reports();
+                   shared_bounds_.end();
+                 },
+                 [&](message::MessageCounts& message_counts) {
+                   to_hear_ = message_counts.messages[transport_.rank()];
+                 },
+                 unexpected},
       message);
 }
 
@@ -282,11 +283,11 @@ void Rank::speak_of_prices() {
 }
 
 void Rank::speak_of_facts(double now) {
-  if (!knowledge_.is_on()) return;
+  if (!bound_broadcast_.is_on()) return;
   const auto memory = search_.memory();
   for (const LearnedBound& fact : facts_of(memory->take_new_entries(), *memory, trees_of_facts_))
-    knowledge_.add(fact);
-  for (auto& [rank, facts] : knowledge_.due(now)) {
+    bound_broadcast_.add(fact);
+  for (auto& [rank, facts] : bound_broadcast_.due(now)) {
     facts_sent_ += std::ssize(facts.facts);
     tell(rank, facts);
   }
@@ -299,7 +300,7 @@ void Rank::receive(message::LearnedBounds& facts) {
   const bool has_room = search_.has_room_for_facts();
   for (std::string& bytes : facts.facts) {
     LearnedBound fact = message::unpacked(bytes);
-    if (!ended_) knowledge_.add(fact.utility(), std::move(bytes), facts.reach);
+    if (!ended_) bound_broadcast_.add(fact.utility(), std::move(bytes), facts.reach);
     if (has_room) merge(std::move(fact), trees_of_facts_, *memory);
   }
 }

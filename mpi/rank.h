@@ -54,7 +54,7 @@ class Rank {
   // since the beginning. Infinity: never.
   double next_send_time() const {
     return ended_ ? parent_.reports_at()
-                  : std::min(parent_.reports_at(), knowledge_.next_send_time());
+                  : std::min(parent_.reports_at(), bound_broadcast_.next_send_time());
   }
 
   // Sends the statistics so far, including `counts` of the workers. Not after send_finished().
@@ -108,7 +108,7 @@ class Rank {
 
   std::map<std::uint32_t, NodePtr> roots_;  // by tree number
   TreeIndex trees_of_facts_;
-  BoundBroadcast knowledge_;
+  BoundBroadcast bound_broadcast_;
   std::int32_t epoch_ = 0;
   std::int64_t assigned_ = 0;
   std::vector<DeferredBatch> held_;

@@ -58,7 +58,7 @@ class RankNodes : public LiveNodes {
   std::int64_t children_with_nodes_ = 0;
   std::int64_t entrusted_under_way_ = 0;
   std::int32_t epoch_ = 0;
-  std::int64_t children_of_this_era_;
+  std::int64_t children_of_this_epoch_;
   Counts counts_;
   std::set<std::uint32_t> told_;  // numbers of the trees broadcast
 };

@@ -33,43 +33,44 @@ void SubCoordinator::handle(int from, message::Message&& message) {
   const auto unexpected = [](const auto&) {
     throw std::invalid_argument("sub-coordinator: unexpected message type");
   };
-  std::visit(
-      Overloaded{[&](message::Status& status) { heard(child(), std::move(status)); },
-                 [&](message::NewPlan& found) {
-                   if (found.plan.cost < cutoff_) parent_.tell(found);
-                 },
-                 [&](message::ProcessStatistics& account) { parent_.tell(account); },
-                 [&](message::SnapshotTaken& parts) { gathered(parts); },
-                 [&](message::RankFinished& said) { send_finished(said); },
-                 [&](message::SendNodes& ordered) { order(ordered); },
-                 [&](message::ReleaseCustody& release) {
-                   children_.tell(children_.with(release.from), release);
-                 },
-                 [&](message::AssignNodes& nodes) {
-                   ++assigned_;
-                   nodes_.assign(std::move(nodes));
-                   parent_.urge();
-                 },
-                 [&](message::Restart& order) { restart(order); },
-                 [&](message::Incumbent& incumbent) {
-                   cutoff_ = std::min(cutoff_, incumbent.plan.cost);
-                   children_.broadcast(incumbent);
-                 },
-                 [&](message::NewTree& tree) { children_.broadcast(tree); },
-                 [&](message::SnapshotRequest& gather) {
-                   looked_ = 0;
-                   gathered_ = {};
-                   children_.broadcast(gather);
-                 },
-                 [&](message::Heartbeat& alive) { children_.broadcast(alive); },
-                 [&](message::Terminate& end) {
-                   ending_ = true;
-                   parent_.end_reports();
-                   children_.broadcast(end);
-                 },
-                 [&](message::MessageCounts& goodbye) { children_.send_message_counts(goodbye); },
-                 unexpected},
-      message);
+  std::visit(Overloaded{[&](message::Status& status) { heard(child(), std::move(status)); },
+                        [&](message::NewPlan& found) {
+                          if (found.plan.cost < cutoff_) parent_.tell(found);
+                        },
+                        [&](message::ProcessStatistics& account) { parent_.tell(account); },
+                        [&](message::SnapshotTaken& parts) { gathered(parts); },
+                        [&](message::RankFinished& said) { send_finished(said); },
+                        [&](message::SendNodes& ordered) { order(ordered); },
+                        [&](message::ReleaseCustody& release) {
+                          children_.tell(children_.with(release.from), release);
+                        },
+                        [&](message::AssignNodes& nodes) {
+                          ++assigned_;
+                          nodes_.assign(std::move(nodes));
+                          parent_.urge();
+                        },
+                        [&](message::Restart& order) { restart(order); },
+                        [&](message::Incumbent& incumbent) {
+                          cutoff_ = std::min(cutoff_, incumbent.plan.cost);
+                          children_.broadcast(incumbent);
+                        },
+                        [&](message::NewTree& tree) { children_.broadcast(tree); },
+                        [&](message::SnapshotRequest& gather) {
+                          looked_ = 0;
+                          gathered_ = {};
+                          children_.broadcast(gather);
+                        },
+                        [&](message::Heartbeat& alive) { children_.broadcast(alive); },
+                        [&](message::Terminate& end) {
+                          ending_ = true;
+                          parent_.end_reports();
+                          children_.broadcast(end);
+                        },
+                        [&](message::MessageCounts& message_counts) {
+                          children_.send_message_counts(message_counts);
+                        },
+                        unexpected},
+             message);
   changed_ = true;
 }
 
@@ -97,8 +98,8 @@ void SubCoordinator::gathered(const message::SnapshotTaken& parts) {
 }
 
 void SubCoordinator::send_finished(const message::RankFinished& said) {
-  add(said, farewell_);
-  if (++farewells_ == children_.count()) parent_.tell(farewell_);
+  add(said, finished_);
+  if (++farewells_ == children_.count()) parent_.tell(finished_);
 }
 
 // Some child must send a batch, even an empty one, because the receiver waits for it.

@@ -48,7 +48,7 @@ class SubCoordinator {
   Cost cutoff_ = kInfiniteCost;                // cost of the incumbent
   message::SnapshotTaken gathered_;  // merged over the children that have taken a snapshot
   int looked_ = 0;
-  message::RankFinished farewell_;  // sum over the children that have finished
+  message::RankFinished finished_;  // sum over the children that have finished
   int farewells_ = 0;
   bool ending_ = false;
 };
