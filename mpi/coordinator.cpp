@@ -186,8 +186,9 @@ void Coordinator::heard(int child, message::Status status) {
   run_.run_events().worked();
   if (ending_) return;  // a batch sent after a RankFinished would be left in transit
   run_.trees().instantiate_due_tree();
-  while (const auto gift = load_balancer_.next())
-    children_.tell(gift->from, message::SendNodes{gift->to, gift->nodes, gift->to_idle});
+  while (const auto transfer = load_balancer_.next())
+    children_.tell(transfer->from,
+                   message::SendNodes{transfer->to, transfer->nodes, transfer->to_idle});
 }
 
 // Writes one checkpoint at a time, and the last one when the search is over, before Terminate is

@@ -13,9 +13,9 @@ namespace grove::detail {
 namespace {
 
 // Status at the beginning, when all ranks below are idle.
-message::Status first_status(const LoadBalancer& broker) {
+message::Status first_status(const LoadBalancer& load_balancer) {
   message::Status status;
-  status.work_requests = broker.work_requests();
+  status.work_requests = load_balancer.work_requests();
   return status;
 }
 
@@ -87,8 +87,9 @@ void SubCoordinator::heard(int child, message::Status&& status) {
   }
   nodes_.update(child, std::move(status));
   if (ending_) return;  // a batch sent after a RankFinished would be left in transit
-  while (const auto gift = load_balancer_.next())
-    children_.tell(gift->from, message::SendNodes{gift->to, gift->nodes, gift->to_idle});
+  while (const auto transfer = load_balancer_.next())
+    children_.tell(transfer->from,
+                   message::SendNodes{transfer->to, transfer->nodes, transfer->to_idle});
 }
 
 // All plans found before the snapshots have been forwarded by then.
