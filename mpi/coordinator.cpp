@@ -140,7 +140,7 @@ void Coordinator::restore(CheckpointReader& checkpoint) {
   while (auto next = checkpoint.next()) {
     const NodePtr& root = roots->at(next->tree);
     check(*next, *root, instance_);
-    nodes_.tell(root->tree());
+    nodes_.send(root->tree());
     nodes.push_back(std::move(*next));
     if (nodes.size() == kNodesEntrusted) send();
   }
@@ -167,7 +167,7 @@ void Coordinator::handle(int from, message::Message&& message) {
                    for (const auto& [rank, survey] : account.survey.ranks)
                      surveys_[rank] = account.survey;
                  },
-                 [&](message::RankFinished& said) { leave(said); }, unexpected},
+                 [&](message::RankFinished& message) { leave(message); }, unexpected},
       message);
   heard_at_ = limits_.now();  // not before: writing a checkpoint takes time
 }
@@ -176,7 +176,7 @@ void Coordinator::heard(int child, message::Status status) {
   load_balancer_.heard(child, status);
   for (const message::BatchReceived& taken : status.taken) {
     load_balancer_.arrived(taken.by);
-    children_.tell(children_.with(taken.from),
+    children_.send(children_.with(taken.from),
                    message::ReleaseCustody{taken.from, taken.by, taken.batches});
   }
   if (status.stopped != StopReason::kNone) limits_.stop(status.stopped);
@@ -187,7 +187,7 @@ void Coordinator::heard(int child, message::Status status) {
   if (ending_) return;  // a batch sent after a RankFinished would be left in transit
   run_.trees().instantiate_due_tree();
   while (const auto transfer = load_balancer_.next())
-    children_.tell(transfer->from,
+    children_.send(transfer->from,
                    message::SendNodes{transfer->to, transfer->nodes, transfer->to_idle});
 }
 
@@ -216,8 +216,8 @@ void Coordinator::step() {
   }
 }
 
-void Coordinator::leave(const message::RankFinished& said) {
-  add(said, finished_);
+void Coordinator::leave(const message::RankFinished& message) {
+  add(message, finished_);
   if (++farewells_ == children_.count()) children_.send_message_counts({finished_.messages});
 }
 
@@ -236,8 +236,8 @@ std::int64_t Coordinator::check_unresponsive_ranks() {
     return 0;
   }
   if (!ending_ || now - *stopped_at_ < 2 * kLongSilence) return 0;
-  const auto& said = finished_.survey.ranks;
-  return transport_.ranks() - std::ssize(said) - (said.contains(0) ? 0 : 1);
+  const auto& message = finished_.survey.ranks;
+  return transport_.ranks() - std::ssize(message) - (message.contains(0) ? 0 : 1);
 }
 
 Solution Coordinator::conclude() {

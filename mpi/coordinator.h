@@ -66,7 +66,7 @@ class Coordinator {
   void restore(CheckpointReader& checkpoint);
   void heard(int child, message::Status status);
   void look_after_checkpoints();
-  void leave(const message::RankFinished& said);
+  void leave(const message::RankFinished& message);
   RunStatistics told() const;
   RunStatistics survey() const;
 

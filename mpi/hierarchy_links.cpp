@@ -14,7 +14,7 @@ std::vector<std::vector<int>> ChildLinks::ranks() const {
   return all;
 }
 
-void ChildLinks::tell(int child, const message::Message& message) {
+void ChildLinks::send(int child, const message::Message& message) {
   const Endpoint post = hierarchy_.child(post_, child);
   transport_.send(post.rank, message::bytes_of(message, post.level));
 }
@@ -29,7 +29,7 @@ void ChildLinks::send_message_counts(const message::MessageCounts& message_count
   std::vector<message::MessageCounts> parts(static_cast<std::size_t>(count()));
   for (const auto& [rank, messages] : message_counts.messages)
     parts.at(static_cast<std::size_t>(with(rank))).messages[rank] = messages;
-  for (int child = 0; child < count(); ++child) tell(child, parts[static_cast<std::size_t>(child)]);
+  for (int child = 0; child < count(); ++child) send(child, parts[static_cast<std::size_t>(child)]);
 }
 
 namespace {
@@ -55,7 +55,7 @@ ParentLink::ParentLink(Transport& transport, const Hierarchy& hierarchy, Endpoin
       pause_(kPause + kPausePerSibling * hierarchy.children(to_)),
       said_(std::move(first)) {}
 
-void ParentLink::tell(const message::Message& message) {
+void ParentLink::send(const message::Message& message) {
   transport_.send(to_.rank, message::bytes_of(message, to_.level));
 }
 
@@ -77,7 +77,7 @@ bool ParentLink::report(message::Status status, double now) {
     reports_at_ = next;
     return false;
   }
-  tell(status);
+  send(status);
   said_ = std::move(status);
   said_.taken.clear();
   said_at_ = now;

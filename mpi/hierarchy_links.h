@@ -27,7 +27,7 @@ class ChildLinks {
   std::vector<std::vector<int>> ranks() const;
   bool include(int rank) const { return hierarchy_.is_below(post_, rank); }
 
-  void tell(int child, const message::Message& message);
+  void send(int child, const message::Message& message);
   void broadcast(const message::Message& message);
   // Sends each child the counts of the ranks that it is or that are below it.
   void send_message_counts(const message::MessageCounts& message_counts);
@@ -47,7 +47,7 @@ class ParentLink {
              message::Status first);
 
   // Sends `message` at once.
-  void tell(const message::Message& message);
+  void send(const message::Message& message);
   // Sends `status` if it differs from the last one. An urgent status is sent at once, any other at
   // a rate that the parent can handle from all its children. `now` in seconds since the beginning.
   // Returns true if it was sent.

@@ -150,7 +150,7 @@ void Rank::give(const message::SendNodes& order) {
   Peer& peer = peers_[order.to];
   peer.custody[peer.sent + 1] = nodes;
   in_custody_ += std::ssize(nodes);
-  tell(order.to, batch);
+  send(order.to, batch);
   ++peer.sent;
   nodes_sent_ += std::ssize(nodes);
   parent_.urge();
@@ -205,7 +205,7 @@ void Rank::gather() {
   Frontier::Snapshot snapshot = nodes_.frontier.snapshot();
   send_found();
   gathered_ = std::move(snapshot.live);
-  parent_.tell(message::SnapshotTaken{snapshot.evicted_bound});
+  parent_.send(message::SnapshotTaken{snapshot.evicted_bound});
 }
 
 void Rank::send_part() {
@@ -277,9 +277,9 @@ void Rank::send_updates(double now) {
 
 void Rank::speak_of_prices() {
   for (auto& [rank, share] : search_.lagrangian().dispatch_pricing())
-    tell(rank, message::RequestPricing{std::move(share)});
+    send(rank, message::RequestPricing{std::move(share)});
   if (auto answer = search_.lagrangian().take_answer())
-    tell(0, message::PricingDone{std::move(*answer)});
+    send(0, message::PricingDone{std::move(*answer)});
 }
 
 void Rank::speak_of_facts(double now) {
@@ -289,7 +289,7 @@ void Rank::speak_of_facts(double now) {
     bound_broadcast_.add(fact);
   for (auto& [rank, facts] : bound_broadcast_.due(now)) {
     facts_sent_ += std::ssize(facts.facts);
-    tell(rank, facts);
+    send(rank, facts);
   }
 }
 
@@ -307,7 +307,7 @@ void Rank::receive(message::LearnedBounds& facts) {
 
 void Rank::send_found() {
   if (auto found = shared_bounds_.take_found())
-    parent_.tell(message::NewPlan{std::move(found->plan), found->source});
+    parent_.send(message::NewPlan{std::move(found->plan), found->source});
 }
 
 RunStatistics Rank::survey(Stats counts) const {
@@ -330,20 +330,20 @@ RunStatistics Rank::survey(Stats counts) const {
 }
 
 void Rank::send_statistics(Stats counts) {
-  parent_.tell(message::ProcessStatistics{survey(std::move(counts))});
+  parent_.send(message::ProcessStatistics{survey(std::move(counts))});
 }
 
 // A limit may be reached just when a plan was found.
 void Rank::send_finished(Stats counts) {
   send_found();
-  parent_.tell(message::RankFinished{survey(std::move(counts)), told_});
+  parent_.send(message::RankFinished{survey(std::move(counts)), told_});
 }
 
 bool Rank::left() const {
   return to_hear_ && heard_ >= *to_hear_;
 }
 
-void Rank::tell(int rank, const message::Message& message) {
+void Rank::send(int rank, const message::Message& message) {
   ++told_[rank];
   transport_.send(rank, bytes_of(message, 0));
 }

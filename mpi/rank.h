@@ -90,7 +90,7 @@ class Rank {
   message::Status status() const;
   RunStatistics survey(Stats counts) const;
   bool is_wanted(Cost bound) const;
-  void tell(int rank, const message::Message& message);
+  void send(int rank, const message::Message& message);
 
   const Problem& problem_;
   const Omega omega_;

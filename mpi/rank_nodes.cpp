@@ -76,7 +76,7 @@ message::Status RankNodes::merged() const {
 }
 
 void RankNodes::push(const NodePtr& root) {
-  tell(root->tree());
+  send(root->tree());
   assign({{record_of(*root)}, kInfiniteCost});
 }
 
@@ -86,10 +86,10 @@ void RankNodes::assign(int child, message::AssignNodes nodes) {
   bounds_.insert(bound);
   under_way_.at(static_cast<std::size_t>(child)).push_back(bound);
   ++entrusted_under_way_;
-  children_.tell(child, nodes);
+  children_.send(child, nodes);
 }
 
-void RankNodes::tell(const Tree& tree) {
+void RankNodes::send(const Tree& tree) {
   if (told_.insert(tree.number).second)
     children_.broadcast(message::NewTree{tree.number, record_of(tree)});
 }

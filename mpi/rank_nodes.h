@@ -42,7 +42,7 @@ class RankNodes : public LiveNodes {
   void assign(int child, message::AssignNodes nodes);
   void assign(message::AssignNodes nodes) { assign(idlest(), std::move(nodes)); }
   // Broadcasts a tree, once.
-  void tell(const Tree& tree);
+  void send(const Tree& tree);
   // Broadcasts Restart. Until the status of a child has the new epoch, the nodes of the child are
   // unknown.
   void broadcast_restart(Cost proven);

@@ -35,14 +35,14 @@ void SubCoordinator::handle(int from, message::Message&& message) {
   };
   std::visit(Overloaded{[&](message::Status& status) { heard(child(), std::move(status)); },
                         [&](message::NewPlan& found) {
-                          if (found.plan.cost < cutoff_) parent_.tell(found);
+                          if (found.plan.cost < cutoff_) parent_.send(found);
                         },
-                        [&](message::ProcessStatistics& account) { parent_.tell(account); },
+                        [&](message::ProcessStatistics& account) { parent_.send(account); },
                         [&](message::SnapshotTaken& parts) { gathered(parts); },
-                        [&](message::RankFinished& said) { send_finished(said); },
+                        [&](message::RankFinished& message) { send_finished(message); },
                         [&](message::SendNodes& ordered) { order(ordered); },
                         [&](message::ReleaseCustody& release) {
-                          children_.tell(children_.with(release.from), release);
+                          children_.send(children_.with(release.from), release);
                         },
                         [&](message::AssignNodes& nodes) {
                           ++assigned_;
@@ -80,7 +80,7 @@ void SubCoordinator::heard(int child, message::Status&& status) {
   for (const message::BatchReceived& taken : status.taken) {
     load_balancer_.arrived(taken.by);
     if (children_.include(taken.from))
-      children_.tell(children_.with(taken.from),
+      children_.send(children_.with(taken.from),
                      message::ReleaseCustody{taken.from, taken.by, taken.batches});
     else
       taken_.push_back(taken);
@@ -88,24 +88,24 @@ void SubCoordinator::heard(int child, message::Status&& status) {
   nodes_.update(child, std::move(status));
   if (ending_) return;  // a batch sent after a RankFinished would be left in transit
   while (const auto transfer = load_balancer_.next())
-    children_.tell(transfer->from,
+    children_.send(transfer->from,
                    message::SendNodes{transfer->to, transfer->nodes, transfer->to_idle});
 }
 
 // All plans found before the snapshots have been forwarded by then.
 void SubCoordinator::gathered(const message::SnapshotTaken& parts) {
   gathered_.evicted_bound = std::min(gathered_.evicted_bound, parts.evicted_bound);
-  if (++looked_ == children_.count()) parent_.tell(gathered_);
+  if (++looked_ == children_.count()) parent_.send(gathered_);
 }
 
-void SubCoordinator::send_finished(const message::RankFinished& said) {
-  add(said, finished_);
-  if (++farewells_ == children_.count()) parent_.tell(finished_);
+void SubCoordinator::send_finished(const message::RankFinished& message) {
+  add(message, finished_);
+  if (++farewells_ == children_.count()) parent_.send(finished_);
 }
 
 // Some child must send a batch, even an empty one, because the receiver waits for it.
 void SubCoordinator::order(const message::SendNodes& order) {
-  children_.tell(load_balancer_.donor(order.count), order);
+  children_.send(load_balancer_.donor(order.count), order);
 }
 
 void SubCoordinator::restart(const message::Restart& order) {

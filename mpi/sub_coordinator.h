@@ -33,7 +33,7 @@ class SubCoordinator {
  private:
   void heard(int child, message::Status&& status);
   void gathered(const message::SnapshotTaken& gathered);
-  void send_finished(const message::RankFinished& said);
+  void send_finished(const message::RankFinished& message);
   void order(const message::SendNodes& order);
   void restart(const message::Restart& order);
   message::Status status() const;
