@@ -27,8 +27,8 @@ class TimedTransport : public Transport {
  public:
   // All arguments must outlive this. `talk` is the exchange in progress, of any rank. A message
   // that it sends leaves when the exchange has taken `talk.takes_s`.
-  TimedTransport(SimulatedNetwork& network, int rank, const Machine& machine, Talk& talk)
-      : network_(network), end_(network.at(rank)), machine_(machine), talk_(talk) {}
+  TimedTransport(SimulatedNetwork& network, int rank, const Machine& machine, Talk& communication)
+      : network_(network), end_(network.at(rank)), machine_(machine), talk_(communication) {}
 
   int rank() const override { return end_.rank(); }
   int ranks() const override { return end_.ranks(); }
