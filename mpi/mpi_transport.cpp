@@ -51,9 +51,9 @@ std::optional<ReceivedMessage> MpiTransport::receive() {
   if (arrived == 0) return std::nullopt;
   int size = 0;
   MPI_Get_count(&status, MPI_BYTE, &size);
-  ReceivedMessage parcel{status.MPI_SOURCE, std::string(static_cast<std::size_t>(size), '\0')};
-  MPI_Mrecv(parcel.bytes.data(), size, MPI_BYTE, &message, MPI_STATUS_IGNORE);
-  return parcel;
+  ReceivedMessage received{status.MPI_SOURCE, std::string(static_cast<std::size_t>(size), '\0')};
+  MPI_Mrecv(received.bytes.data(), size, MPI_BYTE, &message, MPI_STATUS_IGNORE);
+  return received;
 }
 
 // Tests the oldest sends first, which usually complete first.

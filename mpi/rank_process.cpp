@@ -22,9 +22,9 @@ RankProcess::RankProcess(const Problem& problem, const SolveOptions& options, co
 
 bool RankProcess::exchange_messages(double now) {
   bool heard = false;
-  while (auto parcel = transport_.receive()) {
+  while (auto received = transport_.receive()) {
     heard = true;
-    handle(parcel->from, message::message_of(parcel->bytes));
+    handle(received->from, message::message_of(received->bytes));
   }
   if (coordinator_) {
     coordinator_->step();

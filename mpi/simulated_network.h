@@ -41,7 +41,7 @@ class SimulatedNetwork {
   struct UnderWay {
     double arrival;
     std::int64_t serial;  // number of the message in order of sending
-    ReceivedMessage parcel;
+    ReceivedMessage received;
   };
   struct Later {
     bool operator()(const UnderWay& a, const UnderWay& b) const {

@@ -34,12 +34,12 @@ class TimedTransport : public Transport {
   int ranks() const override { return end_.ranks(); }
   std::optional<ReceivedMessage> receive() override {
     const double arrival = network_.next_arrival(rank());
-    auto parcel = end_.receive();
-    if (!parcel) return std::nullopt;
+    auto received = end_.receive();
+    if (!received) return std::nullopt;
     waited_s_ += network_.now() + talk_.takes_s - arrival;
     ++received_;
-    take_time_for(parcel->bytes.size());
-    return parcel;
+    take_time_for(received->bytes.size());
+    return received;
   }
 
   // Messages received so far.
