@@ -86,7 +86,7 @@ std::optional<Solution> solve(const Instance& instance, const Options& options,
   const detail::MpiSharedMemory memory(communicator, bytes, zero_bytes);
   Run run(inner, options);
   std::optional<detail::Solution> answer;
-  detail::Solution told =
+  detail::Solution to_public =
       run([&](const detail::Limits& limits, detail::RunObserver& observer) -> detail::Solution {
         return translated([&] {
           detail::RunObserver silent;
@@ -105,7 +105,7 @@ std::optional<Solution> solve(const Instance& instance, const Options& options,
         });
       });
   if (rank != 0) return std::nullopt;
-  return told_solution(inner, told);
+  return told_solution(inner, to_public);
 }
 
 }  // namespace grove::mpi

@@ -41,13 +41,13 @@ Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 
 Instance Session::instance() const {
-  return Access::told(impl_->session.instance());
+  return Access::to_public(impl_->session.instance());
 }
 
 std::optional<Plan> Session::plan() const {
   const detail::Session& session = impl_->session;
   if (!session.plan()) return std::nullopt;
-  return told_plan(session.instance(), *session.plan());
+  return public_plan(session.instance(), *session.plan());
 }
 
 void Session::advance(int steps, const std::vector<Delay>& late) {

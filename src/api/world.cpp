@@ -145,19 +145,19 @@ bool World::passable(Cell cell) const {
 }
 
 std::vector<RoadmapVertex> World::vertices() const {
-  std::vector<RoadmapVertex> told;
+  std::vector<RoadmapVertex> to_public;
   if (const detail::Roadmap* roadmap = roadmap_of(*this))
-    for (const detail::Vertex& v : roadmap->vertices()) told.push_back({v.id, v.at.x, v.at.y});
-  return told;
+    for (const detail::Vertex& v : roadmap->vertices()) to_public.push_back({v.id, v.at.x, v.at.y});
+  return to_public;
 }
 
 std::vector<RoadmapEdge> World::edges() const {
-  std::vector<RoadmapEdge> told;
+  std::vector<RoadmapEdge> to_public;
   if (const detail::Roadmap* roadmap = roadmap_of(*this))
     for (const detail::Road& road : roadmap->roads())
-      told.push_back({roadmap->vertices()[road.from].id, roadmap->vertices()[road.to].id,
-                      road.steps, road.one_way});
-  return told;
+      to_public.push_back({roadmap->vertices()[road.from].id, roadmap->vertices()[road.to].id,
+                           road.steps, road.one_way});
+  return to_public;
 }
 
 detail::Place place_of(const detail::Map& map, const Place& place, const std::string& field) {
@@ -178,7 +178,7 @@ detail::Place place_of(const detail::Map& map, const Place& place, const std::st
   return on_road(*roadmap, std::get<OnRoad>(place), field);
 }
 
-Place told_place(const detail::Map& map, detail::Place place) {
+Place public_place(const detail::Map& map, detail::Place place) {
   if (const auto* grid = std::get_if<detail::Grid>(&map)) {
     const detail::Position p = grid->position(place);
     return Cell{p.x, p.y};
