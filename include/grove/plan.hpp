@@ -91,9 +91,6 @@ struct Violation {
   std::string json_pointer = {};
   std::string message = {};  ///< One line of text for people.
   std::string place = {};    ///< \deprecated Equal to json_pointer; removed in 0.2.
-};                           ///< JSON Pointer (RFC 6901) into the plan file: "/agents/0/path/7".
-std::string message = {};    ///< One line for a person.
-std::string place = {};      ///< \deprecated Equal to json_pointer; removed in 0.2.
 };
 
 /// Returns the errors of a plan, at most `limit`; empty: the plan is valid. The checker recomputes

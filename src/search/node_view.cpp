@@ -28,15 +28,15 @@ void NodeView::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
 // Updates only agents whose constraints differ from those at the last node; most have the same.
 void NodeView::look_at_constraints() {
   node_->constraints(constraints_);
-  for (auto* by_agent : {&kept_.constraints, &kept_.constraints})
+  for (auto* by_agent : {&kept_.node_constraints, &kept_.constraints})
     by_agent->resize(constraints_.size());
   kept_.subproblems.resize(constraints_.size());
   for (const AgentIndex agent : scope_) {
-    if (constraints_[agent] == kept_.constraints[agent]) continue;
+    if (constraints_[agent] == kept_.node_constraints[agent]) continue;
     kept_.constraints[agent] = constraints_[agent];
     canonical(kept_.constraints[agent]);
     kept_.subproblems[agent] = {};
-    std::swap(constraints_[agent], kept_.constraints[agent]);  // last: the rest may throw
+    std::swap(constraints_[agent], kept_.node_constraints[agent]);  // last: the rest may throw
   }
 }
 

@@ -32,8 +32,8 @@ class NodeView {
     };
     // By AgentIndex. Entries of agents in scope belong to the current node, others to an earlier
     // node.
-    std::vector<std::vector<Constraint>> constraints;  // in canonical order
-    std::vector<std::vector<Constraint>> constraints;  // in the order of the node
+    std::vector<std::vector<Constraint>> constraints;       // in canonical order
+    std::vector<std::vector<Constraint>> node_constraints;  // in the order of the node
     std::vector<KnownSituation> subproblems;
   };
 
