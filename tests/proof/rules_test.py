@@ -114,7 +114,7 @@ class Rules(unittest.TestCase):
                             "0 pass 9 10 4 7 | 0 pass 8 7 4 7", "0 pass 9 10 4 inf | 1 pass 8 7 4 inf", "0 pass 9 10 4 inf | 1 pass 8 7 4 7",
                             "0 pass 9 10 4 7 | 1 pass 1 7 4 7")
         for wrong in ("8 10", "9 8", "7 8", "9 3", "9 9"):
-            self.refused(2, "the last of a chain", HALL, "theorem 1", f"split 0 pass {wrong} 4 7 | 1 pass 8 7 4 7", "leaf", "leaf")
+            self.refused(2, "the last place of a chain", HALL, "theorem 1", f"split 0 pass {wrong} 4 7 | 1 pass 8 7 4 7", "leaf", "leaf")
 
     def test_who_turns_back_does_not_traverse(self):
         # Barred from traversing either way it may still go in and out: to task 0 on 8.
@@ -210,7 +210,7 @@ class Rules(unittest.TestCase):
         self.refused(3, "prices prove 4", CROSS, "theorem 5", "prices", "end")
         self.refused(4, "prices prove 4", CROSS, "theorem 5", "prices", "place 5 2 600", "end")  # used once, on arrival
         self.verified(CROSS, "theorem 5", "prices", "finish 0 2 1 2 1024", "end")
-        self.refused(3, "may both have finished", CROSS, "theorem 5", "prices", "finish 0 3 1 2 1024", "end")
+        self.refused(3, "both agents may have finished", CROSS, "theorem 5", "prices", "finish 0 3 1 2 1024", "end")
         self.refused(3, "", CROSS, "theorem 5", "prices", "finish 1 2 0 2 1024", "end")
         self.verified(SWAP, "theorem 3", "prices", "edge 0 1 1 1024", "end")
         self.refused(4, "prices prove 3", SWAP, "theorem 4", "prices", "edge 0 1 1 1024", "end")

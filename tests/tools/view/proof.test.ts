@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A certificate's tree, what it says in words, and walking through it.
+// Tree of a certificate, its texts, and navigation.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -24,7 +24,7 @@ const kWhole = read("following yes", ...kLemma, "theorem 12",
   "split 0 norest 3 5 | 0 rest 3 5", "leaf 0", "later 0 4 1 5 0", "leaf", "split 1 move 1 2 3 3 | 0 move 2 1 3 3",
   "leaf", "leaf 0");
 
-test("trees are read in their order, with lines as the file has them", () => {
+test("trees are read in order, with their lines", () => {
   const { theorem, lemmas } = kWhole;
   assert.deepEqual(theorem.steps.map(({ kind, line, depth, leaves }) => [kind, line, depth, leaves]), [
     ["split", 10, 0, 4], ["leaf", 11, 1, 1], ["later", 12, 1, 3], ["leaf", 13, 2, 1], ["split", 14, 2, 2],
@@ -38,7 +38,7 @@ test("trees are read in their order, with lines as the file has them", () => {
     "a does not go from [2, 0] to [1, 0], arriving at 3"]);
 });
 
-test("what a certificate proves, and by how much", () => {
+test("texts of theorem and plan state bound and gap", () => {
   assert.equal(theoremText(kWhole), "No plan costs less than 12");
   assert.equal(howText(kWhole), "proven by 3 splits, 4 leaves and 1 lemma");
   const none = read("following no", "theorem inf", "leaf");
@@ -51,7 +51,7 @@ test("what a certificate proves, and by how much", () => {
   assert.match(planText(3, 0), /does not tell/);
 });
 
-test("each kind of constraint", () => {
+test("each kind of constraint has a text", () => {
   const said = (line: string) => {
     const { theorem } = read("following yes", "theorem 1", `split ${line} | 2 bar 0 0 0`, "leaf", "leaf");
     return constraintText(kModel, theorem.root.sides[0]);
@@ -67,14 +67,14 @@ test("each kind of constraint", () => {
   assert.equal(said("0 nostop 1 0"), "a does another task than t as its stop 2");
 });
 
-test("places on roads have their names", () => {
+test("places on roads are named", () => {
   const roads = model(kRoads, [{ id: "a", start: 0 }], [], [{ path: "@0;" }]);
   const lines = ["grove-proof 1", "instance 0", "following yes", "theorem 1", "split 0 bar 0 1 1 | 0 bar 4 1 1", "leaf", "leaf", "end"];
   const { sides } = readCertificate(lines.join("\n"), roads).theorem.root;
   assert.deepEqual(sides.map((constraint) => constraintText(roads, constraint)), ["a is not on A at 1", "a is not on A–B 2 at 1"]);
 });
 
-test("why no plan is lost by a split", () => {
+test("splits have their reasons", () => {
   const why = (line: string, following = "yes") => {
     const certificate = read(`following ${following}`, ...kLemma, "theorem 1", line, "leaf", "leaf");
     return whyText(kModel, certificate.following, certificate.theorem.root);
@@ -89,13 +89,13 @@ test("why no plan is lost by a split", () => {
   assert.match(why("later 0 4 1 4 0"), /together cost at most 8, and lemma 0 says that they cost more/);
   for (const none of ["0 bar 4 1 1 | 0 bar 4 1 1", "0 bar 4 1 1 | 1 rest 4 1", "0 norest 3 7 | 1 rest 3 7"])
     assert.equal(why(`split ${none}`), "", none);
-  // As the rules of docs/proof.md have them: the same places and times.
+  // The rules of docs/proof.md require the same places and times.
   for (const none of ["0 bar 4 1 1 | 1 bar 5 1 1", "0 bar 4 1 2 | 1 bar 4 1 2", "0 bar 4 1 1 | 1 bar 4 2 2",
     "0 move 1 2 3 3 | 1 move 1 2 3 3", "0 norest 3 7 | 0 rest 3 8", "0 stop 0 0 | 0 nostop 1 0"])
     assert.equal(why(`split ${none}`), "", none);
 });
 
-test("what is left where nothing is split", () => {
+test("steps without a split have their reasons", () => {
   const { theorem, lemmas } = kWhole;
   assert.deepEqual(theorem.steps.map(noteText),
     ["4 leaves", "lemma 0", "3 leaves", "individual costs", "2 leaves", "individual costs", "lemma 0"]);
@@ -110,7 +110,7 @@ test("what is left where nothing is split", () => {
   assert.match(closedText(kModel, none.lemmas[0], none.lemmas[0].root), /joint paths of a and c .*: there are none/);
 });
 
-test("prices make the map hot where they are", () => {
+test("prices are heat on their places", () => {
   const certificate = read("following yes", "theorem 7", "prices", "place 4 2 100", "edge 0 1 3 40", "place 4 3 60",
     "finish 0 4 1 5 9", "end");
   assert.equal(howText(certificate), "proven by 4 prices of places, moves and finish times");
@@ -118,7 +118,7 @@ test("prices make the map hot where they are", () => {
   assert.deepEqual([heat[4], heat[0], heat[1], heat[2]], [1, 0.125, 0.125, 0]);
 });
 
-test("steps are chosen, folded and unfolded", () => {
+test("steps can be selected, folded and unfolded", () => {
   const app = new ProofApp(kModel, kWhole);
   assert.equal(app.rows.length, 7);
   assert.deepEqual(app.agents, [0]);
@@ -140,7 +140,7 @@ test("steps are chosen, folded and unfolded", () => {
   assert.equal(app.rows.length, 1);
 });
 
-test("as deep as it is long", () => {
+test("a proof may be as deep as it is long", () => {
   const lines = ["following yes", "theorem 5"];
   for (let i = 0; i < 20_000; ++i) lines.push("split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf");
   const certificate = read(...lines, "leaf");
@@ -151,7 +151,7 @@ test("as deep as it is long", () => {
   assert.equal(app.rows.length, 40_001);
 });
 
-test("what is no certificate says where", () => {
+test("wrong certificates are refused with the line", () => {
   assert.throws(() => read("following yes", "theorem 1", "leaf 0"), /^Error: line 5: expected a valid number/);
   assert.throws(() => read("following yes", "theorem 1", "split 0 bar 4 1 1", "leaf"), /line 5: expected another word/);
   assert.throws(() => read("following yes", "theorem 1", "split 9 bar 4 1 1 | 0 bar 4 1 1"), /line 5/);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The log of a run as its page reads it, and the tree as it is laid out.
+// The log of a run, and the layout of its tree.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -17,7 +17,7 @@ function read(...events: object[]) {
   return log.run;
 }
 
-test("reads what a run says", () => {
+test("a log is read", () => {
   const run = read(header(), row({ lower_bound: 30, raised_by: { sequences: 30 } }),
     incumbent({ time_s: 1, lower_bound: 30, incumbent: 33 }), counts({ prices_asked: 5 }), summary(33, 33));
   assert.equal(run.header!.agents, 2);
@@ -28,7 +28,7 @@ test("reads what a run says", () => {
   assert.equal(run.summary!.cost, 33);
 });
 
-test("a line that has not ended waits for the rest, wherever it is cut", () => {
+test("an incomplete line waits for the rest", () => {
   const text = lines([header(), row({}), root(0), summary(3, 3)]);
   for (let cut = 0; cut <= text.length; ++cut) {
     const log = new Log();
@@ -39,7 +39,7 @@ test("a line that has not ended waits for the rest, wherever it is cut", () => {
   }
 });
 
-test("says what is wrong and in which line", () => {
+test("errors name the line", () => {
   const wrong: [object[], RegExp][] = [
     [[row({})], /line 1: event: expected 'header' first/],
     [[header(), row({ lower_bound: "many" })], /line 2: lower_bound: expected a number/],
@@ -54,11 +54,11 @@ test("says what is wrong and in which line", () => {
   assert.throws(() => log.add(`${lines([header()])}{"event": \n`), /line 2: the data is no JSON/);
 });
 
-test("passes over what it does not know", () => {
+test("unknown events are ignored", () => {
   assert.equal(read(header(), { event: "weather", text: "fine" }, row({})).rows.length, 1);
 });
 
-test("a tree is what its events say", () => {
+test("a tree is built from its events", () => {
   const run = read(header(), root(0), node(0, "raise", [1]), node(1, "split", [2, 3]), node(3, "plan", []));
   assert.equal(run.roots.length, 1);
   const split = run.roots[0].children[0];
@@ -88,7 +88,7 @@ function randomTree(seed: number, size: number): TreeNode[] {
   return nodes;
 }
 
-test("no two nodes are drawn on each other, and parents stand over their children", () => {
+test("nodes do not overlap; parents are over their children", () => {
   for (let seed = 1; seed <= 100; ++seed) {
     const nodes = randomTree(seed, seed * 3);
     const placed = layout([nodes[0]]);
@@ -107,7 +107,7 @@ test("no two nodes are drawn on each other, and parents stand over their childre
   }
 });
 
-test("a tree as deep as it is large is laid out", () => {
+test("a very deep tree is laid out", () => {
   const nodes = randomTree(1, 1);
   for (let i = 1; i < 100_000; ++i) {
     const parent = nodes[i - 1];

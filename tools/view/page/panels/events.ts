@@ -35,7 +35,7 @@ export class Events {
     if (robot === this.chosen) return false;
     this.chosen = robot;
     this.only.hidden = robot < 0;
-    if (robot >= 0) setText(this.only, `only ${this.app.model.agents[robot].name}`);
+    if (robot >= 0) setText(this.only, `only robot ${this.app.model.agents[robot].name}`);
     return this.onlyChosen;
   }
 
