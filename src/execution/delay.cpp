@@ -65,7 +65,7 @@ class Wishes {
                          : fmt::format("'{}'", instance.agent(order.actions()[other].agent).id);
   throw InfeasibleDelay(
       action.agent,
-      fmt::format("'{}' cannot be at {} by step {}, because {} had not left it",
+      fmt::format("'{}' cannot have reached {} by step {}, because {} had not left it",
                   instance.agent(action.agent).id, instance.world().name(action.to), time, before));
 }
 

@@ -238,13 +238,13 @@ void add_bench_command(CLI::App& root) {
       ->required()
       ->type_name("");
   add_repeated(*app, "--run", a->runs, "'NAME: OPTIONS'",
-               "method: a name and options of grove solve (repeatable)")
-      add_repeated(
-          *app, "--solver", a->solvers, "'NAME=COMMAND'",
-          "external solver (repeatable): eecbs=PROGRAM OPTIONS, with the adapter of that name; "
-          "NAME=ADAPTER:PROGRAM OPTIONS; or NAME=COMMAND with placeholders such as {map}, "
-          "{scenario}, "
-          "{agents}, {instance}, {time_limit}, {seed}, {output}");
+               "method: a name and options of grove solve (repeatable)");
+  add_repeated(
+      *app, "--solver", a->solvers, "'NAME=COMMAND'",
+      "external solver (repeatable): eecbs=PROGRAM OPTIONS, with the adapter of that name; "
+      "NAME=ADAPTER:PROGRAM OPTIONS; or NAME=COMMAND with placeholders such as {map}, "
+      "{scenario}, "
+      "{agents}, {instance}, {time_limit}, {seed}, {output}");
   add_repeated(
       *app, "--claimed-cost", a->claims, "'NAME=REGEX'",
       "where solver NAME, which writes no plan, prints the cost that it claims: group 1 of "

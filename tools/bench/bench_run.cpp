@@ -35,6 +35,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kCsvInterval_s = 30;  // each time the whole file is written
 // A flush takes longer than a short run. Rows lost in a crash of the machine are run again.
+constexpr double kFlushInterval_s = 1;
 constexpr auto kWatchInterval = std::chrono::milliseconds(100);
 constexpr double kMaxCheckTime_s = 3600;
 

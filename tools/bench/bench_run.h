@@ -36,7 +36,8 @@ struct BenchOptions {
   std::string verify;       // path of grove-verify; "": without certificates
   double root_cost_s = 10;  // time limit for the root cost of an instance
   double root_cost_gb = 1;  // limit of the memory of this process while it computes one
-  double grace_s = 10;      // a run is killed at grace_factor * (its time limit) + grace_s
+  double grace_s = 10;      // a run is killed at grace_factor * limit + grace_s; an
+                            // external solver that does not receive the limit: at the limit
   double grace_factor = 1.1;
   std::string version;            // for rows of runs that do not report one
   std::string machine;            // description of the processor, for the rows

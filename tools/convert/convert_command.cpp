@@ -199,7 +199,7 @@ void add_options_of_roads(CLI::App& command, ConvertArguments& arguments) {
   command.add_flag(
       "--merge-lanes", arguments.merges_lanes,
       "merge two opposite one-way edges with the same number of steps into one two-way "
-      "road: a lane that robots share")
+      "road: a lane that robots share");
 }
 
 void add_options(CLI::App& command, ConvertArguments& arguments) {
@@ -234,8 +234,8 @@ void add_options(CLI::App& command, ConvertArguments& arguments) {
       ->type_name("TYPE-N");
   command.add_flag("--flip-up-down", arguments.flip_up_down,
                    "with --to tracker: write y + 1 as u, as the tracker's downloads do; its "
-                   "documentation says y - 1, so submit one small plan first")
-      add_confine_option(command, arguments.confined);
+                   "documentation says y - 1, so submit one small plan first");
+  add_confine_option(command, arguments.confined);
   arguments.frame.add_to(command);
   add_number(command, "--robot-radius", arguments.robot_radius, 0, 100,
              "maps of ROS: minimum distance of the middle of a robot from walls, metres")

@@ -34,10 +34,10 @@ Grid load_map(const std::string& map);
 Scenario load_scenario(const std::string& file, const std::string& map, const Grid& grid);
 
 // Draws a scenario for `map` with as many rows as the instance needs.
+Scenario draw_scenario(const std::string& map, const Grid& grid, const InstanceRequest& request,
                        std::int64_t seed);
 
-                       // Returns the path of `map` as an instance file at `instance` must name it.
-                       std::string map_as_seen_from(const std::filesystem::path& instance,
-                                                    const std::string& map);
+// Returns the path of `map` as an instance file at `instance` must name it.
+std::string map_as_seen_from(const std::filesystem::path& instance, const std::string& map);
 
-                       }  // namespace grove::detail
+}  // namespace grove::detail
