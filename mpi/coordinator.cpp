@@ -167,7 +167,7 @@ void Coordinator::handle(int from, message::Message&& message) {
                    for (const auto& [rank, survey] : account.survey.ranks)
                      surveys_[rank] = account.survey;
                  },
-                 [&](message::RankFinished& message) { leave(message); }, unexpected},
+                 [&](message::RankFinished& finished) { leave(finished); }, unexpected},
       message);
   heard_at_ = limits_.now();  // not before: writing a checkpoint takes time
 }
@@ -236,8 +236,8 @@ std::int64_t Coordinator::check_unresponsive_ranks() {
     return 0;
   }
   if (!ending_ || now - *stopped_at_ < 2 * kLongSilence) return 0;
-  const auto& message = finished_.survey.ranks;
-  return transport_.ranks() - std::ssize(message) - (message.contains(0) ? 0 : 1);
+  const auto& ranks = finished_.survey.ranks;
+  return transport_.ranks() - std::ssize(ranks) - (ranks.contains(0) ? 0 : 1);
 }
 
 Solution Coordinator::conclude() {

@@ -39,7 +39,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
                         },
                         [&](message::ProcessStatistics& account) { parent_.send(account); },
                         [&](message::SnapshotTaken& parts) { gathered(parts); },
-                        [&](message::RankFinished& message) { send_finished(message); },
+                        [&](message::RankFinished& finished) { send_finished(finished); },
                         [&](message::SendNodes& ordered) { order(ordered); },
                         [&](message::ReleaseCustody& release) {
                           children_.send(children_.with(release.from), release);

@@ -190,29 +190,29 @@ class Reader {
   }
 
   CertificateConstraint constraint() {
-    using Kind = CertificateConstraint::Kind;
+    using CertificateKind = CertificateConstraint::Kind;
     CertificateConstraint constraint;
     constraint.agent = agent();
-    constraint.kind =
-        static_cast<Kind>(one_of({"bar", "move", "norest", "rest", "pass", "stop", "nostop"}));
+    constraint.kind = static_cast<CertificateKind>(
+        one_of({"bar", "move", "norest", "rest", "pass", "stop", "nostop"}));
     switch (constraint.kind) {
-      case Kind::kVertexOrEdge:
+      case CertificateKind::kVertexOrEdge:
         constraint.p = place();
         span(constraint);
         break;
-      case Kind::kMove:
-      case Kind::kPass:
+      case CertificateKind::kMove:
+      case CertificateKind::kPass:
         constraint.p = place();
         constraint.q = place();
         span(constraint);
         break;
-      case Kind::kNoRest:
-      case Kind::kRest:
+      case CertificateKind::kNoRest:
+      case CertificateKind::kRest:
         constraint.p = place();
         constraint.begin = constraint.end = time();
         break;
-      case Kind::kStop:
-      case Kind::kNoStop:
+      case CertificateKind::kStop:
+      case CertificateKind::kNoStop:
         constraint.p = small("the number of a stop", tasks_);
         constraint.q = task();
     }

@@ -18,13 +18,13 @@ function read(...events: object[]) {
 }
 
 test("a log is read", () => {
-  const run = read(header(), row({ lower_bound: 30, raised_by: { sequences: 30 } }),
-    incumbent({ time_s: 1, lower_bound: 30, incumbent: 33 }), counts({ prices_asked: 5 }), summary(33, 33));
+  const run = read(header(), row({ lower_bound: 30, raised_by: { individual: 30 } }),
+    incumbent({ time_s: 1, lower_bound: 30, incumbent: 33 }), counts({ mdd_queries: 5 }), summary(33, 33));
   assert.equal(run.header!.agents, 2);
   assert.equal(run.rows.length, 2);
-  assert.equal(run.rows[0].raisedBy.get("sequences"), 30);
+  assert.equal(run.rows[0].raisedBy.get("individual"), 30);
   assert.equal(run.rows[1].source, "tree");
-  assert.equal(run.counts[0].counts.get("prices_asked"), 5);
+  assert.equal(run.counts[0].counts.get("mdd_queries"), 5);
   assert.equal(run.summary!.cost, 33);
 });
 
@@ -54,12 +54,29 @@ test("errors name the line", () => {
   assert.throws(() => log.add(`${lines([header()])}{"event": \n`), /line 2: the data is no JSON/);
 });
 
+test("logs with the old names are read", () => {
+  const old = { ...node(1, "split", []), split: "rest-by",
+    children: [{ node: 2, bound: 3, cost: 3, demand: "r1 waits" }] };
+  const run = read(header(), row({ raised_by: { groups: 30 } }), incumbent({ source: "configurations" }),
+    counts({ path_sets_asked: 5 }, { memory_mb: { process: 10, nodes: 1, prices: 2, path_sets: 3, groups: 4 } }),
+    root(0), node(0, "raise", [1]), old, node(2, "closed", []));
+  assert.equal(run.rows[0].raisedBy.get("wdg"), 30);
+  assert.equal(run.rows[1].source, "lacam");
+  assert.equal(run.counts[0].counts.get("mdd_queries"), 5);
+  assert.deepEqual(run.counts[0].memory, [1, 2, 3, 4]);
+  const split = run.roots[0].children[0];
+  assert.equal(run.roots[0].expanded!.outcome, "bound_raised");
+  assert.equal(split.expanded!.split, "target");
+  assert.equal(split.children[0].constraint, "r1 waits");
+  assert.equal(split.children[0].expanded!.outcome, "pruned");
+});
+
 test("unknown events are ignored", () => {
   assert.equal(read(header(), { event: "weather", text: "fine" }, row({})).rows.length, 1);
 });
 
 test("a tree is built from its events", () => {
-  const run = read(header(), root(0), node(0, "raise", [1]), node(1, "split", [2, 3]), node(3, "plan", []));
+  const run = read(header(), root(0), node(0, "bound_raised", [1]), node(1, "split", [2, 3]), node(3, "plan", []));
   assert.equal(run.roots.length, 1);
   const split = run.roots[0].children[0];
   assert.equal(split.expanded!.order, 2);
@@ -75,7 +92,7 @@ function randomTree(seed: number, size: number): TreeNode[] {
   const dice = (sides: number) => (state = (state * 48271) % 0x7fffffff) % sides;
   const make = (number: number, parent: TreeNode | null): TreeNode => ({
     number, parent, tree: 0, depth: parent ? parent.depth + 1 : 0, bound: 0, cost: 0, conflicts: null,
-    demand: "", children: [], expanded: null,
+    constraint: "", children: [], expanded: null,
   });
   const nodes = [make(0, null)];
   while (nodes.length < size) {
@@ -151,6 +168,6 @@ test("verdict reports the quality of the plan", () => {
 
 // Named by the constraint of the second child: src/conflicts/target.cpp, src/search/wdg_heuristic.cpp.
 test("splits have the texts of their techniques", () => {
-  assert.match(kSplits["rest-by"], /rests early and no other robot passes/);
-  assert.match(kSplits["no-rest-by"], /two robots together cost more/);
+  assert.match(kSplits["target"], /rests early and no other robot passes/);
+  assert.match(kSplits["cost"], /two robots together cost more/);
 });

@@ -11,11 +11,11 @@ import { kBoundSources, kPlanSources, megabytes, number, percent, seconds } from
 // Signs for the sources of plans, and for an increase of the bound.
 export const kBoundSign = "⊥";
 export const kSigns: Record<string, string> = {
-  tree: "●", start: "■", priorities: "▲", configurations: "◆", neighborhood: "+",
+  tree: "●", start: "■", prioritized: "▲", lacam: "◆", lns: "+",
 };
 export const kMemoryNames: Record<string, string> = {
-  nodes: "tree nodes", prices: "costs of single robots", path_sets: "MDDs (all paths of one cost)",
-  groups: "costs of groups of robots",
+  nodes: "tree nodes", subproblems: "costs of single robots", mdds: "MDDs (all paths of one cost)",
+  dependencies: "costs of groups of robots",
 };
 
 export function endOf(run: Run): number {

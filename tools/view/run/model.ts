@@ -26,7 +26,7 @@ export interface Row {
 }
 
 // Megabytes by kind.
-export const kMemory = ["nodes", "prices", "path_sets", "groups"] as const;
+export const kMemory = ["nodes", "subproblems", "mdds", "dependencies"] as const;
 export interface Counts {
   time: number;
   counts: Map<string, number>;
@@ -44,7 +44,7 @@ export interface Rank {
   calls: number | null; // low-level searches
 }
 
-export type Outcome = "split" | "raise" | "plan" | "closed";
+export type Outcome = "split" | "bound_raised" | "plan" | "pruned";
 
 export interface Expanded {
   order: number; // from 1
@@ -64,7 +64,7 @@ export interface TreeNode {
   bound: number;
   cost: number;
   conflicts: number | null;
-  demand: string; // its constraint, in words
+  constraint: string; // its constraint, in words
   children: TreeNode[];
   expanded: Expanded | null;
 }

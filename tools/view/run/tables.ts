@@ -68,8 +68,8 @@ export function workTable(run: Run): HTMLElement {
   const known = (asked: string, had: string) => of(asked) > 0
     ? `${number(of(asked))}, ${Math.round((100 * of(had)) / of(asked))} % from the cache` : "none";
   return table(["Work", ""], [
-    ["Branching: costs of a robot under one more constraint", known("prices_asked", "prices_known")],
-    ["MDDs (all optimal paths of a robot)", known("path_sets_asked", "path_sets_known")],
+    ["Branching: costs of a robot under one more constraint", known("branching_cost_queries", "branching_cost_hits")],
+    ["MDDs (all optimal paths of a robot)", known("mdd_queries", "mdd_hits")],
     ["Path searches for one robot", number(of("low_level_calls"))],
     ["Nodes of joint searches for two robots", number(of("pair_expansions"))],
     ["Conflicts avoided at no cost (bypasses)", number(of("bypasses"))],

@@ -84,7 +84,7 @@ export class TreeView {
     const lines = [
       `Bound ${number(node.bound)}, cost of its paths ${number(node.cost)}` +
         (node.conflicts === null ? "" : `, ${number(node.conflicts)} conflicts`),
-      node.demand && `Constraint: ${node.demand}`,
+      node.constraint && `Constraint: ${node.constraint}`,
       ...this.whatBecame(node),
     ];
     this.details.replaceChildren(el("h3", {}, `Node ${node.number}${node.parent ? "" : `, root of tree ${node.tree}`}`),

@@ -3,38 +3,37 @@
 
 import type { Run } from "./model";
 
-// Texts for `splits_...` counters and `split` of nodes: the kind of the second constraint, with dashes.
+// Texts for `splits_...` counters and `split` of nodes, with dashes.
 export const kSplits: Record<string, string> = {
-  "bar": "one of two robots avoids a place or a move at some time",
-  "no-rest-by": "two robots together cost more than each on its own: one of them finishes later",
-  "rest-by": "a robot rests early and no other robot passes, or it rests later",
-  "no-traversal": "one of two robots does not pass through a corridor at some time",
-  "stop-is": "a robot visits this place as its next one, or does not",
-  "stop-is-not": "a robot visits this place as its next one, or does not",
+  "vertex-edge": "one of two robots avoids a place or a move at some time",
+  "cost": "two robots together cost more than each on its own: one of them finishes later",
+  "target": "a robot rests early and no other robot passes, or it rests later",
+  "corridor": "one of two robots does not pass through a corridor at some time",
+  "sequence": "a robot visits this place as its next one, or does not",
 };
 
 export const kPlanSources: Record<string, string> = {
   tree: "the tree search",
   start: "given by --start or a checkpoint",
-  priorities: "robots planned one after the other (prioritized planning)",
-  configurations: "all robots moved together (LaCAM)",
-  neighborhood: "parts of a plan planned again (large neighbourhood search)",
+  prioritized: "robots planned one after the other (prioritized planning)",
+  lacam: "all robots moved together (LaCAM)",
+  lns: "parts of a plan planned again (large neighbourhood search)",
   joint: "all robots searched together (A*)",
 };
 
 export const kBoundSources: Record<string, string> = {
-  sequences: "costs of single robots",
-  groups: "joint costs of groups of robots",
-  splits: "splits on conflicts",
+  individual: "costs of single robots",
+  wdg: "joint costs of groups of robots",
+  branching: "splits on conflicts",
   joint: "joint search of all robots",
   tree: "the tree search of the ranks",
 };
 
 export const kOutcomes: Record<string, string> = {
   split: "split into two nodes",
-  raise: "bound raised: groups of robots cost more together",
+  bound_raised: "bound raised: groups of robots cost more together",
   plan: "its paths are a plan without conflicts",
-  closed: "pruned: no plan below this node is cheaper than the best one",
+  pruned: "pruned: no plan below this node is cheaper than the best one",
 };
 
 export function seconds(time: number): string {
