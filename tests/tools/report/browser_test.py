@@ -70,7 +70,7 @@ class Browser(unittest.TestCase):
 
     def test_a_false_claim_is_seen_at_once_and_figures_fit_a_phone(self):
         found = list(synthetic.solver_rows(1, agents=(20, 60)))
-        found[3] |= {"status": "wrong", "solved": False, "cost": None, "error": "the plan is wrong: agents 3 and 7 collide"}
+        found[3] |= {"status": "invalid", "solved": False, "cost": None, "error": "the plan is wrong: agents 3 and 7 collide"}
         page = self.report(found)
         seen = self.browser.visit(page, size=(400, 2400))
         self.assertEqual((seen.console, seen.requests), ([], []))

@@ -198,8 +198,8 @@ class Refusals(Folder):
                 ("counts", "bypasses", "numbers as name=7, separated by blanks"),
                 ("counts", {"bypasses": 7}, "numbers as name=7, separated by blanks"),
                 ("counts", "bypasses=-1 a=2", "numbers as name=7, separated by blanks"),
-                ("status", "timeout", "one of optimal, bounded, feasible, infeasible, unknown, error, wrong, "
-                 "claimed, unsuitable"),
+                ("status", "timeout", "one of optimal, bounded, feasible, infeasible, unknown, error, invalid, "
+                 "claimed, unsupported"),
                 ("trace", "0.1:5", "plans as seconds:cost:bound, separated by blanks"),
                 ("trace", "0.1:x:-", "plans as seconds:cost:bound, separated by blanks")):
             for name, place in (("a.csv", "row 2 (line 3)"), ("a.jsonl", "row 2")):
@@ -246,9 +246,9 @@ class Measures(unittest.TestCase):
 
     def test_claims_are_counted_and_solve_nothing(self):
         found = measures([row(), failed(instance="j", status="claimed", claimed_cost=5),
-                          failed(instance="k", status="wrong", cost=3), failed(instance="l")])
-        self.assertEqual((found.claimed, found.wrong, found.success), (1, 1, 0.25))
-        self.assertEqual(metrics.best_costs([failed(status="claimed", cost=5), failed(status="wrong", cost=3)]), {})
+                          failed(instance="k", status="invalid", cost=3), failed(instance="l")])
+        self.assertEqual((found.claimed, found.invalid, found.success), (1, 1, 0.25))
+        self.assertEqual(metrics.best_costs([failed(status="claimed", cost=5), failed(status="invalid", cost=3)]), {})
 
     def test_none_solved(self):
         found = measures([failed(omega="0")])
@@ -441,7 +441,7 @@ class FalseClaims(unittest.TestCase):
                                        trace=(rows.Point(1, 12, 8), rows.Point(2, 11, 10)), solver="z")), [])
 
     def test_a_wrong_plan(self):
-        found = proofs.false_claims([failed(method="x", status="wrong", error="agents 3 and 7 collide", seed=4)])
+        found = proofs.false_claims([failed(method="x", status="invalid", error="agents 3 and 7 collide", seed=4)])
         self.assertEqual([(each.method, each.seed, each.kind, each.what) for each in found],
                          [("x", 4, "plan", "agents 3 and 7 collide")])
 
@@ -460,7 +460,7 @@ class FalseClaims(unittest.TestCase):
         self.assertEqual(self.said(row(method="x", claimed_lower_bound=11)), [("x", "lower bound", 11, 10)])
         self.assertEqual(self.said(bound, known_costs={("mg", "i"): 10}), [("x", "lower bound", 11, 10)])
         # Plans that are none refute nothing.
-        self.assertEqual(self.said(failed(method="y", status="wrong", cost=10), bound), [("y", "plan", None, None)])
+        self.assertEqual(self.said(failed(method="y", status="invalid", cost=10), bound), [("y", "plan", None, None)])
 
 
 class OverTime(unittest.TestCase):
@@ -477,7 +477,7 @@ class OverTime(unittest.TestCase):
         # What is shown in the end was not told of; what was told is cheaper than what is shown.
         self.assertEqual(plans(trace=self.points((1, 14, None))), [(1, 14), (9, 10)])
         self.assertEqual(plans(trace=self.points((1, 14, None), (2, 8, None))), [(1, 14), (9, 10)])
-        self.assertEqual(anytime.plans_over_time(failed(status="wrong", cost=3)), [])
+        self.assertEqual(anytime.plans_over_time(failed(status="invalid", cost=3)), [])
 
     def test_bounds_of_a_run(self):
         told = row(wall_s=9.0, trace=self.points((1, 14, 7), (2, 12, 7), (3, 10, 8)), lower_bound=9)

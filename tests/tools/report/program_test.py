@@ -223,7 +223,7 @@ class Reports(Folder):
         page, _ = self.report(self.results(found))
         self.assertEqual(self.table("search_mg"), [
             {"method": "auto", "omega": "0.01", "time_limit_s": "180", "runs": "2", "bypasses": "13",
-             "prices_asked": "40", "prices_known": "20", "splits_bar": "8", "splits_new_kind": "1"}])
+             "branching_cost_queries": "40", "branching_cost_hits": "20", "splits_vertex_edge": "8", "splits_new_kind": "1"}])
         table = page.split("Table: other counters</summary>")[1].split("</details>")[0]
         self.assertEqual(re.findall(r'<td>([^<]*)</td><td class="number">([^<]*)', table),
                          [("bypasses: another path of the same cost", "6.5"),
@@ -354,7 +354,7 @@ class Reports(Folder):
         self.assertEqual([(row["method"], row["kind"]) for row in self.table("false_claims")],
                          [("eecbs", "plan"), ("eecbs", "cost"), ("eecbs", "lower bound")])
         entry, = [row for row in self.table("summary_mapf") if row["method"] == "eecbs"]
-        self.assertEqual((entry["wrong"], entry["claimed"], entry["solved"]), ("1", "1", "2"))
+        self.assertEqual((entry["invalid"], entry["claimed"], entry["solved"]), ("1", "1", "2"))
         self.assertIn(">only claimed</th>", page)
 
     def test_logs_of_runs(self):

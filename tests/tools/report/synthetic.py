@@ -43,9 +43,9 @@ def _counts(method, nodes):
     """Baselines count nothing."""
     if not method.startswith(("auto", "cts")):
         return None
-    found = {"bypasses": nodes // 9, "joint_pairs": 30 * nodes, "prices_asked": 8 * nodes, "prices_known": 6 * nodes,
-             "splits_bar": nodes // 2, "splits_no_traversal": nodes // 5, "splits_rest_by": nodes // 30,
-             "splits_no_rest_by": nodes // 7}
+    found = {"bypasses": nodes // 9, "joint_mdd_nodes": 30 * nodes, "branching_cost_queries": 8 * nodes, "branching_cost_hits": 6 * nodes,
+             "splits_vertex_edge": nodes // 2, "splits_corridor": nodes // 5, "splits_target": nodes // 30,
+             "splits_cost": nodes // 7}
     return " ".join(f"{name}={number}" for name, number in found.items() if number) or None
 
 
