@@ -17,7 +17,7 @@ DATA = Path(__file__).resolve().parents[2] / "benchmarks/data"
 EASY = DATA / "rooms-32x32_n5_m10.cts.json"
 LONG = DATA / "rooms-32x32_n10_m30.cts.json"
 ONE_WAY = DATA / "yard.cts.json"
-OPTIMAL = ["--omega", 0, "--cost-per-work", 1e-7]
+OPTIMAL = ["--omega", 0, "--seconds-per-work", 1e-7]
 
 
 class GroveSim(unittest.TestCase):
@@ -68,9 +68,14 @@ class GroveSim(unittest.TestCase):
         rows = self.rows(LONG, *OPTIMAL, "--ranks", "1,2", "--primal-steps", 0, "--time-limit", 0)
         self.assertEqual([row["status"] for row in rows], ["unfinished"] * 2)
 
+    def test_old_name_of_seconds_per_work(self):
+        old, new = (self.rows(EASY, "--omega", 0, name, 1e-7, "--ranks", 2)
+                    for name in ("--cost-per-work", "--seconds-per-work"))
+        self.assertEqual(old, new)
+
     def test_work_costs_what_it_takes_here(self):
         done = self.run_it(LONG, "--omega", 0, "--ranks", 1)
-        self.assertRegex(done.stderr, r"grove-sim: --cost-per-work \d")
+        self.assertRegex(done.stderr, r"grove-sim: --seconds-per-work \d")
 
     def test_where_nothing_is_expanded_there_is_a_table_too(self):
         rows = self.rows(EASY, "--omega", 1, "--ranks", "1,2", "--output", "table.csv")
