@@ -18,8 +18,6 @@ inline StopSet all_stops(int stops) {
 // Stops in the order of their visits; complete if it holds all n.
 using Sequence = std::vector<Stop>;
 
-// Defined in cost_matrix.h. Include that only to access a matrix: Eigen takes a third of the
-// compile time.
-struct CostMatrix;
+struct CostMatrix;  // cost_matrix.h
 
 }  // namespace grove::detail
