@@ -285,7 +285,7 @@ TEST(PrimalSearch, ACrowdGetsItsFirstPlanFromConfigurations) {
 
 TEST(PrimalSearch, WithoutConfigurationsThereAreNoJointSteps) {
   const Instance instance = crowd(1);
-  Search search(instance, 1, Techniques::all().without(Technique::kConfigurations));
+  Search search(instance, 1, Techniques::defaults().without(Technique::kConfigurations));
   search.plans(100);
   EXPECT_EQ(search.primal.counts().joint_steps, 0);
   EXPECT_GT(search.primal.counts().attempts, 1);

@@ -22,7 +22,6 @@ constexpr std::size_t kMostWays = 1500;
 SearchOptions options_of(std::uint64_t seed) {
   SearchOptions options{Techniques::defaults(), seed, true};
   if (seed % 3 == 0) options.techniques = options.techniques.without(Technique::kStrongBranching);
-  if (seed % 4 == 0) options.techniques = options.techniques.with(Technique::kSequenceSplits);
   return options;
 }
 
@@ -52,7 +51,6 @@ std::optional<Cost> true_excess(Below& s, const std::vector<AgentIndex>& group, 
   Cost apart = 0;
   for (const AgentIndex agent : group) {
     const auto demands = s.view.constraints(agent);
-    if (std::ranges::any_of(demands, is_about_sequence)) return std::nullopt;
     auto all =
         oracle::ways_within(s.instance, agent, demands, s.view.cost_of(agent) + most, kMostWays);
     if (!all) return std::nullopt;
