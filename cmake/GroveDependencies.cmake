@@ -2,7 +2,6 @@
 # All dependencies of the build are Debian packages of tools/packages; nothing is downloaded. The
 # dependencies of tests and benchmarks (tools/packages.test) are found in their folders.
 find_package(fmt REQUIRED)
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(nlohmann_json 3.10 REQUIRED)
 find_package(yaml-cpp 0.7 REQUIRED)
 find_package(pugixml 1.12 REQUIRED)

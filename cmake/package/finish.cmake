@@ -38,7 +38,7 @@ function(write_documents folder)
     "Upstream-Name: Grove\n"
     "Comment: Programs hold parts of libraries of others, as Debian has them: of CBC,\n"
     " Cgl, Clp, CoinUtils and Osi (EPL-2.0), CLI11 (BSD-3-Clause), nlohmann-json\n"
-    " (Expat), cereal (BSD-3-Clause), Eigen (MPL-2.0) and pybind11 (BSD-3-Clause);\n"
+    " (Expat), cereal (BSD-3-Clause) and pybind11 (BSD-3-Clause);\n"
     " grove-verify of Rust's standard library (Expat or Apache-2.0).\n\n"
     "Files: *\nCopyright: ${copyright}\nLicense: Expat\n\n"
     "Files: usr/libexec/grove/grove_vda5050/schemas/*\n"

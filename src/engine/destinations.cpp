@@ -59,8 +59,8 @@ class Ends {
   CostMatrix backwards(const Problem& problem) const {
     CostMatrix matrix = cost_matrix(problem.instance, agent_, problem.distances);
     const int n = matrix.stops();
-    matrix.cost.col(n).head(n) = matrix.cost.row(n).head(n);
-    matrix.cost.row(n).setZero();
+    for (int stop = 0; stop < n; ++stop) matrix.cost(stop, n) = matrix.cost(n, stop);
+    for (int to = 0; to <= n; ++to) matrix.cost(n, to) = 0;
     return matrix;
   }
 

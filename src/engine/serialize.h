@@ -184,7 +184,8 @@ void serialize(Archive& archive, Constraint& c) {
   auto kind = static_cast<std::uint8_t>(c.kind);
   archive(c.cell, c.from, c.begin, c.end, kind);
   const auto known = constraint_kind(kind);
-  if (!known) throw cereal::Exception("unknown kind of constraint");
+  if (!known || is_about_sequence({.kind = *known}))
+    throw cereal::Exception("unknown kind of constraint");
   c.kind = *known;
 }
 

@@ -33,8 +33,9 @@ enum class ConstraintKind : std::uint8_t {
   // `from`, arriving at a time in [begin, end], after it entered the corridor from the other end
   // and stayed inside since. Turning round inside and starting inside are not traversals.
   kNoTraversal = 3,
-  // In the order in which the stops are counted, stop number `begin` (from 0) is stop `from`, on
-  // `cell`, or is not. Such constraints define a sequence class (sequence_constraints.h).
+  // Only in certificates: in the order in which the stops are counted, stop number `begin` (from 0)
+  // is stop `from`, or is not. They state the sequence class of a tree; nodes have no such
+  // constraint.
   kStopIs = 4,
   kStopIsNot = 5,
 };

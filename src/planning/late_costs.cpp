@@ -170,7 +170,8 @@ CostToGo late_completions(const AgentStops& stops, CostMatrix late) {
   const auto make_direct = [&instance = stops.instance(), agent = stops.agent(), late,
                             plain = stops.cost_to_go().matrix()] {
     CostMatrix direct = direct_legs(instance, agent, late);
-    direct.cost.col(direct.cost.cols() - 1) = plain.cost.col(plain.cost.cols() - 1);
+    const int end = direct.cost.size() - 1;
+    for (int from = 0; from <= end; ++from) direct.cost(from, end) = plain.cost(from, end);
     return direct;
   };
   return CostToGo(std::move(late), {}, make_direct);

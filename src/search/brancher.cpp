@@ -119,30 +119,7 @@ bool Brancher::choose(const Task& task, std::span<const Split> fallback_splits, 
     const Conflict* conflict = task.view.conflict_between(split[0].agent, split[1].agent);
     if (conflict && !improve(best, {*conflict, split}, task)) return false;
   }
-  if (techniques.has(Technique::kSequenceSplits) && best.gain.first == 0)
-    if (!improve_by_sequences(best, task)) return false;
   chosen = best.gain.first >= 0 ? best.branching : earliest(task.view);
-  return true;
-}
-
-// Also considers splits on the next stops of the agents in conflict, if no conflict raises the cost
-// of both branches. Disabled by default. Measured on 19 rooms and random maps with 10 and 20
-// agents: up to twice as many nodes; restricted to nodes where no conflict raises the cost of
-// either branch, as many nodes as without.
-bool Brancher::improve_by_sequences(Choice& choice, const Task& task) {
-  const NodeView& view = task.view;
-  in_conflict_.clear();
-  for (const Conflict& c : view.conflicts())
-    in_conflict_.insert(in_conflict_.end(), {c.first, c.second});
-  std::ranges::sort(in_conflict_);
-  in_conflict_.erase(std::unique(in_conflict_.begin(), in_conflict_.end()), in_conflict_.end());
-  for (AgentIndex agent : in_conflict_) {
-    const auto split = planner_.sequence_split(agent, view.order(agent), view.constraints(agent),
-                                               view.path(agent));
-    const auto is_in = [&](const Conflict& c) { return c.first == agent || c.second == agent; };
-    if (split && !improve(choice, {*std::ranges::find_if(view.conflicts(), is_in), *split}, task))
-      return false;
-  }
   return true;
 }
 

@@ -86,7 +86,6 @@ class Brancher {
   // Returns false if a limit was reached.
   bool choose(const Task& task, std::span<const Split> fallback_splits, Branching& chosen);
   bool improve(Choice& choice, const Branching& by, const Task& task);
-  bool improve_by_sequences(Choice& choice, const Task& task);
   Branching earliest(const NodeView& view);
   bool evaluate_branch(const Task& task, const AgentConstraint& constraint, Branch& side);
   bool replan(const Task& task, const AgentConstraint& constraint, Branch& side);
@@ -107,7 +106,6 @@ class Brancher {
 
   std::vector<Split> splits_;
   std::array<Branch, 2> branches_;
-  std::vector<AgentIndex> in_conflict_;
   Path path_;
   std::optional<Branching> branching_;
   std::array<std::int64_t, kConstraintKinds> splits_made_{};

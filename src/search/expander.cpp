@@ -138,7 +138,7 @@ Plan Expander::plan(const Node& node) {
   Plan plan;
   for (AgentIndex i = 0; i < problem_.instance.agent_count(); ++i) {
     const Path& path = view_.path(i);
-    const Sequence sequence = planner_.sequence(i, *node.tree().orders[i], {}, path);
+    const Sequence sequence = planner_.sequence(i, *node.tree().orders[i], path);
     plan.agents.push_back(agent_plan(problem_.instance, i, sequence, path));
     plan.cost += plan.agents.back().cost;
   }

@@ -71,8 +71,7 @@ void NodeView::affected_agents(const AgentConstraint& constraint,
                                std::vector<AgentIndex>& agents) const {
   agents.clear();
   for_each_implied_constraint(constraint, scope_, [&](AgentIndex agent, const Constraint& c) {
-    if (is_about_sequence(c) ||
-        !satisfies(problem_.instance.world(), paths_[agent], c, problem_.corridors))
+    if (!satisfies(problem_.instance.world(), paths_[agent], c, problem_.corridors))
       agents.push_back(agent);
   });
 }

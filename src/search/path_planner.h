@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,7 +27,7 @@ class PathPlanner {
   PathPlanner(const Problem& problem, AgentStopsCache& stops,
               std::unique_ptr<AgentPlanner> free = nullptr, bool repeatable = false);
 
-  // As AgentPlanner::find(). The query holds the agent's constraints of all kinds.
+  // As AgentPlanner::find(). The query holds the agent's constraints.
   PathOutcome find(AgentIndex agent, const AgentSequencing& order, PathQuery query,
                    const Limits& limits, Path& path);
 
@@ -44,14 +43,8 @@ class PathPlanner {
                                           AgentGraph& graph);
 
   // Returns a sequence in which `path` visits the stops. `path` must realize a sequence that
-  // `order` and `constraints` allow.
-  Sequence sequence(AgentIndex agent, const AgentSequencing& order,
-                    std::span<const Constraint> constraints, const Path& path);
-
-  // Returns a split of the sequence class that `order` and `constraints` leave, on the next stop of
-  // `path`. `path` must satisfy both. Returns nullopt if they leave no choice.
-  std::optional<Split> sequence_split(AgentIndex agent, const AgentSequencing& order,
-                                      std::span<const Constraint> constraints, const Path& path);
+  // `order` allows.
+  Sequence sequence(AgentIndex agent, const AgentSequencing& order, const Path& path);
 
   // Calls of find() so far, and labels that they expanded.
   std::int64_t calls() const { return calls_; }
@@ -64,12 +57,7 @@ class PathPlanner {
   std::int64_t work() const { return expanded() + work::kPerCall * calls_; }
 
  private:
-  using Constraints = std::span<const Constraint>;
-
-  SequenceStages& free_goals(AgentIndex agent, const AgentSequencing& order,
-                             Constraints constraints);
-  SequenceStages& free_goals(AgentIndex agent, const SequenceClass& work);
-  Constraints on_path(Constraints constraints);
+  SequenceStages& free_goals(AgentIndex agent, const AgentSequencing& order);
 
   std::int64_t calls_ = 0;
   FixedOrderSipp fixed_;
@@ -78,9 +66,7 @@ class PathPlanner {
   TimeExpandedGraphs timed_;
   AgentStopsCache& stops_;
   bool repeatable_;
-  std::vector<std::vector<std::unique_ptr<SequenceStages>>>
-      free_goals_;  // by AgentIndex, then recently used classes, latest first
-  std::vector<Constraint> on_path_;
+  std::vector<std::unique_ptr<SequenceStages>> free_goals_;  // by AgentIndex, of the last class
 };
 
 }  // namespace grove::detail

@@ -16,14 +16,10 @@ constexpr std::array kDeprecatedNames = {
 
 }  // namespace
 
-Techniques Techniques::all() {
+Techniques Techniques::defaults() {
   Techniques set;
   for (const NamedTechnique& t : kTechniques) set = set.with(t.technique);
   return set;
-}
-
-Techniques Techniques::defaults() {
-  return all().without(Technique::kSequenceSplits);
 }
 
 std::string_view name_of(Technique technique) {

@@ -21,7 +21,6 @@ enum class Technique : std::uint8_t {
   kFewestConflicts,  // low level: among paths of equal cost, the fewest conflicts
   kTarget,           // split on the time from which an agent rests
   kCorridor,         // split on which of two agents passes a corridor first
-  kSequenceSplits,   // split on the next stop if no conflict raises both branches; not a default
   kWdg,              // WDG: bound from pairs of agents that cannot both have their best paths
   kJointMdd,         // find such pairs by their MDDs, without a search
   kCostSplits,       // split on which of two such agents costs more
@@ -47,7 +46,6 @@ inline constexpr std::array kTechniques = {
     NamedTechnique{Technique::kFewestConflicts, "fewest-conflicts"},
     NamedTechnique{Technique::kTarget, "target"},
     NamedTechnique{Technique::kCorridor, "corridor"},
-    NamedTechnique{Technique::kSequenceSplits, "sequence-splits"},
     NamedTechnique{Technique::kWdg, "wdg"},
     NamedTechnique{Technique::kJointMdd, "joint-mdd"},
     NamedTechnique{Technique::kCostSplits, "cost-splits"},
@@ -59,6 +57,9 @@ inline constexpr std::array kTechniques = {
     NamedTechnique{Technique::kLagrangianLns, "lagrangian-lns"},
 };
 
+// Former techniques. The options report that they were removed.
+inline constexpr std::array<std::string_view, 1> kRemovedTechniques = {"sequence-splits"};
+
 // A set of techniques; a value.
 class Techniques {
  public:
@@ -66,8 +67,7 @@ class Techniques {
   Techniques(std::initializer_list<Technique> techniques) {
     for (Technique t : techniques) bits_ |= bit(t);
   }
-  static Techniques all();
-  // Default of a run: all techniques that improved results when measured.
+  // All techniques: the default of a run.
   static Techniques defaults();
 
   bool has(Technique t) const { return (bits_ & bit(t)) != 0; }

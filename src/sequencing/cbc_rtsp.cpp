@@ -100,7 +100,7 @@ Contracted contract(const CostMatrix& matrix, const ClassRoot& root) {
   Contracted result;
   for_each_stop(root.left, [&](int stop) { result.stops.push_back(static_cast<Stop>(stop)); });
   const int m = static_cast<int>(result.stops.size());
-  result.matrix.cost.setZero(m + 1, m + 1);
+  result.matrix.cost = CostMatrix::Matrix(m + 1);
   for (int i = 0; i < m; ++i) {
     const int stop = result.stops[i];
     for (int j = 0; j < m; ++j) result.matrix.cost(i, j) = matrix.between(stop, result.stops[j]);

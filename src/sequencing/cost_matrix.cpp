@@ -17,21 +17,20 @@ CostMatrix cost_matrix(const Instance& instance, AgentIndex agent,
                        const DistanceFields& distances) {
   const Agent& who = instance.agent(agent);
   const World& world = instance.world();
-  const auto n = static_cast<Eigen::Index>(who.stops.size());
-  CostMatrix matrix{CostMatrix::Matrix::Zero(n + 1, n + 1)};
-  const auto fill_column = [&](Eigen::Index column, DistanceView distance) {
-    for (Eigen::Index row = 0; row < n; ++row)
+  const int n = static_cast<int>(who.stops.size());
+  CostMatrix matrix{CostMatrix::Matrix(n + 1)};
+  const auto fill_column = [&](int column, DistanceView distance) {
+    for (int row = 0; row < n; ++row)
       matrix.cost(row, column) =
           row == column ? 0
                         : least_from(world, instance.task(who.stops[row]).cell, who.kind, distance);
     matrix.cost(n, column) = distance[who.start];
   };
-  for (Eigen::Index stop = 0; stop < n; ++stop)
-    fill_column(stop, distances.to_task(who.stops[stop]));
+  for (int stop = 0; stop < n; ++stop) fill_column(stop, distances.to_task(who.stops[stop]));
   if (!instance.rests_on_last_stop(agent)) fill_column(n, distances.to_rest(agent));
   // Work in progress is completed first.
   if (world.is_working(who.start))
-    for (Eigen::Index stop = 0; stop < n; ++stop)
+    for (int stop = 0; stop < n; ++stop)
       if (who.stops[stop] != world.work(who.start).task) matrix.cost(n, stop) = kNever;
   return matrix;
 }
@@ -47,12 +46,12 @@ CostMatrix port_matrix(const Instance& instance, AgentIndex agent,
   if (!apply) return cost_matrix(instance, agent, distances);
 
   constexpr int kPorts = DistanceFields::kPorts;
-  CostMatrix matrix{CostMatrix::Matrix::Zero(n * kPorts + 1, n * kPorts + 1), kPorts};
+  CostMatrix matrix{CostMatrix::Matrix(n * kPorts + 1), kPorts};
   const auto state = [&](int port) {
     return world.bases(instance.task(who.stops[port / kPorts]).cell, who.kind).first +
            port % kPorts;
   };
-  const auto fill_column = [&](Eigen::Index column, DistanceView distance) {
+  const auto fill_column = [&](int column, DistanceView distance) {
     for (int port = 0; port < n * kPorts; ++port) matrix.cost(port, column) = distance[state(port)];
     matrix.cost(n * kPorts, column) = distance[who.start];
   };
@@ -69,9 +68,9 @@ CostMatrix port_matrix(const Instance& instance, AgentIndex agent,
 CostMatrix least_matrix(const CostMatrix& matrix) {
   if (matrix.ports == 1) return matrix;
   const int n = matrix.stops();
-  CostMatrix least{CostMatrix::Matrix::Constant(n + 1, n + 1, kNever)};
-  for (Eigen::Index row = 0; row < matrix.cost.rows(); ++row)
-    for (Eigen::Index column = 0; column < matrix.cost.cols(); ++column) {
+  CostMatrix least{CostMatrix::Matrix(n + 1, kNever)};
+  for (int row = 0; row < matrix.cost.size(); ++row)
+    for (int column = 0; column < matrix.cost.size(); ++column) {
       Time& cost = least.cost(row / matrix.ports, column / matrix.ports);
       cost = std::min(cost, matrix.cost(row, column));
     }

@@ -3,7 +3,8 @@
 // agents.
 #pragma once
 
-#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
 
 #include "model/distance_field.h"
 #include "model/instance.h"
@@ -22,15 +23,33 @@ namespace grove::detail {
 // port i to port j, ports 0 .. p - 1 being those of stop 0, and so on. Such a matrix is exact; one
 // without ports holds the least costs over the ports.
 struct CostMatrix {
-  using Matrix = Eigen::Matrix<Time, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  // Square, row-major.
+  class Matrix {
+   public:
+    Matrix() = default;
+    explicit Matrix(int size, Time entry = 0)
+        : size_(size), entries_(static_cast<std::size_t>(size) * size, entry) {}
+    int size() const { return static_cast<int>(size_); }
+    Time& operator()(std::ptrdiff_t row, std::ptrdiff_t column) {
+      return entries_[row * size_ + column];
+    }
+    Time operator()(std::ptrdiff_t row, std::ptrdiff_t column) const {
+      return entries_[row * size_ + column];
+    }
+    friend bool operator==(const Matrix&, const Matrix&) = default;
+
+   private:
+    std::ptrdiff_t size_ = 0;
+    std::vector<Time> entries_;
+  };
 
   Matrix cost;
   int ports = 1;  // of each stop
 
-  int stops() const { return (static_cast<int>(cost.rows()) - 1) / ports; }
-  Time from_start(int port) const { return cost(cost.rows() - 1, port); }
+  int stops() const { return (cost.size() - 1) / ports; }
+  Time from_start(int port) const { return cost(cost.size() - 1, port); }
   Time between(int from, int to) const { return cost(from, to); }
-  Time to_end(int port) const { return cost(port, cost.cols() - 1); }
+  Time to_end(int port) const { return cost(port, cost.size() - 1); }
   // The set of all stops.
   StopSet all() const { return all_stops(stops()); }
 };

@@ -30,7 +30,7 @@ class LocalSearch {
   }
   // The row of a position. Positions before the first and after the last stop are the start and the
   // end.
-  Eigen::Index row(std::ptrdiff_t position) const {
+  int row(std::ptrdiff_t position) const {
     return position < 0 || position >= std::ssize(sequence_) ? matrix_.stops()
                                                              : sequence_[position];
   }

@@ -28,10 +28,10 @@ inline constexpr Entry kUnreachable = std::numeric_limits<Entry>::max() / 2;
 // matrix.
 inline std::int64_t most_expensive(const CostMatrix& matrix) {
   std::int64_t sum = 0;
-  for (Eigen::Index row = 0; row < matrix.cost.rows(); ++row) {
+  for (int row = 0; row < matrix.cost.size(); ++row) {
     Time most = 0;
-    for (Time cost : matrix.cost.row(row))
-      if (cost < kNever) most = std::max(most, cost);
+    for (int column = 0; column < matrix.cost.size(); ++column)
+      if (const Time cost = matrix.cost(row, column); cost < kNever) most = std::max(most, cost);
     sum += most;  // counts all ports of a stop, although a sequence uses only one
   }
   return sum;

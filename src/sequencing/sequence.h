@@ -34,13 +34,11 @@ constexpr void for_each_stop(StopSet set, Visit visit) {
 // Stops in the order of their visits; complete if it holds all n.
 using Sequence = std::vector<Stop>;
 
-// Sum of two costs, each at most kNever; kNever absorbs.
+struct CostMatrix;  // Sum of two costs, each at most kNever; kNever absorbs.
 constexpr Time add_costs(Time a, Time b) {
   return std::min(a + (b - kNever), 0) + kNever;
 }
 
-// Defined in cost_matrix.h. Include that only to access a matrix: Eigen takes a third of the
-// compile time.
-struct CostMatrix;
+// Defined in cost_matrix.h
 
 }  // namespace grove::detail

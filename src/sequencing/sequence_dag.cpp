@@ -227,7 +227,8 @@ class SequenceDagBuilder {
   static CostMatrix ways(const CostMatrix& matrix, const DirectLegs* direct) {
     if (direct == nullptr) return {};
     CostMatrix any = matrix;
-    any.cost.col(any.cost.cols() - 1) = direct->matrix().cost.col(any.cost.cols() - 1);
+    const int end = any.cost.size() - 1;
+    for (int from = 0; from <= end; ++from) any.cost(from, end) = direct->matrix().cost(from, end);
     return least_matrix(any);
   }
 

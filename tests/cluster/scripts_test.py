@@ -29,7 +29,7 @@ VALUES = {
     "--incumbents": "best", "--proof": "bound.proof", "--output": "other.json", "--require-plan": None, "--log": "run.log",
     "--log-format": "jsonl", "--verbose": None, "--quiet": None, "--confine": None,
 }
-TECHNIQUES = {"--without": "bypass", "--with": "sequence-splits"}  # of the policy free
+TECHNIQUES = {"--without": "bypass"}  # of the policy free
 OF_SCENARIOS = {"--map": DATA / "empty-32x32.map", "--agents": "3"}
 
 

@@ -12,7 +12,7 @@ NodeRecord a_node() {
   NodeRecord record;
   record.constraints = {{3, {17, kNoCell, 4, kNever, ConstraintKind::kVertexOrEdge}},
                         {0, {17, 16, 4, 4, ConstraintKind::kNoTraversal}},
-                        {1, {5, kNoCell, 2, 0, ConstraintKind::kStopIsNot}}};
+                        {1, {5, kNoCell, 2, 0, ConstraintKind::kNoRestBy}}};
   record.paths = {{1, 25, {0x0123456789ABCDEF, 7}}, {4, 0, {}}};
   record.cost = 612;
   record.bound = 613;
@@ -170,7 +170,12 @@ TEST(Bytes, AreRefusedIfNoBoolOrConstraintKind) {
   EXPECT_TRUE(is_refused<bool>("\2"));
   Constraint constraint;
   std::string bytes = to_bytes(constraint);
-  bytes.back() = static_cast<char>(ConstraintKind::kStopIsNot) + 1;
+  // Nodes of earlier versions could have constraints on the sequence.
+  for (const auto kind : {ConstraintKind::kStopIs, ConstraintKind::kStopIsNot}) {
+    bytes.back() = static_cast<char>(kind);
+    EXPECT_TRUE(is_refused<Constraint>(bytes));
+  }
+  bytes.back() = static_cast<char>(kConstraintKinds);
   EXPECT_TRUE(is_refused<Constraint>(bytes));
 }
 

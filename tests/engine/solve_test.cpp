@@ -275,7 +275,7 @@ TEST(Solve, TwoRunsFindTheSamePlans) {
 TEST(Solve, PrimalSearchIsOffIfDisabledAndForTheFixedPolicy) {
   const Instance instance = two_doors();
   SolveOptions without;
-  without.techniques = Techniques::all().without(Technique::kPrimal);
+  without.techniques = Techniques::defaults().without(Technique::kPrimal);
   SolveOptions fixed;
   fixed.policy = Policy::kFixed;
   for (const SolveOptions& options : {without, fixed}) {

@@ -72,7 +72,7 @@ Techniques some_of(Techniques techniques, Techniques wanted, Random& random) {
 Techniques of_tree(Random& random) {
   return some_of({},
                  {Technique::kStrongBranching, Technique::kBypass, Technique::kFewestConflicts,
-                  Technique::kTarget, Technique::kCorridor, Technique::kSequenceSplits},
+                  Technique::kTarget, Technique::kCorridor},
                  random);
 }
 

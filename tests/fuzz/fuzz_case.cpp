@@ -83,8 +83,6 @@ void read_option(const std::string& line, FuzzCase& fuzz_case) {
     fuzz_case.options.threads = static_cast<int>(parse_number(value));
   else if (key == "deterministic")
     fuzz_case.options.deterministic = value == "yes";
-  else if (key == "with")
-    fuzz_case.options.techniques = fuzz_case.options.techniques.with(value_of_technique(value));
   else if (key == "without")
     fuzz_case.options.techniques = fuzz_case.options.techniques.without(value_of_technique(value));
   else if (key == "tune")
@@ -102,11 +100,11 @@ Techniques random_techniques(Random& random) {
     case 0:
       return Techniques();
     case 1:
-      return Techniques::all().without(one);
+      return Techniques::defaults().without(one);
     case 2:
       return Techniques{one};
     case 3: {
-      Techniques any = Techniques::all();
+      Techniques any = Techniques::defaults();
       for (const auto& [t, name] : kTechniques)
         if (random.below(2) == 0) any = any.without(t);
       return any;
@@ -185,8 +183,7 @@ std::string FuzzCase::to_text() const {
   if (options.threads != 1) text += fmt::format("threads {}\n", options.threads);
   if (options.deterministic) text += "deterministic yes\n";
   for (const auto& [t, name] : kTechniques)
-    if (options.techniques.has(t) != Techniques::defaults().has(t))
-      text += fmt::format("{} {}\n", options.techniques.has(t) ? "with" : "without", name);
+    if (!options.techniques.has(t)) text += fmt::format("without {}\n", name);
   if (options.node_memory != SolveOptions::kUnlimited)
     text += fmt::format("node-memory {}\n", options.node_memory);
   for (const Tunable& t : tunables())

@@ -246,7 +246,7 @@ TinyInstance draw(std::uint64_t seed, bool tiny, Random& random) {
 
 Techniques random_techniques(Random& random) {
   if (random.percent(40)) return Techniques::defaults();
-  Techniques any = Techniques::all();
+  Techniques any = Techniques::defaults();
   for (const auto& [t, name] : kTechniques)
     if (random.percent(35)) any = any.without(t);
   return any;

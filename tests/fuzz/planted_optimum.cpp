@@ -26,20 +26,18 @@ bool may_be_next(const SequenceClass& sequences, const Sequence& so_far, Stop st
 class RealizedSequences {
  public:
   RealizedSequences(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
-                    std::span<const Constraint> constraints, const Path& path)
+                    const Path& path)
       : instance_(instance),
         tasks_(instance.agent(agent).stops),
         rests_on_task_(instance.rests_on_last_stop(agent)),
         sequences_(sequences),
-        constraints_(constraints),
         path_(path) {}
 
   bool any(std::size_t time = 0) {
     if (so_far_.size() == tasks_.size())
       return !rests_on_task_ || instance_.is_visited(tasks_[so_far_.back()], path_.back());
     for (Stop stop = 0; stop < static_cast<Stop>(tasks_.size()); ++stop) {
-      if (std::ranges::count(so_far_, stop) > 0 || !may_be_next(sequences_, so_far_, stop) ||
-          !satisfies(stop))
+      if (std::ranges::count(so_far_, stop) > 0 || !may_be_next(sequences_, so_far_, stop))
         continue;
       const auto visit =
           std::find_if(path_.begin() + static_cast<std::ptrdiff_t>(time), path_.end(),
@@ -53,18 +51,10 @@ class RealizedSequences {
   }
 
  private:
-  bool satisfies(Stop next) const {
-    return std::ranges::all_of(constraints_, [&](const Constraint& c) {
-      if (!is_about_sequence(c) || c.begin != static_cast<Time>(so_far_.size())) return true;
-      return (next == c.from) == (c.kind == ConstraintKind::kStopIs);
-    });
-  }
-
   const Instance& instance_;
   const std::vector<TaskIndex>& tasks_;
   const bool rests_on_task_;
   const SequenceClass& sequences_;
-  const std::span<const Constraint> constraints_;
   const Path& path_;
   Sequence so_far_;
 };
@@ -74,10 +64,10 @@ class RealizedSequences {
 bool satisfies_all(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
                    std::span<const Constraint> constraints, const Path& path) {
   const auto satisfies = [&](const Constraint& c) {
-    return is_about_sequence(c) || testing::satisfies(instance.world(), path, c);
+    return testing::satisfies(instance.world(), path, c);
   };
   return std::ranges::all_of(constraints, satisfies) &&
-         RealizedSequences(instance, agent, sequences, constraints, path).any();
+         RealizedSequences(instance, agent, sequences, path).any();
 }
 
 PlantedOptimum::PlantedOptimum(const Instance& instance, Plan optimum)

@@ -119,19 +119,13 @@ TEST_F(PlantedInABay, BoundMayRiseAfterRestart) {
 TEST(SatisfiesAll, DerivesVisitOrderFromPath) {
   const Instance instance =
       TinyInstance::parse("map\n....\nagents\n0,0 -> -\ntasks\n1,0: 0\n3,0: 0\n").build();
-  const auto satisfies = [&](const Path& path, ConstraintKind kind, Cell first) {
-    const std::vector<Constraint> constraints{{first, first == 1 ? 0 : 1, 0, 0, kind}};
-    return satisfies_all(instance, 0, SequenceClass(), constraints, path);
-  };
   const Path there{0, 1, 2, 3};
-  EXPECT_TRUE(satisfies(there, ConstraintKind::kStopIs, 1));
-  EXPECT_FALSE(satisfies(there, ConstraintKind::kStopIsNot, 1));
-  EXPECT_FALSE(satisfies(there, ConstraintKind::kStopIs, 3));
   // Returning to rest on the first task makes it the last visit.
   const Path back{0, 1, 2, 3, 2, 1};
-  EXPECT_TRUE(satisfies(back, ConstraintKind::kStopIs, 3));
-  EXPECT_TRUE(satisfies(back, ConstraintKind::kStopIsNot, 1));
-  EXPECT_FALSE(satisfies(back, ConstraintKind::kStopIs, 1));
+  EXPECT_TRUE(satisfies_all(instance, 0, SequenceClass({0}, 0), {}, there));
+  EXPECT_FALSE(satisfies_all(instance, 0, SequenceClass({}, 1), {}, there));
+  EXPECT_TRUE(satisfies_all(instance, 0, SequenceClass({1}, 0), {}, back));
+  EXPECT_FALSE(satisfies_all(instance, 0, SequenceClass({0}, 0), {}, back));
   EXPECT_FALSE(satisfies_all(instance, 0, SequenceClass({1}, 0), {}, there));
   EXPECT_TRUE(satisfies_all(instance, 0, SequenceClass({}, 1), {}, back));
 }
@@ -188,23 +182,6 @@ TEST(PlantedOptimum, SurvivesWholeSearches) {
         followed += planted.nodes_followed();
       });
   EXPECT_GT(followed, 300u);
-}
-
-// Without other techniques: sequence splits are made only if no conflict raises the cost of both
-// children.
-TEST(PlantedOptimum, SurvivesSplitsOfSequenceClasses) {
-  std::size_t followed = 0;
-  follow_optima(
-      600, 1000,
-      [](const SolveOptions&) {
-        SolveOptions options;
-        options.techniques = {Technique::kStrongBranching, Technique::kSequenceSplits};
-        return options;
-      },
-      [&](const Solution&, const PlantedOptimum& planted) {
-        followed += planted.nodes_followed();
-      });
-  EXPECT_GT(followed, 1000u);
 }
 
 // Memory for a few nodes, and plain CBS, so that nodes must be evicted.

@@ -83,7 +83,7 @@ MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 SHOWN = re.compile(r"^(grove::(?!detail::)|(typeinfo|typeinfo name|vtable|VTT) for grove::(?!detail::)|"
                    r"(\w+ )*std::|.* std::)")
 # Libraries of which users see nothing, whatever they link.
-HIDDEN = re.compile(r"nlohmann|CLI::|YAML|pugi|fmt::|cereal|Eigen|grove::detail")
+HIDDEN = re.compile(r"nlohmann|CLI::|YAML|pugi|fmt::|cereal|grove::detail")
 
 
 def run(*command, folder=None, **environment):

@@ -286,7 +286,7 @@ TEST(PrimalSearch, DenseInstanceGetsItsFirstPlanFromLacam) {
 
 TEST(PrimalSearch, TakesNoJointStepsWithoutLacam) {
   const Instance instance = dense_instance(1);
-  Search search(instance, 1, Techniques::all().without(Technique::kLacam));
+  Search search(instance, 1, Techniques::defaults().without(Technique::kLacam));
   search.plans(100);
   EXPECT_EQ(search.primal.counts().joint_steps, 0);
   EXPECT_GT(search.primal.counts().attempts, 1);

@@ -21,6 +21,7 @@ from proofs import Prover, TooLong, text
 from worlds import INF
 
 GROVE = Path(sys.argv.pop(2)).resolve()
+OLD = Path(__file__).resolve().parent / "old"
 
 
 def trim(certificate, *options):
@@ -118,6 +119,13 @@ class Trimmed(unittest.TestCase):
                 seen[f"mutants {code}"] += 1
         for word in ("lemma", "demand", "split", "leaf", "mutants 0", "mutants 2"):
             self.assertGreater(seen[word], 5 * FACTOR, seen)
+
+    def test_certificates_of_removed_techniques_are_verified(self):
+        for proof in OLD.glob("*.proof"):
+            instance = proof.with_suffix(".cts.json")
+            verdict = checkers.verify(instance, proof.read_text())
+            self.assertEqual(verdict.code, 0, f"{proof}: {verdict.text}")
+            self.assertEqual(checkers.verify(instance, trimmed(proof.read_text())).text, verdict.text, proof)
 
     HEAD = "grove-proof 1\ninstance 0123456789abcdef\nfollowing yes\n"
 

@@ -22,7 +22,6 @@ constexpr std::size_t kMaxPaths = 1500;
 SearchOptions options_of(std::uint64_t seed) {
   SearchOptions options{Techniques::defaults(), seed, true};
   if (seed % 3 == 0) options.techniques = options.techniques.without(Technique::kStrongBranching);
-  if (seed % 4 == 0) options.techniques = options.techniques.with(Technique::kSequenceSplits);
   return options;
 }
 

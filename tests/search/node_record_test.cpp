@@ -33,7 +33,7 @@ class NodeRecords : public ::testing::Test {
   NodePool pool_;
   SingleTree forest_{problem_, stops_, pool_, limits_};
   NodePtr root_ = forest_.next_root();
-  Expander expander_{problem_, stops_, {Techniques::all(), 0}};
+  Expander expander_{problem_, stops_, {Techniques::defaults(), 0}};
   std::vector<NodePtr> nodes_;
 };
 

@@ -60,7 +60,7 @@ class TreeRecords : public ::testing::Test {
   }
 
   Expansion expand(const NodePtr& node) {
-    Expander expander(problem_, stops_, {Techniques::all(), 0});
+    Expander expander(problem_, stops_, {Techniques::defaults(), 0});
     return expander.expand(node, kInfiniteCost, limits_);
   }
 

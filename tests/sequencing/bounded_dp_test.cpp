@@ -277,7 +277,7 @@ TEST(BoundedDp, FindsPlantedOptimumOfSixtyFourStops) {
   std::vector<Time> at(kStops);
   for (int i = 0; i < kStops; ++i) at[i] = 1 + 3 * i;
   std::shuffle(at.begin(), at.end(), random);
-  CostMatrix matrix{CostMatrix::Matrix(kStops + 1, kStops + 1)};
+  CostMatrix matrix{CostMatrix::Matrix(kStops + 1)};
   for (int i = 0; i <= kStops; ++i)
     for (int j = 0; j <= kStops; ++j) {
       const Time from = i == kStops ? 0 : at[i];

@@ -60,7 +60,7 @@ TEST(CostMatrix, HoldsNeverForUnreachablePlaces) {
 }
 
 TEST(CostMatrix, HoldsSixtyFourStops) {
-  const CostMatrix matrix{CostMatrix::Matrix::Zero(65, 65)};
+  const CostMatrix matrix{CostMatrix::Matrix(65)};
   EXPECT_EQ(matrix.all(), ~StopSet{0});
 }
 

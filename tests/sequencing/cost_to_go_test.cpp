@@ -78,7 +78,7 @@ TEST(CostToGo, IsExactAndCompleteForFewStops) {
 TEST(CostToGo, LargeCostsDoNotOverflow) {
   Random random(2);
   CostMatrix matrix = testing::metric_matrix(5, Variant::kCts, random);
-  matrix.cost *= 10'000;
+  testing::scale(matrix, 10'000);
   expect_exact(matrix);
 }
 

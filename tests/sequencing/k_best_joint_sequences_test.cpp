@@ -118,7 +118,7 @@ TEST(KBestJointSequences, IsEmptyWhenOneAgentHasNoSequence) {
   Random random(26);
   Agents agents;
   for (int i = 0; i < 3; ++i) agents.matrices.push_back(metric_matrix(3, Variant::kCts, random));
-  agents.matrices[1].cost.col(0).setConstant(kNever);
+  fill_column(agents.matrices[1], 0, kNever);
   KBestJointSequences joint = agents.joint(RtspBackend::kAuto);
   EXPECT_FALSE(joint.next());
   EXPECT_EQ(joint.lower_bound(), kInfiniteCost);

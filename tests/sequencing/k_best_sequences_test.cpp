@@ -103,7 +103,7 @@ TEST_P(KBestTest, ResolvesOnlyUpToTheCutoff) {
 TEST_P(KBestTest, UnreachableStopLeavesNoSequence) {
   Random random(14);
   CostMatrix matrix = grid_matrix(4, Variant::kCts, random);
-  matrix.cost.col(2).setConstant(kNever);
+  fill_column(matrix, 2, kNever);
   const Limits limits;
   KBestSequences list = list_of(matrix, GetParam(), limits);
   EXPECT_EQ(list.resolve(0, kNever), kNever);

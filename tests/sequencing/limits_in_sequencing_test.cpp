@@ -61,7 +61,7 @@ CostMatrix points_in_the_plane(int n, Random& random) {
   std::vector<std::pair<Time, Time>> at;
   for (int i = 0; i <= n; ++i)
     at.emplace_back(static_cast<Time>(random() % 100'000), static_cast<Time>(random() % 100'000));
-  CostMatrix matrix{CostMatrix::Matrix::Zero(n + 1, n + 1)};
+  CostMatrix matrix{CostMatrix::Matrix(n + 1)};
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j < n; ++j)
       matrix.cost(i, j) =
@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(, LimitsInSequencing, ::testing::ValuesIn(rtsp_backends
 
 // A table that exceeds any memory is refused before it is allocated.
 TEST(HeldKarp, RefusesTableOfFortyStops) {
-  const CostMatrix matrix{CostMatrix::Matrix::Constant(41, 41, 3)};
+  const CostMatrix matrix{CostMatrix::Matrix(41, 3)};
   const Limits limits;
   const auto solver = make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits);
   EXPECT_EQ(solver->best({}, kNever).kind, RtspAnswer::Kind::kStopped);

@@ -76,27 +76,27 @@ CostMatrix grid_matrix(int n, Variant variant, Random& random) {
 
 CostMatrix metric_matrix(int n, Variant variant, Random& random) {
   const int places = n + 2;
-  CostMatrix::Matrix d(places, places);
+  CostMatrix::Matrix d(places);
   for (int i = 0; i < places; ++i)
     for (int j = 0; j <= i; ++j) d(i, j) = d(j, i) = i == j ? 0 : 1 + below(40, random);
   for (int k = 0; k < places; ++k)
     for (int i = 0; i < places; ++i)
       for (int j = 0; j < places; ++j) d(i, j) = std::min(d(i, j), d(i, k) + d(k, j));
   // Place n is the start, place n + 1 the end.
-  CostMatrix matrix{d.topLeftCorner(n + 1, n + 1)};
-  if (variant == Variant::kMg)
-    matrix.cost.col(n).setZero();
-  else
-    matrix.cost.col(n) = d.col(n + 1).head(n + 1);
+  CostMatrix matrix{CostMatrix::Matrix(n + 1)};
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j < n; ++j) matrix.cost(i, j) = d(i, j);
+    matrix.cost(i, n) = variant == Variant::kMg ? 0 : d(i, n + 1);
+  }
   return matrix;
 }
 
 CostMatrix wild_matrix(int n, Variant variant, Random& random) {
-  CostMatrix matrix{CostMatrix::Matrix(n + 1, n + 1)};
+  CostMatrix matrix{CostMatrix::Matrix(n + 1)};
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j <= n; ++j)
       matrix.cost(i, j) = below(4, random) == 0 ? kNever : below(9, random);
-  if (variant == Variant::kMg) matrix.cost.col(n).setZero();
+  if (variant == Variant::kMg) fill_column(matrix, n, 0);
   return matrix;
 }
 
@@ -116,6 +116,15 @@ CostMatrix turning_matrix(int n, Variant variant, Random& random) {
     const CostMatrix matrix = port_matrix(instance, 0, DistanceFields(instance));
     if (matrix.ports > 1) return matrix;
   }
+}
+
+void fill_column(CostMatrix& matrix, int column, Time cost) {
+  for (int row = 0; row < matrix.cost.size(); ++row) matrix.cost(row, column) = cost;
+}
+
+void scale(CostMatrix& matrix, Time factor) {
+  for (int row = 0; row < matrix.cost.size(); ++row)
+    for (int column = 0; column < matrix.cost.size(); ++column) matrix.cost(row, column) *= factor;
 }
 
 std::optional<CostMatrix> map_matrix(const std::string& map, int n, Variant variant,

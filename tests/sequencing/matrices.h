@@ -32,6 +32,10 @@ CostMatrix wild_port_matrix(int n, Variant variant, Random& random);
 // An agent that turns, with n tasks on a small random grid, some of which take time.
 CostMatrix turning_matrix(int n, Variant variant, Random& random);
 
+void fill_column(CostMatrix& matrix, int column, Time cost);
+// Multiplies all costs.
+void scale(CostMatrix& matrix, Time factor);
+
 // n tasks on a Moving AI map, from the starts of the first random scenario. Returns nullopt if the
 // map is missing.
 std::optional<CostMatrix> map_matrix(const std::string& map, int n, Variant variant,

@@ -131,7 +131,7 @@ CostMatrix line_matrix(int n, Variant variant, Random& random) {
   for (int i = 0; i < n + 2; ++i) places.push_back(static_cast<int>(random() % 10));
   for (int i = 0; i < n; ++i)
     if (random() % 4 == 0) durations[static_cast<std::size_t>(i)] = static_cast<Time>(random() % 3);
-  CostMatrix matrix{CostMatrix::Matrix::Zero(n + 1, n + 1)};
+  CostMatrix matrix{CostMatrix::Matrix(n + 1)};
   for (int from = 0; from <= n; ++from)
     for (int to = 0; to <= n; ++to) {
       if (from == to && from < n) continue;
@@ -139,7 +139,7 @@ CostMatrix line_matrix(int n, Variant variant, Random& random) {
       matrix.cost(from, to) = std::abs(places[static_cast<std::size_t>(from)] - there) +
                               durations[static_cast<std::size_t>(to)];
     }
-  if (variant == Variant::kMg) matrix.cost.col(n).setZero();
+  if (variant == Variant::kMg) fill_column(matrix, n, 0);
   return matrix;
 }
 
@@ -172,7 +172,7 @@ TEST(RowsOfStops, AreSequencedInOrder) {
   const Limits limits;
   for (const int n : {24, 40, 64})
     for (const int start : {0, 20, 70}) {
-      CostMatrix matrix{CostMatrix::Matrix::Zero(n + 1, n + 1)};
+      CostMatrix matrix{CostMatrix::Matrix(n + 1)};
       const auto place = [&](int row) { return row == n ? start : row + 2; };
       for (int from = 0; from <= n; ++from)
         for (int to = 0; to < n; ++to) matrix.cost(from, to) = std::abs(place(from) - place(to));
@@ -209,7 +209,7 @@ TEST(GoodSequence, IsCompleteAndUsuallyOptimal) {
 }
 
 TEST_P(RtspBackendTest, AnswersWithoutStops) {
-  CostMatrix matrix{CostMatrix::Matrix::Constant(1, 1, 7)};
+  CostMatrix matrix{CostMatrix::Matrix(1, 7)};
   const auto solver = make(matrix);
   const RtspAnswer answer = solver->best({}, kNever);
   EXPECT_EQ(answer.kind, RtspAnswer::Kind::kExact);
@@ -222,8 +222,8 @@ TEST_P(RtspBackendTest, AnswersWithoutStops) {
 TEST_P(RtspBackendTest, UnreachableStopIsInfeasible) {
   Random random(5);
   CostMatrix matrix = grid_matrix(6, Variant::kCts, random);
-  matrix.cost.row(3).setConstant(kNever);
-  matrix.cost.col(3).setConstant(kNever);
+  for (int to = 0; to < matrix.cost.size(); ++to) matrix.cost(3, to) = kNever;
+  fill_column(matrix, 3, kNever);
   const auto solver = make(matrix);
   EXPECT_EQ(solver->best({}, kNever).kind, RtspAnswer::Kind::kInfeasible);
   EXPECT_EQ(solver->best({{1, 2}, 0}, kNever).kind, RtspAnswer::Kind::kInfeasible);
@@ -234,7 +234,7 @@ TEST_P(RtspBackendTest, SolvesCostsAboveSixteenBits) {
   Random random(6);
   for (Variant variant : kVariants) {
     CostMatrix matrix = metric_matrix(7, variant, random);
-    for (Time& cost : matrix.cost.reshaped()) cost *= 10'000;
+    scale(matrix, 10'000);
     const auto solver = make(matrix);
     expect_true_answer(*solver, matrix, {}, kNever);
     expect_true_answer(*solver, matrix, {{2}, 9}, kNever);

@@ -6,7 +6,7 @@
 
 Every option of `grove solve --help` must stand in the table below "## Options of grove solve", and
 every option of that table in the help; so must every
-technique that `--without` and `--with` know. Exit codes: 0 the same, 1 not, 77 no program to ask.
+technique that `--without` knows. Exit codes: 0 the same, 1 not, 77 no program to ask.
 """
 import re
 import subprocess
@@ -29,17 +29,14 @@ def offered(help_text):
 
 
 def documented_techniques(page):
-    section = page.split("The techniques that `--without` and `--with` know", 1)[1].split("\n## ", 1)[0]
+    section = page.split("The techniques that `--without` knows", 1)[1].split("\n## ", 1)[0]
     return set(re.findall(r"^\| `([a-z-]+)` \|", section, re.M))
 
 
 def offered_techniques(program):
-    names = set()
-    for option in ("--without", "--with"):
-        refusal = subprocess.run([program, "solve", option, "?", "-"], capture_output=True,
-                                 text=True, check=False).stderr
-        names |= set(refusal.split("expected one of ", 1)[1].split(" (", 1)[0].split(", "))
-    return names
+    refusal = subprocess.run([program, "solve", "--without", "?", "-"], capture_output=True, text=True,
+                             check=False).stderr
+    return set(refusal.split("expected one of ", 1)[1].split(" (", 1)[0].split(", "))
 
 
 def main():

@@ -17,7 +17,6 @@ ROOT = Path(__file__).resolve().parents[2]
 
 # What CMake looks for, and the Debian packages that it is found with.
 PACKAGES = {
-    "Eigen3": ["libeigen3-dev"],
     "fmt": ["libfmt-dev"],
     "nlohmann_json": ["nlohmann-json3-dev"],
     "yaml-cpp": ["libyaml-cpp-dev"],

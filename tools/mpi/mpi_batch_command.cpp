@@ -81,7 +81,6 @@ batch::Settings settings_of(const CLI::App& app, const BatchArguments& a) {
   add("--omega", omega, solve_options(defaults).omega.to_string());
   add("--policy", a.solve.policy, defaults.policy);
   add("--rtsp", a.solve.rtsp, defaults.rtsp);
-  add("--with", fmt::format("{}", fmt::join(a.solve.with, ",")), "");
   add("--without", fmt::format("{}", fmt::join(a.solve.without, ",")), "");
   add("--ranks-per-instance", std::to_string(a.ranks_per_instance), "1");
   return {.method = a.solve.method,

@@ -52,28 +52,30 @@ std::vector<std::string> keys_of(const std::map<std::string, Value>& table) {
   return keys;
 }
 
-std::string names_of(Techniques techniques) {
+std::string names_of_techniques() {
   std::string names;
   for (const auto& [t, name] : kTechniques)
-    if (techniques.has(t)) names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
   return names;
 }
 
-// Accepts the names of techniques in `known`.
-CLI::Validator technique_of(Techniques known) {
-  return CLI::Validator(
-      [known](const std::string& text) {
-        const auto technique = parse_technique(text);
-        if (technique && known.has(*technique)) return std::string();
-        return fmt::format("found '{}'; expected one of {}", text, names_of(known));
-      },
-      "");
+std::string check_technique(const std::string& text) {
+  if (parse_technique(text)) return {};
+  if (std::ranges::find(kRemovedTechniques, text) != kRemovedTechniques.end())
+    return fmt::format("the technique '{}' was removed from Grove; expected one of {}", text,
+                       names_of_techniques());
+  return fmt::format("found '{}'; expected one of {}", text, names_of_techniques());
+}
+
+// No technique is off by default any more.
+std::string refuse_with(const std::string& text) {
+  if (std::ranges::find(kRemovedTechniques, text) != kRemovedTechniques.end())
+    return fmt::format("the technique '{}' was removed from Grove; expected no --with", text);
+  return fmt::format("found '{}'; every technique is on by default; expected no --with", text);
 }
 
 Techniques techniques_of(const SolveArguments& arguments) {
   Techniques techniques = Techniques::defaults();
-  for (const std::string& name : arguments.with)
-    techniques = techniques.with(*parse_technique(name));
   for (const std::string& name : arguments.without)
     techniques = techniques.without(*parse_technique(name));
   return techniques;
@@ -153,22 +155,19 @@ void add_method_options(CLI::App& app, SolveArguments& a) {
       ->capture_default_str();
   add_integer(app, "--seed", a.seed, kSeeds,
               "seed of ties among conflicts and of the primal heuristics; any value");
-  const Techniques unusual = Techniques::all().without(Techniques::defaults());
   app.add_option(
          "--without", a.without,
          "disable a technique of the search, for ablation studies (repeatable, or a "
          "comma-separated list). Techniques change the speed, never what the search proves: " +
-             names_of(Techniques::defaults()))
+             names_of_techniques())
       ->type_name("TECHNIQUE")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(technique_of(Techniques::defaults()));
-  app.add_option("--with", a.with,
-                 "enable a technique that is off by default (as --without): " + names_of(unusual))
-      ->type_name("TECHNIQUE")
+      ->check(CLI::Validator(check_technique, ""));
+  app.add_option("--with")  // not in the help
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(technique_of(unusual));
+      ->check(CLI::Validator(refuse_with, ""));
   app.add_option("--tune", a.tune)  // experimental, so not in the help
       ->type_name("NAME=VALUE")
       ->delimiter(',')
@@ -291,7 +290,7 @@ SolveOptions solve_options(const SolveArguments& a) {
     throw CLI::ValidationError("--method", error.what());
   }
   const bool is_plain = options.policy == Policy::kFixed || options.low_level != LowLevel::kOwn;
-  if (is_plain && !(a.with.empty() && a.without.empty()))
+  if (is_plain && !a.without.empty())
     throw CLI::ValidationError(
         options.policy == Policy::kFixed ? "--policy fixed" : "--method " + a.method,
         "uses no techniques; found --with or --without");

@@ -31,7 +31,6 @@ struct SolveArguments {
   std::string policy = "auto";
   std::string rtsp = "auto";
   std::int64_t seed = static_cast<std::int64_t>(kDefaults.seed);
-  std::vector<std::string> with;
   std::vector<std::string> without;
   std::vector<std::string> tune;
   bool deterministic = kDefaults.deterministic;

@@ -209,7 +209,8 @@ class Refusals(Program):
                           ("x: --output plan", "--output: which files"),
                           ("x: --log l", "--log: which files"),
                           ("x: --checkpoint c", "--checkpoint: which files"),
-                          ("x: --policy fixed --with sequence-splits", "--with"),
+                          ("x: --policy fixed --without bypass", "--without"),
+                          ("x: --with sequence-splits", "was removed"),
                           ("x: --help", "--help"), ("a b: --omega 0", "NAME"), ("", "NAME")):
             self.refuses(self.bench(runs=["good: --omega 0", run]), "--run", text)
         self.refuses(self.bench(runs=["x: --omega 0", "x: --omega 1"]), "second run of that name")

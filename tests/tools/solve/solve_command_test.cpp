@@ -164,6 +164,16 @@ TEST_F(SolveCommand, SetsTunables) {
   EXPECT_THAT(solve({"--help"}).out, Not(HasSubstr("--tune")));
 }
 
+TEST_F(SolveCommand, RefusesRemovedTechniques) {
+  for (const char* option : {"--with", "--without"})
+    EXPECT_THAT(complaint(solve({data("first.cts.json"), option, "sequence-splits"})),
+                StartsWith(std::string(option) +
+                           ": the technique 'sequence-splits' was removed from Grove; expected "));
+  EXPECT_THAT(complaint(solve({data("first.cts.json"), "--with", "primal"})),
+              HasSubstr("every technique is on by default"));
+  EXPECT_THAT(solve({"--help"}).out, Not(HasSubstr("--with ")));
+}
+
 TEST_F(SolveCommand, LogsHeadTableAndSummary) {
   const ProcessResult solved = solve({data("first.cts.json"), "--log", "run.log", "--seed", "4"});
   EXPECT_EQ(solved.err, "");
