@@ -33,7 +33,7 @@
 // covering_bound() computes the least total that satisfies all statements.
 //
 // *Cache.* The excess of a pair depends only on the two subproblems (agent, sequence class and
-// constraint set; "situation" in names). So a bound proven at one node holds at every node where
+// constraint set). So a bound proven at one node holds at every node where
 // both agents have the same subproblems. (Which bound was proven depends on the cutoff at that
 // time.) From a node to its child one subproblem changes, so nearly all pairs are cached. Pairs
 // that do not conflict now but conflicted in the same subproblems at some other node count as well.
@@ -126,7 +126,7 @@ void WdgHeuristic::look_at(NodeView& view) {
   for (AgentIndex agent = 0; agent < agents_; ++agent) {
     subproblem_[agent] = view.subproblem(agent);
     GROVE_ASSERT(may_cost(agent, view.cost_of(agent)),
-                 "an agent's path at a node is a cheapest one in its situation");
+                 "an agent's path at a node is a cheapest one in its subproblem");
   }
 }
 
