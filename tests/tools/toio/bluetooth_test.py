@@ -77,7 +77,7 @@ def fake_bleak(devices):
                                  exc=types.SimpleNamespace(BleakError=BleakError))
 
 
-async def drive(named=(), hide=(), name="crowd", meanwhile=None):
+async def drive(named=(), hide=(), name="dense", meanwhile=None):
     order, grid = plans.order(name), plans.grid(name)
     world, simulated = make_world(order, grid, Disturbances(), 1)
     devices = [Device(f"toio-{robot}", f"00:0{i}", cube) for i, (robot, cube) in enumerate(simulated.items())
@@ -125,5 +125,5 @@ class Bluetooth(unittest.TestCase):
 
     def test_without_bleak(self):
         with mock.patch.dict(sys.modules, {"bleak": None}), self.assertRaises(BadInput) as caught:
-            plans.run(bluetooth.connect_cubes(plans.order("crowd"), plans.grid("crowd"), {}))
+            plans.run(bluetooth.connect_cubes(plans.order("dense"), plans.grid("dense"), {}))
         self.assertIn("python3-bleak", str(caught.exception))

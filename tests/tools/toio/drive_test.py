@@ -12,7 +12,7 @@ from grove_toio.driver import Driver
 from grove_toio.mat import BODY
 from grove_toio.rings import PARTS
 
-NAMES = ("crowd", "work", "many", "narrow", "round")
+NAMES = ("dense", "work", "many", "narrow", "round")
 SEEDS = range(3)
 
 
@@ -43,21 +43,21 @@ class Ordinary(unittest.TestCase):
         self.assertLessEqual(orders.visits(name), seen)
 
     def test_slips_and_noise(self):
-        for name in ("crowd", "round"):
+        for name in ("dense", "round"):
             outcome, world = plans.drive(name, 0.05, 7, slip=1.0, noise=2.0)
             self.assertTrue(outcome.completed, outcome.waits)
             self.assertGreater(world.least, BODY)
 
     def test_speeds(self):
         for speed in (10, 255):
-            outcome, world = plans.drive("crowd", 0.05, 1, speed=speed)
+            outcome, world = plans.drive("dense", 0.05, 1, speed=speed)
             self.assertTrue(outcome.completed, outcome.waits)
             self.assertGreater(world.least, BODY)
 
     def test_cubes_truly_end_on_their_goals(self):
-        _, world = plans.calm_drive("crowd", 0.2, 1)
-        grid = plans.grid("crowd")
-        for robot, cube in zip(plans.order("crowd").robots, world.cubes):
+        _, world = plans.calm_drive("dense", 0.2, 1)
+        grid = plans.grid("dense")
+        for robot, cube in zip(plans.order("dense").robots, world.cubes):
             x, y = grid.cell((cube.x, cube.y))
             self.assertLess(max(abs(x - robot.actions[-1].place[0]), abs(y - robot.actions[-1].place[1])), 0.15)
 
@@ -70,7 +70,7 @@ class Ordinary(unittest.TestCase):
                 self.assertLess(abs(off), 15)
 
     def test_the_same_again(self):
-        one, other = (plans.drive("crowd", 0.2, 5) for _ in range(2))
+        one, other = (plans.drive("dense", 0.2, 5) for _ in range(2))
         self.assertEqual(one[0], other[0])
         self.assertEqual(one[1].least, other[1].least)
 
@@ -84,8 +84,8 @@ class TheOrder(unittest.TestCase):
         return Watched.ended
 
     def test_after_is_kept(self):
-        ended = self.drive("crowd")
-        for robot in plans.order("crowd").robots:
+        ended = self.drive("dense")
+        for robot in plans.order("dense").robots:
             for k, action in enumerate(robot.actions):
                 if action.after:
                     self.assertLessEqual(ended[action.after], ended[robot.name, k] + 1e-9)

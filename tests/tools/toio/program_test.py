@@ -48,12 +48,12 @@ class Program(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             logs = [Path(folder) / name for name in ("a", "b")]
             for log in logs:
-                done = run(orders.order_file("crowd"), "--fast", "--loss", 0.2, "--log", log, "--quiet")
+                done = run(orders.order_file("dense"), "--fast", "--loss", 0.2, "--log", log, "--quiet")
                 self.assertEqual(done, (0, "", ""))
             self.assertEqual(*(log.read_bytes() for log in logs))
 
     def test_a_drive_that_cannot_be_completed(self):
-        code, out, err = run(orders.order_file("crowd"), "--fast", "--lift", "a0@2=never", "--time-limit", "40")
+        code, out, err = run(orders.order_file("dense"), "--fast", "--lift", "a0@2=never", "--time-limit", "40")
         self.assertEqual(code, 1)
         self.assertIn("Tasks         not all visited", out)
         self.assertTrue(err.startswith("grove: error: not done within 40 s: "), err)
@@ -64,7 +64,7 @@ class Program(unittest.TestCase):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
             with self.subTest(signal=number), tempfile.TemporaryDirectory() as folder:
                 log = Path(folder) / "drive.jsonl"
-                process = start(orders.order_file("crowd"), "--log", log)
+                process = start(orders.order_file("dense"), "--log", log)
                 wait_until("robots drive", lambda: '"moving"' in text_of(log), process)
                 process.send_signal(number)
                 process.communicate(timeout=HANG_S)
@@ -79,8 +79,8 @@ class Program(unittest.TestCase):
         self.assertNotIn("Traceback", err)
 
     def test_bad_input(self):
-        order, ring, missing = orders.order_file("crowd"), orders.order_file("round"), orders.folder() / "none.json"
-        plan = orders.folder() / "crowd.plan.json"
+        order, ring, missing = orders.order_file("dense"), orders.order_file("round"), orders.folder() / "none.json"
+        plan = orders.folder() / "dense.plan.json"
         for text, *arguments in (
                 ("none.json: cannot be read", missing), ("/format: found null", plan),
                 ("/ring: found a ring of 4 robots on cells", ring),
@@ -101,4 +101,4 @@ class Program(unittest.TestCase):
         self.refused("none.json: cannot be read", missing)
 
     def test_a_full_disk(self):
-        self.refused("No space left", orders.order_file("crowd"), "--fast", "--quiet", "--log", "/dev/full", code=1)
+        self.refused("No space left", orders.order_file("dense"), "--fast", "--quiet", "--log", "/dev/full", code=1)

@@ -11,7 +11,7 @@ from grove_toio.mat import BODY
 from grove_toio.simulate import make_world
 from grove_toio.simulated import Disturbances, SimulatedCube
 
-RED = "a0"                      # of the order "crowd"
+RED = "a0"                      # of the order "dense"
 
 
 def cell_point(name, x, y):
@@ -19,14 +19,14 @@ def cell_point(name, x, y):
 
 
 class Lifted(unittest.TestCase):
-    def drive(self, lifts, name="crowd", seed=1, **options):
+    def drive(self, lifts, name="dense", seed=1, **options):
         outcome, world = plans.drive(name, 0.05, seed, lifts=lifts, **options)
         self.assertGreater(world.least, BODY)
         return outcome, world
 
     def test_put_back_near_where_it_was(self):
         for seed in range(6):
-            for name in ("crowd", "work", "round"):
+            for name in ("dense", "work", "round"):
                 robots = [r.name for r in plans.order(name).robots]
                 one, other = robots[seed % len(robots)], robots[(seed + 2) % len(robots)]
                 lifts = [(one, 1.0 + seed / 2, 2.5), (other, 3.0, 1.0)]
@@ -54,7 +54,7 @@ class Lifted(unittest.TestCase):
         self.check_as_far_as_they_can(done[0], outcome.waits)
 
     def check_as_far_as_they_can(self, done, waits):
-        for robot in plans.order("crowd").robots:
+        for robot in plans.order("dense").robots:
             if robot.name == RED or done[robot.name] == len(robot.actions):
                 continue
             (said,) = [text for text in waits if text.startswith(f"{robot.name} waits for ")]
@@ -65,7 +65,7 @@ class Lifted(unittest.TestCase):
 
     def test_put_back_far_away_it_is_reported_and_nobody_drives_into_it(self):
         said = []
-        where = cell_point("crowd", 6, 4) if plans.order("crowd").robot(RED).start[0] < 3 else cell_point("crowd", 0, 0)
+        where = cell_point("dense", 6, 4) if plans.order("dense").robot(RED).start[0] < 3 else cell_point("dense", 0, 0)
         outcome, world = self.drive([(RED, 1.5, 1.0, where)], seconds=60, say=said.append)
         cube = next(c for c in world.cubes if c.name == RED)
         if not outcome.completed:
@@ -133,19 +133,19 @@ async def drive_with(kind, name, seconds, robots=None, said=None, **attributes):
 
 class Cubes(unittest.TestCase):
     def test_without_any_response(self):
-        outcome, world = plans.run(drive_with(Deaf, "crowd", plans.PATIENCE))
+        outcome, world = plans.run(drive_with(Deaf, "dense", plans.PATIENCE))
         self.assertTrue(outcome.completed, outcome.waits)
         self.assertGreater(world.least, BODY)
 
     def test_responses_alone_are_not_believed(self):
-        outcome, _ = plans.run(drive_with(Liar, "crowd", 20))
+        outcome, _ = plans.run(drive_with(Liar, "dense", 20))
         self.assertFalse(outcome.completed)
         self.assertEqual(outcome.actions, 0)
 
     def test_each_code_is_survived(self):
         for code in (protocol.TIMEOUT, protocol.ID_MISSED, protocol.BAD_PARAMETERS, protocol.REPLACED,
                      protocol.CANNOT_APPEND):
-            outcome, world = plans.run(drive_with(Refusing, "crowd", 10, {RED}, code=code))
+            outcome, world = plans.run(drive_with(Refusing, "dense", 10, {RED}, code=code))
             self.assertEqual(outcome.done[RED], 0)
             self.assertGreater(outcome.repeats, 3)
             self.assertGreater(world.least, BODY)
@@ -153,21 +153,21 @@ class Cubes(unittest.TestCase):
     def test_codes_that_end_it_are_said(self):
         for code, text in ((protocol.BAD_STATE, "switched off"), (protocol.UNSUPPORTED, "does not accept the commands")):
             said = []
-            outcome, _ = plans.run(drive_with(Refusing, "crowd", 10, {RED}, said, code=code))
+            outcome, _ = plans.run(drive_with(Refusing, "dense", 10, {RED}, said, code=code))
             self.assertIn(f"{RED} ", "".join(said))
             self.assertIn(text, "".join(said))
             self.assertTrue(any(text in each for each in outcome.waits))
 
     def test_one_that_falls_silent(self):
         said = []
-        outcome, world = plans.run(drive_with(Gone, "crowd", 30, {RED}, said))
+        outcome, world = plans.run(drive_with(Gone, "dense", 30, {RED}, said))
         self.assertIn(f"{RED} has stopped sending positions", "".join(said))
         self.assertFalse(outcome.completed)
         self.assertGreater(world.least, BODY)
 
     def test_cubes_stand_after_a_drive_that_was_broken_off(self):
         async def break_off():
-            order, grid = plans.order("crowd"), plans.grid("crowd")
+            order, grid = plans.order("dense"), plans.grid("dense")
             world, cubes = make_world(order, grid, Disturbances(), 1)
             running = asyncio.create_task(world.run())
             driving = asyncio.create_task(Driver(order, cubes, grid).drive())
@@ -216,14 +216,14 @@ class PlantedFaults(unittest.TestCase):
         return [plans.drive(name, 0.05, seed, seconds=60, kind=kind)[1].touched for seed in range(6)]
 
     def test_without_the_order_they_collide(self):
-        self.assertTrue(all(self.touched(WithoutOrder, "crowd")))
+        self.assertTrue(all(self.touched(WithoutOrder, "dense")))
 
     def test_who_believes_the_cubes_collides(self):
-        self.assertTrue(any(self.touched(Early, "crowd")))
+        self.assertTrue(any(self.touched(Early, "dense")))
 
     def test_who_drives_round_straight_collides(self):
         self.assertTrue(any(self.touched(Straight, "round")))
 
     def test_the_order_alone_keeps_them_apart(self):
         """The second guard is for cubes that hands have moved."""
-        self.assertFalse(any(self.touched(WithoutGuard, "crowd")))
+        self.assertFalse(any(self.touched(WithoutGuard, "dense")))

@@ -7,7 +7,7 @@ import air
 from grove_vda5050.release import Releases
 
 FACTOR = int(os.environ.get("GROVE_FUZZ_FACTOR", "1"))
-NAMES = ("crowd", "work", "many", "narrow", "roads", "round")
+NAMES = ("dense", "work", "many", "narrow", "roads", "round")
 
 
 class _Eager(Releases):
@@ -41,14 +41,14 @@ class Drives(unittest.TestCase):
                                    horizon=seed % 4))
 
     def test_vehicles_that_stop(self):
-        calm = air.Air("crowd", False)
+        calm = air.Air("dense", False)
         self.check(calm)
-        late = air.Air("crowd", False, stops={"a0": (2, 90), "a3": (5, 60)})
+        late = air.Air("dense", False, stops={"a0": (2, 90), "a3": (5, 60)})
         self.check(late)
         self.assertGreater(late.now, max(90, calm.now))
 
     def test_one_that_stops_for_good(self):
-        one = air.Air("crowd", False, stops={"a1": (3, 1e9)})
+        one = air.Air("dense", False, stops={"a1": (3, 1e9)})
         self.assertFalse(one.drive(300))
         self.assertEqual((one.complaints, one.world.collisions), ([], []))
         reasons = list(one.control.reasons())
@@ -57,7 +57,7 @@ class Drives(unittest.TestCase):
             self.assertRegex(reason, r"^a\d (is between \S+ and \S+|on \S+ waits for a\d)$")
 
     def test_one_that_does_not_take_its_order(self):
-        one = air.Air("crowd", False)
+        one = air.Air("dense", False)
         one.vehicles["a2"].x += 1
         self.assertFalse(one.drive(200))
         self.assertTrue(any("a2 has not accepted its order" in r and "orderError" in r for r in one.control.reasons()))

@@ -19,7 +19,7 @@ class Messages(unittest.TestCase):
     def test_schemas(self):
         for version in PROTOCOLS:
             validator = load_validators(version)["order"]
-            for name in ("crowd", "work", "roads"):
+            for name in ("dense", "work", "roads"):
                 for _, message in messages(name, version):
                     self.assertEqual([e.message for e in validator.iter_errors(message)], [])
                     broken = json.loads(json.dumps(message))
@@ -27,7 +27,7 @@ class Messages(unittest.TestCase):
                     self.assertTrue(list(validator.iter_errors(broken)))
 
     def test_base_and_horizon(self):
-        for route, message in messages("crowd", "2.1.0"):
+        for route, message in messages("dense", "2.1.0"):
             nodes, edges = message["nodes"], message["edges"]
             self.assertEqual([n["sequenceId"] for n in nodes], list(range(0, 2 * len(nodes), 2)))
             self.assertEqual([e["sequenceId"] for e in edges], list(range(1, 2 * len(edges), 2)))

@@ -110,9 +110,9 @@ def lateness(one, name):
 
 class Paces(unittest.TestCase):
     def test_seconds_are_those_of_the_vehicles(self):
-        calm = drive("crowd")
+        calm = drive("dense")
         for pace in (4, 20):
-            one = drive("crowd", "--pace", str(pace))
+            one = drive("dense", "--pace", str(pace))
             self.assertTrue(one.completed)
             self.assertAlmostEqual(one.end, one.seconds * pace, delta=3)
             self.assertAlmostEqual(one.end / calm.end, 1, delta=0.5)       # messages take longer for them
@@ -121,10 +121,10 @@ class Paces(unittest.TestCase):
 
     def test_slow_vehicles_are_late_at_any_pace(self):
         for pace in ("1", "10"):
-            in_time, slow = (drive("crowd", "--pace", pace, "--turn-speed", "100000", "--speed", speed) for speed in ("2", "0.25"))
-            longest = max(end for _, end in planned_ends("crowd").values())
-            self.assertLess(max(lateness(in_time, "crowd").values()), longest)
-            self.assertGreater(max(lateness(slow, "crowd").values()), 2.5 * longest)
+            in_time, slow = (drive("dense", "--pace", pace, "--turn-speed", "100000", "--speed", speed) for speed in ("2", "0.25"))
+            longest = max(end for _, end in planned_ends("dense").values())
+            self.assertLess(max(lateness(in_time, "dense").values()), longest)
+            self.assertGreater(max(lateness(slow, "dense").values()), 2.5 * longest)
 
     def test_a_stop_is_as_long_as_it_was_told(self):
         for pace in ("1", "10"):

@@ -29,7 +29,7 @@ def run(*arguments):
     return process.returncode, out, err
 
 
-def order(name="crowd"):
+def order(name="dense"):
     return orders.order_file(name, False)
 
 

@@ -6,7 +6,7 @@ import unittest
 import air
 from grove_vda5050.release import Releases
 
-NAMES = ("crowd", "work", "many", "narrow", "roads", "round")
+NAMES = ("dense", "work", "many", "narrow", "roads", "round")
 
 
 class _Eager(Releases):

@@ -35,12 +35,12 @@ class Routes(unittest.TestCase):
         self.assertTrue(route.turns)
 
     def test_without_headings_nothing_is_said_of_them(self):
-        for route in air.routes("crowd", False).values():
+        for route in air.routes("dense", False).values():
             self.assertFalse(route.turns)
             self.assertEqual({n.theta for n in route.nodes}, {None})
 
     def test_every_action_and_every_task_is_somewhere(self):
-        for name in ("crowd", "work", "many", "roads"):
+        for name in ("dense", "work", "many", "roads"):
             for robot in air.order(name, False).robots:
                 nodes = air.routes(name, False)[robot.name].nodes
                 self.assertEqual([n.place for n in nodes],
