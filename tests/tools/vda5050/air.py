@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Control, vehicles and one who looks on, without a broker and in virtual time: messages are delayed, overtake
-each other and get lost as the test wants it."""
+"""Simulates control, vehicles and a monitor without a broker and in virtual time; messages may be delayed, reordered or
+lost."""
 import functools
 import heapq
 import json
@@ -58,13 +58,13 @@ class Air:
             self.add(robot, those[robot.name], version)
 
     def add(self, robot, route, version):
-        def tell(topic, message):
+        def publish(topic, message):
             self.sent_at[robot.name] = self.now
             self.fly(self.hear, robot.name, topic, message)
 
         speed = self.random.uniform(0.5, 3)
         self.vehicles[robot.name] = SimulatedVehicle(PROTOCOLS[version], robot.name, "m", route.serial, route.nodes[0].at,
-                                                     THETA.get(robot.heading, 0.0), self.world, tell, speed, math.pi)
+                                                     THETA.get(robot.heading, 0.0), self.world, publish, speed, math.pi)
         self.world.holders[route.nodes[0].id] = [self.vehicles[robot.name]]
         self.vehicles[robot.name].publish_state()
 
@@ -78,7 +78,7 @@ class Air:
         heapq.heappush(self.due, (self.now + seconds, self.number, function, arguments))
 
     def seen(self, serial, name, message):
-        """By the one who looks on, in the order in which the broker has them."""
+        """Passes a message to the monitor, in the order in which the broker receives them."""
         self.monitor.on_message(self.topics.topic(serial, name), json.dumps(message).encode())
 
     def send(self, robot, content):
@@ -93,7 +93,7 @@ class Air:
     # ---- the drive
 
     def drive(self, seconds=3000):
-        """Is everything done?"""
+        """Runs until all is done or for `seconds` virtual seconds; returns whether all is done."""
         while self.now < seconds and not self.control.completed:
             self.now += TICK
             while self.due and self.due[0][0] <= self.now:
