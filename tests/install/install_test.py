@@ -4,9 +4,9 @@
 
     install_test.py SOURCE BUILD COMPILER CMAKE PYTHON [--long]
 
-PYTHON: the interpreter for which the module is built; empty if it is not built. Installs BUILD into a temporary folder and
-builds dependent projects against it. With --long also builds a project that contains Grove as a subdirectory, without MPI
-and CBC (some minutes).
+PYTHON: the interpreter for which the module is built; empty if it is not built. Installs BUILD into a temporary folder
+and builds dependent projects against it. With --long also builds a project that contains Grove as a subdirectory,
+without MPI and CBC (some minutes).
 """
 import os
 import re

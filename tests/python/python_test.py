@@ -210,7 +210,8 @@ class Solving(unittest.TestCase):
 
         requester = threading.Thread(target=request_stop)
         requester.start()
-        solution = grove.solve(hard_instance(), time_limit=300, stop=stop, progress=lambda _: begun.set(), progress_interval=1e6)
+        solution = grove.solve(hard_instance(), time_limit=300, stop=stop, progress=lambda _: begun.set(),
+                               progress_interval=1e6)
         requester.join()
         self.assertEqual(solution.texts["stopped_by"], "interrupt")
 

@@ -63,7 +63,7 @@ class Chromium:
                    f"--user-data-dir={self.folder.name}", "--host-resolver-rules=MAP * ~NOTFOUND",
                    *(["--no-sandbox"] if os.getuid() == 0 else []), *(options or ["--disable-gpu"]), "about:blank"]
         # close_fds=False keeps descriptors 3 and 4, which connect() sets.
-        # A new session: killing its process group also ends the children of the browser, which would keep our output open.
+        # A new session: killing its process group also ends the children of the browser, which keep our output open.
         self.process = subprocess.Popen(command, preexec_fn=connect, close_fds=False, start_new_session=True,
                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(to_it[0])

@@ -52,7 +52,7 @@ class ExternalSolverTests(Program):
                 "--quiet", *more]
 
     def row_of(self, kind, *more, limit=5, adapter="fake.json"):
-        """Checks the row of Grove and returns the row of the solver, for two agents; keeps the output in self.output."""
+        """Checks the row of Grove and returns that of the solver, for two agents; keeps the output in self.output."""
         self.add_scenario("open-random-1", 3)
         self.output = self.run_well(*self.sweep(*more, solvers=[self.solver(kind, adapter)], limit=limit))
         rows = self.rows()
@@ -141,7 +141,7 @@ class Solvers(ExternalSolverTests):
         self.assertEqual(self.summary()["silent"]["errors"], "0")
 
     def test_hanging_solver_is_killed_at_the_time_limit(self):
-        """Checks that a solver without a time limit option is killed at the limit, together with its child processes."""
+        """Checks that a solver without a time limit option is killed at the limit, with its child processes."""
         row = self.row_of("hangs", limit=4)  # enough time to start a child process
         self.assertEqual((row["status"], row["solved"], row["error"], row["runtime_s"]),
                          ("unknown", False, "time limit", 4))

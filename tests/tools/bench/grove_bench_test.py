@@ -221,12 +221,12 @@ class Refusals(Program):
     def test_wrong_instance_lists_are_refused(self):
         self.refuses(self.bench(), "instances")
         path = self.easy(1)[0]
-        for text, complaint in (("", "lists no instance"), ("missing.cts.json\n", "missing.cts.json"),
+        for text, message in (("", "lists no instance"), ("missing.cts.json\n", "missing.cts.json"),
                                 (f"{path}\n{path}\n", "line 2"),
                                 (f"{DATA}/rooms-32x32.map\n", "is a map")):
             (self.folder / "list.txt").write_text(text)
             self.refuses(["bench", "list.txt", "--run", "x:", "--output-dir", "out"], "list.txt",
-                         complaint)
+                         message)
         self.assertFalse((self.folder / "out").exists())
 
     def test_unreadable_instance_has_an_error_row(self):

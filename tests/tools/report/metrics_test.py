@@ -299,7 +299,7 @@ class Measures(unittest.TestCase):
         self.assertIsNone(metrics.cost_ratio(easy, metrics.best_costs([easy, free])))
 
     def test_cost_ratio_does_not_penalise_solving_harder_instances(self):
-        """Checks that the mean SQR is worse: 10/10 on the easy instance, 10/20 on the hard one, which only it solves."""
+        """Checks that only its mean SQR is worse: 10/10 on the easy instance, 10/20 on one that no other solves."""
         exact = [row(status="optimal", cost=10, sqr=1.0),
                  row(instance="j", status="optimal", cost=20, sqr=0.5)]
         other = [row(method="b", cost=11, sqr=10 / 11), failed(method="b", instance="j")]
@@ -404,7 +404,7 @@ class Proofs(unittest.TestCase):
 
     def test_differing_optimal_costs_contradict(self):
         self.assertEqual(self.contradictions(row(status="optimal", cost=10), row(method="b", status="optimal", cost=11),
-                                   row(method="c", omega="0", status="optimal", cost=11)),
+                                             row(method="c", omega="0", status="optimal", cost=11)),
                          ["optimal costs differ: 10 (a), 11 (b, c ω=0)"])
 
     def test_plan_below_a_bound_contradicts(self):
@@ -421,13 +421,14 @@ class Proofs(unittest.TestCase):
 
     def test_bounds_without_following_do_not_apply_with_following(self):
         self.assertEqual(self.contradictions(row(cost=10), row(method="b", status="optimal", cost=12, lower_bound=12,
-                                                     options="--omega 0 --no-following")), [])
-        self.assertEqual(len(self.contradictions(row(method="b", cost=10, options="--no-following"), failed(lower_bound=11))), 1)
+                                                               options="--omega 0 --no-following")), [])
+        found = self.contradictions(row(method="b", cost=10, options="--no-following"), failed(lower_bound=11))
+        self.assertEqual(len(found), 1)
 
     def test_other_problems_and_errors_do_not_contradict(self):
         self.assertEqual(self.contradictions(row(status="optimal", cost=10),
-                                   row(problem="cts", status="optimal", cost=11),
-                                   failed(method="b", status="error", cost=3, lower_bound=99)), [])
+                                             row(problem="cts", status="optimal", cost=11),
+                                             failed(method="b", status="error", cost=3, lower_bound=99)), [])
 
 
 class FalseClaims(unittest.TestCase):
@@ -435,10 +436,11 @@ class FalseClaims(unittest.TestCase):
         return [(each.method, each.kind, each.claimed, each.checked) for each in proofs.false_claims(found, **known)]
 
     def test_true_claims_are_accepted(self):
-        self.assertEqual(self.false_claims(row(lower_bound=9), row(method="x", cost=11, claimed_cost=11, claimed_lower_bound=10),
-                                   failed(method="y", status="claimed", claimed_cost=9),
-                                   row(method="z", cost=11, claimed_cost=12,
-                                       trace=(rows.Point(1, 12, 8), rows.Point(2, 11, 10)), solver="z")), [])
+        found = self.false_claims(row(lower_bound=9), row(method="x", cost=11, claimed_cost=11, claimed_lower_bound=10),
+                                  failed(method="y", status="claimed", claimed_cost=9),
+                                  row(method="z", cost=11, claimed_cost=12,
+                                      trace=(rows.Point(1, 12, 8), rows.Point(2, 11, 10)), solver="z"))
+        self.assertEqual(found, [])
 
     def test_invalid_plan_is_a_false_claim(self):
         found = proofs.false_claims([failed(method="x", status="invalid", error="agents 3 and 7 collide", seed=4)])
@@ -460,7 +462,8 @@ class FalseClaims(unittest.TestCase):
         self.assertEqual(self.false_claims(row(method="x", claimed_lower_bound=11)), [("x", "lower bound", 11, 10)])
         self.assertEqual(self.false_claims(bound, known_costs={("mg", "i"): 10}), [("x", "lower bound", 11, 10)])
         # An invalid plan refutes no bound.
-        self.assertEqual(self.false_claims(failed(method="y", status="invalid", cost=10), bound), [("y", "plan", None, None)])
+        self.assertEqual(self.false_claims(failed(method="y", status="invalid", cost=10), bound),
+                         [("y", "plan", None, None)])
 
 
 class OverTime(unittest.TestCase):
@@ -497,7 +500,8 @@ class OverTime(unittest.TestCase):
             run("b", "i", (2, 12, None)), run("b", "j", (2, 25, None)), failed(method="b", instance="k", anytime=True)])
         self.assertEqual((panel.instances, panel.common), (3, 2))
         curve = panel.curves[Line("a", "", 100)]
-        steps = [(step.seconds, round(3 * step.with_plan), step.common_with_plan, step.cost_ratio) for step in curve.steps]
+        steps = [(step.seconds, round(3 * step.with_plan), step.common_with_plan, step.cost_ratio)
+                 for step in curve.steps]
         self.assertEqual(steps, [(1, 1, 0.5, 2), (2, 2, 1, 1.75), (3, 2, 1, 1.25), (4, 3, 1, 1.25), (5, 3, 1, 1)])
         # 8/10 and 8/20; 9/10 and 10/20
         self.assertAlmostEqual(curve.at(2).bound_ratio, 0.6)
@@ -561,8 +565,10 @@ class Logs(Folder):
         self.assertEqual(logs.parted([table, log, other]), ([table, other], [log]))
 
     def test_malformed_events_are_refused(self):
-        for event, message in (({"event": "bound", "time_s": "x", "lower_bound": 8}, "time_s: found '\"x\"'; expected a number"),
-                            ({"event": "bound", "time_s": 1, "lower_bound": 1.5}, "lower_bound: found '1.5'; expected an integer")):
+        for event, message in (({"event": "bound", "time_s": "x", "lower_bound": 8},
+                                "time_s: found '\"x\"'; expected a number"),
+                               ({"event": "bound", "time_s": 1, "lower_bound": 1.5},
+                                "lower_bound: found '1.5'; expected an integer")):
             with self.assertRaises(BadInput) as caught:
                 logs.read_log(self.log("a.jsonl", event))
             self.assertIn(f"a.jsonl: line 2, {message}", str(caught.exception))
@@ -621,23 +627,23 @@ class Tracker(Folder):
             line = tracker.submission(found, metrics.best_costs(found)).text.split("\n")[1]
             self.assertTrue(line.startswith(f"random-32-32-20,random,3,2,{bound},5,"), (values, line))
 
-    def test_plans_that_are_none(self):
-        def said(text, agents=2):
+    def test_malformed_plans_are_refused(self):
+        def error_of_plan(text, agents=2):
             with self.assertRaises(plans.BadPlan) as caught:
                 plans.read_plan(Path(self.plan("p", text)), agents)
             return str(caught.exception)
-        self.assertEqual(said(self.grove_plan([[0, 0], [2, 0]], [[5, 5]])), "agent 0 jumps at time 1")
-        self.assertEqual(said(self.grove_plan([[0, 0]])), "paths of 1 agents; expected 2")
-        self.assertEqual(said("nothing"), "found no plan; expected a plan file of Grove")
-        self.assertEqual(said(self.grove_plan([["a"], ["b"]], [[5, 5]])), "agent 0 jumps at time 1")
-        self.assertEqual(said(self.grove_plan(7, [[5, 5]])), "found no plan; expected a plan file of Grove")
+        self.assertEqual(error_of_plan(self.grove_plan([[0, 0], [2, 0]], [[5, 5]])), "agent 0 jumps at time 1")
+        self.assertEqual(error_of_plan(self.grove_plan([[0, 0]])), "paths of 1 agents; expected 2")
+        self.assertEqual(error_of_plan("nothing"), "found no plan; expected a plan file of Grove")
+        self.assertEqual(error_of_plan(self.grove_plan([["a"], ["b"]], [[5, 5]])), "agent 0 jumps at time 1")
+        self.assertEqual(error_of_plan(self.grove_plan(7, [[5, 5]])), "found no plan; expected a plan file of Grove")
         paths = plans.read_plan(Path(self.plan("p", self.grove_plan([[0, 0], [1, 0], [1, 0]], [[5, 5]]))), 2)
         self.assertEqual(plans.cost_of(paths), 1)
 
     def known(self, name, text):
         return tracker.read_known([self.text(name, text)])
 
-    def test_what_is_known(self):
+    def test_best_known_values_are_read(self):
         place = tracker.Place("random-32-32-20", "random", 3, 2)
         head = "map_name,scen_type,type_id,agents,lower_cost,solution_cost,flip_up_down,solution_plan\n"
         for name, text in (
@@ -651,8 +657,8 @@ class Tracker(Folder):
         self.assertEqual(self.known("a.csv", head + "m,even,1,2,7,,,\nm,even,1,2,,9,,\nm,even,1,2,null,undefined,,\n"),
                          {tracker.Place("m", "even", 1, 2): tracker.Known(7, 9)})
 
-    def test_what_is_no_download(self):
-        for name, text, said in (
+    def test_malformed_downloads_are_refused(self):
+        for name, text, message in (
                 ("a.csv", "x,y\n",
                  "a.csv: line 1: missing column agents; expected the columns of a download of MAPF Tracker"),
                 ("a.csv", "agents,lower_cost,solution_cost\n2,4,6\n", "a.csv: line 2: missing scen_type; expected"),
@@ -662,9 +668,9 @@ class Tracker(Folder):
                 ("a.txt", "", "a.txt: expected a .csv or .json of MAPF Tracker")):
             with self.assertRaises(BadInput) as caught:
                 self.known(name, text)
-            self.assertIn(f"{self.folder}/{said}", str(caught.exception))
+            self.assertIn(f"{self.folder}/{message}", str(caught.exception))
 
-    def test_rows_beside_what_is_known(self):
+    def test_rows_are_compared_with_the_best_known_values(self):
         known = {tracker.place_of(self.row()): tracker.Known(4, 6)}
 
         def flags(*found):
@@ -677,23 +683,25 @@ class Tracker(Folder):
         self.assertEqual(flags(self.row(cost=7), self.row(seed=1, cost=5)), [(5, None, True, False, False)])
         self.assertEqual(flags(self.row(problem="cts")), [])
 
-    def test_contradictions(self):
-        def said(known, *found):
+    def test_contradictions_with_best_known_values(self):
+        def contradictions(known, *found):
             return [each.what for each in proofs.contradictions(found, {("mapf", self.NAME): tracker.Known(*known)})]
-        self.assertEqual(said((4, 6), self.row(cost=4, lower_bound=4), failed(**self.row()._asdict() | {"cost": None})), [])
-        self.assertEqual(said((6, 6), self.row(cost=5)), ["MAPF Tracker has a lower bound of 6; a plan costs 5 (a)"])
-        self.assertEqual(said((4, 5), self.row(cost=7, lower_bound=6)),
+        self.assertEqual(contradictions((4, 6), self.row(cost=4, lower_bound=4),
+                                        failed(**self.row()._asdict() | {"cost": None})), [])
+        self.assertEqual(contradictions((6, 6), self.row(cost=5)),
+                         ["MAPF Tracker has a lower bound of 6; a plan costs 5 (a)"])
+        self.assertEqual(contradictions((4, 5), self.row(cost=7, lower_bound=6)),
                          ["MAPF Tracker has a plan of cost 5, below a proven lower bound: 6 (a)"])
 
 
 class CommonInstances(unittest.TestCase):
-    """What all solve which solve any."""
+    """Tests instances that are solved by all methods that solve any instance."""
 
     def measured(self, found):
         return {line.method: each for line, each in
                 metrics.measures_by_line(found, metrics.best_costs(found)).items()}
 
-    def test_are_those_of_all_that_solve_any(self):
+    def test_common_instances_exclude_methods_that_solve_none(self):
         found = [row(instance="easy", method="a", sqr=1.0, cost=10), row(instance="hard", method="a", sqr=0.5, cost=20),
                  row(instance="easy", method="b", sqr=0.8, cost=12), failed(instance="hard", method="b"),
                  failed(instance="easy", method="c"), failed(instance="hard", method="c")]
@@ -703,11 +711,11 @@ class CommonInstances(unittest.TestCase):
         self.assertEqual((b.mean_sqr, b.common_sqr, b.common_cost_ratio), (0.8, 0.8, 1.2))
         self.assertEqual((c.common_sqr, c.common_cost_ratio), (None, None))
 
-    def test_need_two(self):
-        alone = self.measured([row(method="a", sqr=1.0), failed(method="b")])["a"]
-        self.assertEqual((alone.common, alone.common_sqr), (0, None))
+    def test_common_instances_need_two_methods(self):
+        measured = self.measured([row(method="a", sqr=1.0), failed(method="b")])["a"]
+        self.assertEqual((measured.common, measured.common_sqr), (0, None))
 
-    def test_are_solved_with_every_seed(self):
+    def test_common_instances_are_solved_with_every_seed(self):
         found = [row(method="a", seed=1, sqr=0.8, cost=12, runtime_s=2), row(method="a", seed=2, sqr=0.6, cost=14, runtime_s=4),
                  row(method="b", seed=1, sqr=1.0, cost=10)]
         a = self.measured(found)["a"]
@@ -717,14 +725,14 @@ class CommonInstances(unittest.TestCase):
         self.assertEqual((a.common, a.common_mean_cost), (0, None))
 
 
-class TheLines(unittest.TestCase):
-    def test_groves_own_search_has_its_name(self):
+class LinesAndFamilies(unittest.TestCase):
+    def test_default_method_is_labelled_grove(self):
         lines = Lines([row(method="auto"), row(method="hcbs")], [])
         self.assertEqual([lines.label(line) for line in lines.all], ["Grove", "hcbs"])
         lines = Lines([row(method="auto"), row(method="Grove")], [])
         self.assertEqual({lines.label(line) for line in lines.all}, {"Grove", "auto"})
 
-    def test_labels_tell_what_the_method_does_not(self):
+    def test_labels_distinguish_omegas_and_limits(self):
         found = [row(method="a", omega="0"), row(method="a", omega="inf"), row(method="b", omega="0.01"),
                  row(method="c"), row(method="c", time_limit_s=7.5)]
         lines = Lines(found, ["b"])
@@ -733,15 +741,15 @@ class TheLines(unittest.TestCase):
         self.assertEqual([lines.name(line) for line in lines.all],
                          ["a", "a", "c, limit 7.5 s", "c, limit 100 s", "b"])
 
-    def test_labels_leave_out_an_omega_that_all_share(self):
+    def test_labels_omit_a_common_omega(self):
         def labels(*found):
             lines = Lines(found, [])
             return [lines.label(line) for line in lines.all]
         self.assertEqual(labels(row(omega="0"), row(method="b", omega="0")), ["a", "b"])
-        # Of different problems, which no figure shows side by side.
+        # Different problems are never in the same figure.
         self.assertEqual(labels(row(omega="0"), row(method="b", omega="1", problem="cts")), ["a", "b"])
 
-    def test_families_by_options(self):
+    def test_families_are_derived_from_options(self):
         found = [row(method=method, omega=omega, options=options) for method, omega, options in (
             ("one", "0", "--method x --omega 0 --seed 1"), ("two", "inf", "--method x --omega=inf --seed 1"),
             ("three", "0.1", "--method x --seed 2 --omega 0.1"), ("four", "0", "--method y --omega 0"))]
@@ -751,7 +759,7 @@ class TheLines(unittest.TestCase):
         self.assertEqual([[line.method for line in family.lines] for family in named],
                          [["four", "one", "three"]])
 
-    def test_families_by_name(self):
+    def test_families_are_derived_from_names(self):
         found = [row(method="x", omega=omega) for omega in ("inf", "0", "0.01")]
         found += [row(method="cts-cbs-w0", omega="0"), row(method="cts-cbs-w0.1", omega="0.1"),
                   row(method="eecbs2", omega="2"), row(method="eecbs1", omega="1")]
@@ -767,23 +775,23 @@ class TheLines(unittest.TestCase):
 
 
 class Scales(unittest.TestCase):
-    def test_points_side_by_side(self):
+    def test_points_of_lines_are_dodged(self):
         self.assertEqual(scales.dodged([10, 30], "abc"), {"a": -0.5, "b": 0, "c": 0.5})
         self.assertEqual(scales.dodged([10, 15, 30], "ab"), {"a": -0.125, "b": 0.125})
         self.assertEqual(scales.dodged([10], "ab"), {"a": 0, "b": 0})
         self.assertEqual(scales.dodged([10, 30], "a"), {"a": 0})
 
-    def test_rounded_down(self):
+    def test_values_are_rounded_down(self):
         for value, rounded in ((1, 1), (0.9, 0.3), (0.3, 0.3), (0.29, 0.1), (0.0081, 0.003), (0.002, 0.001)):
             self.assertAlmostEqual(scales.rounded_down(value), rounded, places=12)
 
-    def test_where_time_begins(self):
+    def test_time_axis_begins_below_the_fastest_run(self):
         self.assertEqual(scales.first_time([row(runtime_s=0.0042), row(runtime_s=2)]), 0.003)
         self.assertEqual(scales.first_time([row(runtime_s=0), row(runtime_s=0.05)]), 0.03)
         self.assertEqual(scales.first_time([row(runtime_s=50)]), 1)
         self.assertEqual(scales.first_time([failed()]), 1)
 
-    def test_what_lies_below_is_larger(self):
+    def test_lines_drawn_first_have_larger_depth(self):
         for count in (1, 2, 8, 30):
             depths = [style.depth(rank, count) for rank in range(count)]
             self.assertEqual((depths, depths[-1]), (sorted(set(depths), reverse=True), 0))
@@ -791,13 +799,13 @@ class Scales(unittest.TestCase):
 
 
 class Tables(unittest.TestCase):
-    def test_numbers(self):
+    def test_numbers_are_formatted(self):
         self.assertEqual([seconds(value) for value in (0, 0.0123456, 1.23456, 12.3456, 180, 9876.5)],
                          ["<0.001", "0.0123", "1.23", "12.3", "180", "9876"])
         self.assertEqual([csv_value(value) for value in (None, 3, 0.5, math.pi, "a")],
                          ["", "3", "0.5", "3.14159", "a"])
 
-    def test_text_is_only_text(self):
+    def test_text_is_escaped_in_html(self):
         self.assertNotIn("<script>", html_table(["<script>"], [[word("<script>", "<script>")]]))
 
 

@@ -423,7 +423,8 @@ class Reports(Folder):
             found = json.loads(plan.read_text(encoding="utf-8"))
             found["agents"][0]["path"].insert(1, [31, 31])
             plan.write_text(json.dumps(found), encoding="utf-8")
-        self.assertIn("/plans/first/empty-32-32-even-3-3.plan.json: agent 0 jumps at time 1", self.error_of(table, "--tracker", out, "--tracker-method", "first"))
+        self.assertIn("/plans/first/empty-32-32-even-3-3.plan.json: agent 0 jumps at time 1",
+                      self.error_of(table, "--tracker", out, "--tracker-method", "first"))
         self.assertEqual(out.read_bytes(), before)
 
     def test_20000_rows_are_fast_and_legible_at_500_pixels(self):

@@ -132,7 +132,8 @@ def _solver_row(dice, place, method, seed, shape):
         "instance_digest": f"{name}{scenario}", "solver": adapter or None, "anytime": anytime,
         "claimed_cost": cost if adapter else None, "claimed_lower_bound": bound if adapter and has_bound else None}
     if solved and (anytime or not adapter):
-        row["trace"] = _trace(dice, seconds, ended, max(cost, round(optimum * (1 + first))), cost, bound if has_bound else None)
+        row["trace"] = _trace(dice, seconds, ended, max(cost, round(optimum * (1 + first))), cost,
+                              bound if has_bound else None)
     return row
 
 

@@ -122,7 +122,7 @@ class Schemas(Case):
                     self.assertTrue(described.get(word), f"{name}: {key} has no {word}")
 
     def test_references_have_no_sibling_properties(self):
-        """Checks that no schema has "$ref" beside "properties", because VS Code ignores the referenced properties then."""
+        """Checks that no schema has "$ref" next to "properties": VS Code then ignores the referenced properties."""
         def check(schema, where):
             if isinstance(schema, dict):
                 self.assertFalse("$ref" in schema and "properties" in schema and isinstance(schema["$ref"], str), where)

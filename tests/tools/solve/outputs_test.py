@@ -164,7 +164,7 @@ class FullDisk(Outputs):
         self.assertEqual(self.run_it("check", self.hard, "x.plan.json").returncode, 0)
         self.assertEqual(list(self.folder.glob("*.part-*")), [])
 
-    @unittest.skipUnless(os.access("/dev", os.W_OK), "only root can write the parts of a certificate beside /dev/full")
+    @unittest.skipUnless(os.access("/dev", os.W_OK), "only root can write the parts of a certificate next to /dev/full")
     def test_disk_full_at_the_end_of_a_certificate(self):
         done = self.run_it("solve", QUICK, "-o", "x.plan.json", "--proof", "/dev/full")
         self.assertIn("Lower bound", done.stdout)

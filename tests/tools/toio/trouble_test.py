@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests lifted, wrongly reporting and unresponsive cubes, and that the simulated mat detects drivers with planted faults."""
+"""Tests lifted, wrongly reporting and unresponsive cubes, and that drivers with planted faults are detected."""
 import asyncio
 import unittest
 
@@ -126,7 +126,8 @@ async def drive_with(kind, name, seconds, robots=None, messages=None, **attribut
             cube.__dict__.pop("on_motor" if kind is Deaf else "", None)
     running = asyncio.create_task(world.run())
     try:
-        return await Driver(order, cubes, grid, say=(messages if messages is not None else []).append).drive(seconds), world
+        say = (messages if messages is not None else []).append
+        return await Driver(order, cubes, grid, say=say).drive(seconds), world
     finally:
         running.cancel()
 

@@ -46,8 +46,8 @@ class Air:
         self.delayed, self.lost = delayed, lost
         self.stops = stops or {}                # robot: (begin, end)
         self.topics = Topics(PROTOCOLS[version], "i", "m")
-        self.complaints = []
-        self.monitor = Monitor(self.topics, self.complaints.append)
+        self.reports = []
+        self.monitor = Monitor(self.topics, self.reports.append)
         self.world = World(1.0)
         those = routes(name, following)
         self.control = Control(releases(order(name, following), those), style(version), "an order",

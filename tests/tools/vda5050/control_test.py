@@ -21,9 +21,10 @@ class _Eager(Releases):
 class Drives(unittest.TestCase):
     def check(self, one):
         self.assertTrue(one.drive(), list(one.control.reasons()))
-        self.assertEqual((one.complaints, one.world.collisions), ([], []))
+        self.assertEqual((one.reports, one.world.collisions), ([], []))
         done = {(v.route.robot, w.id) for v in one.control.vehicles.values() for n in v.route.nodes for w in n.works}
-        finished = {(robot, k) for robot, v in one.vehicles.items() for k, s in v.action_states.items() if s[1] == "FINISHED"}
+        finished = {(robot, k) for robot, v in one.vehicles.items() for k, s in v.action_states.items()
+                    if s[1] == "FINISHED"}
         self.assertEqual(done, finished)
 
     def test_drive_without_disturbances_is_completed(self):
@@ -50,7 +51,7 @@ class Drives(unittest.TestCase):
     def test_reasons_name_a_vehicle_that_stops_for_good(self):
         one = air.Air("dense", False, stops={"a1": (3, 1e9)})
         self.assertFalse(one.drive(300))
-        self.assertEqual((one.complaints, one.world.collisions), ([], []))
+        self.assertEqual((one.reports, one.world.collisions), ([], []))
         reasons = list(one.control.reasons())
         self.assertTrue(any(r.startswith("a1 is between ") for r in reasons), reasons)
         for reason in reasons:
@@ -82,5 +83,5 @@ class Drives(unittest.TestCase):
         for name in NAMES:
             one = air.Air(name, False, releases=_Eager, base=100)
             one.drive(300)
-            seen += bool(one.complaints)
+            seen += bool(one.reports)
         self.assertGreaterEqual(seen, 3)

@@ -115,7 +115,8 @@ class Paces(unittest.TestCase):
             one = drive("dense", "--pace", str(pace))
             self.assertTrue(one.completed)
             self.assertAlmostEqual(one.end, one.seconds * pace, delta=3)
-            self.assertAlmostEqual(one.end / calm.end, 1, delta=0.5)       # the same latency is longer in seconds of the vehicles
+            # The same latency is longer in seconds of the vehicles.
+            self.assertAlmostEqual(one.end / calm.end, 1, delta=0.5)
             self.assertLess(one.seconds, calm.seconds / 2)
             self.assertEqual(one.fleet.world.collisions, [])
 

@@ -49,7 +49,8 @@ class Vehicle(unittest.TestCase):
         self.vehicle.receive(order(2, 4, 4, update=1))
         for _ in range(100):
             self.vehicle.tick(0.1)
-        self.assertEqual((self.at(), self.states[-1]["lastNodeSequenceId"], self.states[-1]["nodeStates"]), (NODES[4], 8, []))
+        self.assertEqual((self.at(), self.states[-1]["lastNodeSequenceId"], self.states[-1]["nodeStates"]),
+                         (NODES[4], 8, []))
 
     def test_vehicle_works_at_nodes_with_actions(self):
         self.vehicle.receive(order(0, 2, 2, works=(1,)))
@@ -101,5 +102,5 @@ class Vehicle(unittest.TestCase):
         for version in PROTOCOLS:
             one = air.Air("work", False, version)
             self.assertTrue(one.drive())
-            self.assertEqual(one.complaints, [])
+            self.assertEqual(one.reports, [])
             self.assertGreater(one.monitor.messages["state"], 100)
