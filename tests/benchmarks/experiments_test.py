@@ -195,7 +195,7 @@ class WithTheProgram(Folder):
         self.assertIn("2 plans of echo are unchecked claims", done.stderr)
 
     def test_claims_below_a_proven_bound_are_reported(self):
-        # A lower bound: no plan costs less.
+        # No plan costs less than a proven lower bound.
         done, rows = self.experiment(
             "classical", "--scenarios", "1", "--time-limit", "1", "--other", "echo",
             "echo cost {agents}", r"cost (\d+)", code=1)

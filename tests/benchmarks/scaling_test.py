@@ -39,7 +39,7 @@ class Results(unittest.TestCase):
         self.assertIn(scaling.earlier_table(rows["earlier"], rows["simulated"] + rows["long"]), pages[1])
 
 
-class Hours(unittest.TestCase):
+class LongInstances(unittest.TestCase):
     """Tests the hour-long instances: each has a start plan of the cost stated on its page."""
 
     def test_start_plans_are_valid_for_the_instances(self):

@@ -99,19 +99,19 @@ class Solvers(ExternalSolverTests):
         self.assertIn("Agent 0:", (self.folder / "out" / row["plan_file"]).read_text())
 
     def test_claimed_cost_without_a_plan_is_claimed(self):
-        row = self.row_of("boasts")
+        row = self.row_of("claims")
         self.assertEqual((row["status"], row["solved"], row["cost"], row["claimed_cost"]),
                          ("claimed", False, None, 13))
         self.assertEqual(row["runtime_s"], 5)
-        counts = self.summary()["boasts"]
+        counts = self.summary()["claims"]
         self.assertEqual((counts["solved/run"], counts["claimed"], counts["refuted"]), ("0/1", "1", "1"))
-        self.assertIn("refuted: boasts on open-random-1-2 claims a cost of 13, but grove has proven that no plan "
+        self.assertIn("refuted: claims on open-random-1-2 claims a cost of 13, but grove has proven that no plan "
                       "costs less than 14\n", self.output)
 
     def test_solved_claim_without_a_cost_is_claimed(self):
-        row = self.row_of("speaks")
+        row = self.row_of("asserts")
         self.assertEqual((row["status"], row["claimed_cost"]), ("claimed", None))
-        self.assertEqual(self.summary()["speaks"]["claimed"], "1")
+        self.assertEqual(self.summary()["asserts"]["claimed"], "1")
 
     def test_claim_below_the_cost_of_the_paths_is_refuted(self):
         row = self.row_of("understates")
@@ -131,14 +131,14 @@ class Solvers(ExternalSolverTests):
         self.assertIn("expected a plan file", row["error"])
 
     def test_partial_output_at_the_time_limit_is_unknown(self):
-        row = self.row_of("torn", limit=0.5)
+        row = self.row_of("partial", limit=0.5)
         self.assertEqual((row["status"], row["error"]), ("unknown", "time limit"))
 
     def test_solver_without_a_plan_is_unknown(self):
-        row = self.row_of("silent")
+        row = self.row_of("planless")
         self.assertEqual((row["status"], row["solved"], row["error"]),
                          ("unknown", False, "ended without a plan: nothing found"))
-        self.assertEqual(self.summary()["silent"]["errors"], "0")
+        self.assertEqual(self.summary()["planless"]["errors"], "0")
 
     def test_hanging_solver_is_killed_at_the_time_limit(self):
         """Checks that a solver without a time limit option is killed at the limit, with its child processes."""
@@ -169,7 +169,7 @@ class Solvers(ExternalSolverTests):
         self.assertEqual((row["status"], row["error"]), ("error", "ended with exit code 255: out of luck"))
 
     def test_memory_limit_ends_a_solver(self):
-        row = self.row_of("eats", "--memory-limit", 1)
+        row = self.row_of("allocates", "--memory-limit", 1)
         self.assertEqual((row["status"], row["memory_limit_gb"]), ("error", 1))
         self.assertIn("MemoryError", row["error"])
         self.assertLess(row["peak_memory_mb"], 1000)
@@ -238,9 +238,9 @@ class Commands(ExternalSolverTests):
 
     def test_claimed_cost_is_read_from_the_output(self):
         self.add_scenario("open-random-1", 2)
-        command = f"boaster={FAKE} {{map}} {{scenario}} {{agents}} {{folder}}/nothing boasts"
-        self.run_well(*self.sweep("--claimed-cost", r"boaster=cost (\d+)", solvers=[command]))
-        self.assertEqual(self.rows()["open-random-1-2", "boaster"]["claimed_cost"], 13)
+        command = f"claimer={FAKE} {{map}} {{scenario}} {{agents}} {{folder}}/nothing claims"
+        self.run_well(*self.sweep("--claimed-cost", r"claimer=cost (\d+)", solvers=[command]))
+        self.assertEqual(self.rows()["open-random-1-2", "claimer"]["claimed_cost"], 13)
 
     def test_solver_is_found_in_path(self):
         self.add_scenario("open-random-1", 2)

@@ -46,9 +46,9 @@ def main():
         first = paths[0][:2] + [(1, 1)] + paths[0][1:]  # where the second agent is at that time
         write(output, [first, straight(*rows[1], waits=1), *paths[2:]])
         print(f"cost {cost}")
-    elif kind == "boasts":
+    elif kind == "claims":
         print(f"cost {cost - 1}")
-    elif kind == "speaks":
+    elif kind == "asserts":
         print("no number, but a plan, I have")
     elif kind == "understates":
         write(output, [straight(*row, waits=2) for row in rows])
@@ -58,10 +58,10 @@ def main():
         print(f"cost {cost} bound {cost + 5}")
     elif kind == "garbage":
         Path(output).write_text("I am no plan\n")
-    elif kind == "torn":
+    elif kind == "partial":
         write(output, [path[:3] for path in paths])
         signal.pause()
-    elif kind == "silent":
+    elif kind == "planless":
         print("nothing found")
     elif kind == "hangs":
         child = subprocess.Popen(["sleep", "600"])
@@ -74,7 +74,7 @@ def main():
     elif kind == "fails":
         print("out of luck")
         sys.exit(255)
-    elif kind == "eats":
+    elif kind == "allocates":
         bytearray(3_000_000_000)
     elif kind == "anytime":
         # The first claimed cost is 1 too low, and the last plan is reported 3 times.

@@ -229,7 +229,7 @@ class Reports(Folder):
                          [("bypasses: another path of the same cost", "6.5"),
                           ("costs with one more constraint (strong branching): share of cache hits", "50 %")])
         self.assertIn('alt="What nodes were split on"', page)
-        # Older tables have no such column, and baselines count nothing.
+        # Older tables have no such column, and baselines have no counters.
         for counts in ("bypasses=1 splits_bar=0", None):
             page, _ = self.report(self.results([row | {"counts": counts} for row in found]))
             self.assertNotIn("What nodes were split on", page)

@@ -115,7 +115,7 @@ class Journeys(unittest.TestCase):
         self.assertEqual(single.responses, [(0x83, 1, protocol.REPLACED)])
 
 
-class Sight(unittest.TestCase):
+class Positions(unittest.TestCase):
     def test_lifted_cube_misses_its_id(self):
         single = SingleCube()
         single.cube.lift()

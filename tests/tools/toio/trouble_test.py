@@ -79,7 +79,7 @@ class Lifted(unittest.TestCase):
             self.assertTrue(outcome.completed, outcome.waits)
 
 
-class Deaf(SimulatedCube):
+class WithoutResponses(SimulatedCube):
     """Loses all its responses."""
 
     @property
@@ -91,7 +91,7 @@ class Deaf(SimulatedCube):
         pass
 
 
-class Liar(SimulatedCube):
+class FalseResponses(SimulatedCube):
     """Reports every journey as done without moving."""
 
     async def write(self, data):
@@ -107,7 +107,7 @@ class Refusing(SimulatedCube):
             self._notify(self.on_motor, protocol.response(journey.kind, journey.number, self.code))
 
 
-class Gone(SimulatedCube):
+class Unresponsive(SimulatedCube):
     """Sends no notifications after two seconds."""
 
     def _notify(self, handler, data):
@@ -123,7 +123,7 @@ async def drive_with(kind, name, seconds, robots=None, messages=None, **attribut
         if robots is None or cube.name in robots:
             cube.__class__ = kind
             cube.__dict__.update(attributes)
-            cube.__dict__.pop("on_motor" if kind is Deaf else "", None)
+            cube.__dict__.pop("on_motor" if kind is WithoutResponses else "", None)
     running = asyncio.create_task(world.run())
     try:
         say = (messages if messages is not None else []).append
@@ -134,12 +134,12 @@ async def drive_with(kind, name, seconds, robots=None, messages=None, **attribut
 
 class Cubes(unittest.TestCase):
     def test_drive_without_responses_is_completed(self):
-        outcome, world = plans.run(drive_with(Deaf, "dense", plans.PATIENCE))
+        outcome, world = plans.run(drive_with(WithoutResponses, "dense", plans.PATIENCE))
         self.assertTrue(outcome.completed, outcome.waits)
         self.assertGreater(world.least, BODY)
 
     def test_response_without_movement_does_not_end_an_action(self):
-        outcome, _ = plans.run(drive_with(Liar, "dense", 20))
+        outcome, _ = plans.run(drive_with(FalseResponses, "dense", 20))
         self.assertFalse(outcome.completed)
         self.assertEqual(outcome.actions, 0)
 
@@ -161,7 +161,7 @@ class Cubes(unittest.TestCase):
 
     def test_unresponsive_cube_is_reported(self):
         messages = []
-        outcome, world = plans.run(drive_with(Gone, "dense", 30, {RED}, messages))
+        outcome, world = plans.run(drive_with(Unresponsive, "dense", 30, {RED}, messages))
         self.assertIn(f"{RED} has stopped sending positions", "".join(messages))
         self.assertFalse(outcome.completed)
         self.assertGreater(world.least, BODY)
@@ -197,14 +197,14 @@ class WithoutOrder(WithoutGuard):
         return True
 
 
-class Early(WithoutGuard):
+class EarlyArrival(WithoutGuard):
     """Takes a cube within 15 units of its goal for arrived, as cubes do."""
 
     async def reach(self, handle, goal, tolerance, onward=lambda: None):
         await super().reach(handle, goal, protocol.REACHED_BOX, onward)
 
 
-class Straight(WithoutGuard):
+class StraightRing(WithoutGuard):
     """Drives the robots of a ring on straight paths, without regard to each other."""
 
     async def go_round(self, handle, ring):
@@ -220,10 +220,10 @@ class PlantedFaults(unittest.TestCase):
         self.assertTrue(all(self.touched(WithoutOrder, "dense")))
 
     def test_early_arrival_causes_collisions(self):
-        self.assertTrue(any(self.touched(Early, "dense")))
+        self.assertTrue(any(self.touched(EarlyArrival, "dense")))
 
     def test_straight_paths_in_a_ring_cause_collisions(self):
-        self.assertTrue(any(self.touched(Straight, "round")))
+        self.assertTrue(any(self.touched(StraightRing, "round")))
 
     def test_order_without_the_second_guard_prevents_collisions(self):
         """Drives without the second guard, which is for cubes moved by hand."""

@@ -60,7 +60,7 @@ class Air:
     def add(self, robot, route, version):
         def publish(topic, message):
             self.sent_at[robot.name] = self.now
-            self.fly(self.hear, robot.name, topic, message)
+            self.schedule(self.on_vehicle_message, robot.name, topic, message)
 
         speed = self.random.uniform(0.5, 3)
         self.vehicles[robot.name] = SimulatedVehicle(PROTOCOLS[version], robot.name, "m", route.serial, route.nodes[0].at,
@@ -70,24 +70,24 @@ class Air:
 
     # ---- messages
 
-    def fly(self, function, *arguments):
+    def schedule(self, function, *arguments):
         if self.random.random() < self.lost:
             return
         seconds = self.random.uniform(0, 20) if self.random.random() < self.delayed else 0.0
         self.number += 1
         heapq.heappush(self.due, (self.now + seconds, self.number, function, arguments))
 
-    def seen(self, serial, name, message):
+    def notify_monitor(self, serial, name, message):
         """Passes a message to the monitor, in the order in which the broker receives them."""
         self.monitor.on_message(self.topics.topic(serial, name), json.dumps(message).encode())
 
     def send(self, robot, content):
         message = json.loads(json.dumps(self.headers[robot].message(content)))
-        self.seen(robot, "order", message)
-        self.fly(self.vehicles[robot].receive, message)
+        self.notify_monitor(robot, "order", message)
+        self.schedule(self.vehicles[robot].receive, message)
 
-    def hear(self, robot, name, message):
-        self.seen(robot, name, message)
+    def on_vehicle_message(self, robot, name, message):
+        self.notify_monitor(robot, name, message)
         self.control.on_state(robot, json.loads(json.dumps(message)))
 
     # ---- the drive

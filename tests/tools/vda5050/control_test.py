@@ -79,9 +79,9 @@ class Drives(unittest.TestCase):
         self.assertEqual(max(longest), 3)
 
     def test_too_early_releases_are_detected(self):
-        seen = 0
+        detected = 0
         for name in NAMES:
             one = air.Air(name, False, releases=_Eager, base=100)
             one.drive(300)
-            seen += bool(one.reports)
-        self.assertGreaterEqual(seen, 3)
+            detected += bool(one.reports)
+        self.assertGreaterEqual(detected, 3)

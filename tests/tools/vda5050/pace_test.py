@@ -25,7 +25,7 @@ class Broker:
         if retain:
             self.kept[message.topic] = message
         for connection in self.connections:
-            connection.hear(message)
+            connection.receive(message)
 
 
 class Connection:
@@ -37,14 +37,14 @@ class Connection:
         self.messages = queue.SimpleQueue()
         broker.connections.append(self)
         for message in broker.kept.values():
-            self.hear(message)
+            self.receive(message)
         if hello:
             self.publish(*hello, retain=True)
 
     def publish(self, topic, message, qos=0, retain=False):
         self.broker.publish(Message(topic, encode(message)), retain)
 
-    def hear(self, message):
+    def receive(self, message):
         levels = message.topic.split("/")
         if any(len(t) == len(levels) and all(a in ("+", b) for a, b in zip(t, levels)) for t in self.topics):
             self.messages.put(message)
