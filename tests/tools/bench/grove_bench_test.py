@@ -206,9 +206,9 @@ class Refusals(Program):
         self.easy(1)
         for run, text in (("x: --polcy fixed", "--polcy"), ("x: --omega -1", "--omega: found '-1'"),
                           ("x: --omega 0 first.cts.json", "first.cts.json"), ("nonsense", "--method"),
-                          ("x: --output plan", "--output: which files"),
-                          ("x: --log l", "--log: which files"),
-                          ("x: --checkpoint c", "--checkpoint: which files"),
+                          ("x: --output plan", "--output is not allowed here"),
+                          ("x: --log l", "--log is not allowed here"),
+                          ("x: --checkpoint c", "--checkpoint is not allowed here"),
                           ("x: --policy fixed --without bypass", "--without"),
                           ("x: --with sequence-splits", "was removed"),
                           ("x: --help", "--help"), ("a b: --omega 0", "NAME"), ("", "NAME")):
@@ -221,7 +221,7 @@ class Refusals(Program):
     def test_wrong_instance_lists_are_refused(self):
         self.refuses(self.bench(), "instances")
         path = self.easy(1)[0]
-        for text, message in (("", "lists no instance"), ("missing.cts.json\n", "missing.cts.json"),
+        for text, message in (("", "has no instance"), ("missing.cts.json\n", "missing.cts.json"),
                                 (f"{path}\n{path}\n", "line 2"),
                                 (f"{DATA}/rooms-32x32.map\n", "is a map")):
             (self.folder / "list.txt").write_text(text)
@@ -249,7 +249,7 @@ class Refusals(Program):
             path.write_text(f'{{"map": "{DATA}/rooms-32x32.map", "agents": [{{"id": "a", {motion}"start": [1, 1], '
                             '"goal": [3, 1]}], "tasks": []}')
         output = self.run_well(*self.bench(runs=["x: --method hcbs"]))
-        self.assertRegex(output, r"(?m)^method .* errors +unsuitable$")
+        self.assertRegex(output, r"(?m)^method .* errors +unsupported$")
         self.assertRegex(output, r"(?m)^x +1/1 .* 0 +2$")
         self.assertEqual([self.rows()[name, "x"]["status"] for name in ("a_turns", "c_turns")], ["unsupported"] * 2)
 
@@ -272,7 +272,7 @@ class Refusals(Program):
         path.write_text(text + "\n")  # still the same instance
         self.run_well(*self.bench())
         path.write_text(text.replace('"a0"', '"robot"'))
-        self.refuses(self.bench(), "has changed since")
+        self.refuses(self.bench(), "the instance or its map has changed")
         self.assertEqual(self.lines(), before)
 
 
@@ -298,7 +298,7 @@ class Resuming(Program):
         file.write_text(text)
         running = self.start(*self.bench("--quiet"))
         self.assertRegex(running.communicate(timeout=HANG_S)[1],
-                         r"\Agrove: warning: out holds rows of grove -1[^\n]*; they are kept\n\Z")
+                         r"\Agrove: warning: out has rows of grove -1[^\n]*; they are kept\n\Z")
         self.assertEqual(file.read_text(), text)
 
     def test_bench_killed_repeatedly_resumes(self):

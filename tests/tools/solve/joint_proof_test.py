@@ -44,7 +44,7 @@ class JointProof(unittest.TestCase):
     def test_warning_with_a_joint_search(self):
         stderr, plan = self.solve(["....", "@..@", "..@.", "...."], DENSE)
         self.assertIn("0 splits, 0 leaves", plan["stats"]["proof"])
-        self.assertIn(f"that took {plan['stats']['joint_states']} joint states here", stderr)
+        self.assertIn(f"the search had {plan['stats']['joint_states']} joint states", stderr)
 
     def test_no_warning_of_a_tree_search_proof(self):
         stderr, plan = self.solve(["." * 6, "." * 6], corridor([4, 1]))
