@@ -222,7 +222,7 @@ def least_cost(instance, agent, constraints, latest=400):
     without the agent."""
     ordered = any(d[0] in ("stop", "nostop") for d in constraints)
     world = instance.world
-    settled = 1 + max([t for d in constraints for t in d[1:] if d[0] not in ("stop", "nostop") and t != INF], default=0)
+    constant_from = 1 + max([t for d in constraints for t in d[1:] if d[0] not in ("stop", "nostop") and t != INF], default=0)
     passes = [(world.chain(d[1]), d) for d in constraints if d[0] == "pass"]
 
     def allowed(done):
@@ -250,7 +250,7 @@ def least_cost(instance, agent, constraints, latest=400):
         for chain in {chain for chain, _ in passes}:
             if place in chain[1:-1]:
                 now |= {(chain, (before[0], place))} if before[0] not in chain[1:-1] else {e for e in entries if e[0] == chain}
-        return state, min(time, settled), frozenset(now)
+        return state, min(time, constant_from), frozenset(now)
 
     def rests(node, time):
         (pose, _, _), arrived, _ = node
@@ -279,7 +279,7 @@ def least_cost(instance, agent, constraints, latest=400):
                 found = after(node, state, time + 1) if legal else None
                 if found:
                     following.setdefault(found, node)
-        if time > settled:
+        if time > constant_from:
             new = following.keys() - seen
             if not new:
                 return INF, None

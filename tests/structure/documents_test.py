@@ -215,7 +215,7 @@ def main():
     self_test()
     root, programs = arguments.root.resolve(), arguments.programs.resolve()
     if not (programs / "grove").exists():
-        print(f"skipped: there is no {programs / 'grove'}")
+        print(f"skipped: {programs / 'grove'} is not built")
         return SKIPPED
     return 1 if sum(run_document(path.resolve(), root, programs, arguments.slow) for path in arguments.documents) else 0
 

@@ -43,7 +43,7 @@ def offered_techniques(program):
 def main():
     page, program = (Path(argument) for argument in sys.argv[1:])
     if not program.exists():
-        print(f"skipped: there is no {program}")
+        print(f"skipped: {program} is not built")
         return 77
     help_text = subprocess.run([program, "solve", "--help"], capture_output=True, text=True,
                                check=True).stdout
