@@ -68,7 +68,7 @@ class Paper(unittest.TestCase):
             running.send_signal(signal.SIGTERM)
             _, err = running.communicate(timeout=HANG_S)
             self.assertEqual(running.returncode, 130, err)
-            self.assertIn("the same command goes on", err)
+            self.assertIn("repeat the command to resume", err)
             self.assertNotIn("Traceback", err)
 
     def refused(self, *arguments):

@@ -268,7 +268,7 @@ class DamagedCheckpoint : public ::testing::Test {
   void expect_damage_found(const std::string& bytes, const char* place, std::size_t offset) {
     const std::string said = reading(bytes);
     EXPECT_TRUE(said.find("is damaged") != std::string::npos ||
-                said.find("is no checkpoint") != std::string::npos ||
+                said.find("is not a checkpoint") != std::string::npos ||
                 said.find("of format version") != std::string::npos)
         << place << ' ' << offset << ": " << said;
   }

@@ -87,7 +87,7 @@ class GroveSim(unittest.TestCase):
         self.refuses(EASY, "--ranks", "0", because=["--ranks"])
         self.refuses(EASY, "--ranks", "2;3", because=["--ranks"])
         self.refuses(EASY, "--latency", "-1", because=["--latency"])
-        self.refuses(ONE_WAY, "--method", "hcbs", because=[ONE_WAY.name, "method hcbs", "one way"])
+        self.refuses(ONE_WAY, "--method", "hcbs", because=[ONE_WAY.name, "method hcbs", "two-way roads"])
         self.refuses(EASY, "--method", "cts-cbs-a", because=["cts-cbs-a"])
         self.refuses(EASY, "--output", "no/such/table.csv", because=["no/such"])
 

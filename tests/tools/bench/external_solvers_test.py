@@ -294,7 +294,7 @@ class Commands(ExternalSolverTests):
                                (f"x=missing.json:{fake}", "missing.json")):
             self.refuses(self.sweep(solvers=[solver]), *texts)
         good = f"x={fake} {{map}} {{scenario}}"
-        for claim, text in (("y=(1)", "the name of a --solver"), ("x=(1", "no regular expression"),
+        for claim, text in (("y=(1)", "the name of a --solver"), ("x=(1", "not a regular expression"),
                             ("x=1", "found 0 groups")):
             self.refuses(self.sweep("--claimed-cost", claim, solvers=[good]), "--claimed-cost", text)
         self.refuses(self.sweep(solvers=[self.solver("honest", name="grove")]), "a second 'grove'")
@@ -366,7 +366,7 @@ class Sweeps(ExternalSolverTests):
         self.refuses(["bench", "instances", "--run", "grove:", "--output-dir", "out", "--scenarios", "x*"],
                      "--scenarios", "--agents")
         self.refuses(["bench", "instances", "--run", "grove:", "--output-dir", "out", "--agents", 3], "no scenario")
-        self.refuses(self.sweep("--seeds", "1", runs=["x: --seed 3"]), "--seeds", "no --seed")
+        self.refuses(self.sweep("--seeds", "1", runs=["x: --seed 3"]), "--seeds", "found --seed in a run")
         self.refuses(self.sweep("--seeds", "3-1"), "--seeds")
         self.assertFalse((self.folder / "out").exists())
 

@@ -44,7 +44,7 @@ class JointProof(unittest.TestCase):
     def test_by_joint_search(self):
         said, plan = self.solve(["....", "@..@", "..@.", "...."], CROWD)
         self.assertIn("0 splits, 0 leaves", plan["stats"]["proof"])
-        self.assertIn(f"that took {plan['stats']['joint_states']} joint states here", said)
+        self.assertIn(f"the search had {plan['stats']['joint_states']} joint states", said)
 
     def test_no_warning_of_a_tree(self):
         said, plan = self.solve(["." * 6, "." * 6], corridor([4, 1]))
