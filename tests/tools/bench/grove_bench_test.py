@@ -207,8 +207,8 @@ class Refusals(Program):
         for run, text in (("x: --polcy fixed", "--polcy"), ("x: --omega -1", "--omega: found '-1'"),
                           ("x: --omega 0 first.cts.json", "first.cts.json"), ("nonsense", "--method"),
                           ("x: --output plan", "--output is not allowed here"),
-                          ("x: --log l", "--log: which files"),
-                          ("x: --checkpoint c", "--checkpoint: which files"),
+                          ("x: --log l", "--log is not allowed here"),
+                          ("x: --checkpoint c", "--checkpoint is not allowed here"),
                           ("x: --policy fixed --with sequence-splits", "--with"),
                           ("x: --help", "--help"), ("a b: --omega 0", "NAME"), ("", "NAME")):
             self.refuses(self.bench(runs=["good: --omega 0", run]), "--run", text)
