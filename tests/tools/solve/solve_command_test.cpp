@@ -386,11 +386,11 @@ TEST_F(SolveCommand, RefusesInvalidArguments) {
   EXPECT_THAT(complaint(solve({"puzzle.json", "--threads", "0"})), HasSubstr("--threads"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--policy", "best"})),
               HasSubstr("auto, fixed, free"));
-  EXPECT_THAT(complaint(solve({"other.yaml"})), HasSubstr("'grove convert' makes of it"));
+  EXPECT_THAT(complaint(solve({"other.yaml"})), HasSubstr("'grove convert' makes from it"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--rtsp", "gurobi"})), HasSubstr("auto, cbc, dp"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--rtsp", "cbc"})),
               is_built(RtspBackend::kCbc)
-                  ? HasSubstr("expected --policy fixed with it, or no --rtsp cbc")
+                  ? HasSubstr("requires --policy fixed; expected that, or no --rtsp cbc")
                   : HasSubstr("built without CBC"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--omgea", "0"})), HasSubstr("--omgea"));
   EXPECT_THAT(complaint(solve({"missing.json"})), HasSubstr("missing.json"));
