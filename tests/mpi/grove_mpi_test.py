@@ -180,7 +180,7 @@ class Refusals(Program):
         self.refuses(mpirun(2, "solve", EASY, "--resume", "auto"), "--resume", "--checkpoint")
 
     def test_unsupported_method_is_refused(self):
-        self.refuses(mpirun(2, "solve", ONE_WAY, "--method", "hcbs"), ONE_WAY.name, "method hcbs", "one way")
+        self.refuses(mpirun(2, "solve", ONE_WAY, "--method", "hcbs"), ONE_WAY.name, "method hcbs", "two-way roads")
         self.refuses(mpirun(2, "solve", EASY, "--method", "cts-cbs-a"), "cts-cbs-a")
 
     def test_confine_refuses_maps_outside_the_folder(self):
@@ -502,7 +502,7 @@ class Batches(Program):
         self.run_well(mpirun(2, *self.batch("--method", "hcbs", "--ranks-per-instance", 2)))
         row, = self.rows().values()
         self.assertEqual(row["status"], "unsupported")
-        self.assertIn("one way", row["error"])
+        self.assertIn("two-way roads", row["error"])
 
     def test_input_is_complained_about_once(self):
         self.refuses(mpirun(2, *self.batch()), "instances")

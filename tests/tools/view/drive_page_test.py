@@ -238,7 +238,7 @@ class DrivePages(pages.PageTest):
             words = [self.grove, "view", self.instance_file, self.plan_file, "--drive", self.log, "--follow", "--port", port]
             second = subprocess.run(words, capture_output=True, text=True, timeout=120)
             self.assertEqual(second.returncode, 2)
-            self.assertIn("--port: is taken", second.stderr)
+            self.assertIn("--port: is in use", second.stderr)
         with self.server("--port", port) as again:  # free again at once
             self.assertIn(f":{port}/", again)
             self.assertNotEqual(again, address)  # another token

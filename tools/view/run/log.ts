@@ -140,11 +140,13 @@ function readRow(kind: Row["kind"], data: Value): Row {
 
 function readCounts(data: Value): Counts {
   const memory = data.key("memory_mb");
-  const kinds = readNumbers(memory, renamed.kMemory);
   const ranks = data.key("ranks");
+  const time = data.key("time_s").number();
+  const counts = readNumbers(data.key("counts"), renamed.kCounters);
+  const kinds = readNumbers(memory, renamed.kMemory);
   return {
-    time: data.key("time_s").number(),
-    counts: readNumbers(data.key("counts"), renamed.kCounters),
+    time,
+    counts,
     process: memory.key("process").number(),
     memory: kMemory.map((kind) => kinds.get(kind) ?? memory.key(kind).number()),
     ranks: ranks.isThere ? readRanks(ranks) : [],
