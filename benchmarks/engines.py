@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Do all engines find the same optimum? One process with 1, 2 and 4 threads, and 1, 2, 3, 4 ranks, and 2
-ranks of 2 threads, on tiny instances made here and on the instances named.
+"""Checks that all engines find the same optimum, on tiny generated instances and on the given instances.
+
+Engines: one process with 1, 2 and 4 threads; 1, 2, 3 and 4 ranks; 2 ranks of 2 threads.
 
     engines.py [--tiny N] [--time-limit S] [--bin BIN_DIR] [INSTANCE...]
 
-Ends with 1 if two engines that both proved an optimum differ. Instances that some engine does not solve
-within the limit are told.
+Exit code 1 if two engines prove different optima. Instances that an engine does not solve within the limit are
+listed.
 """
 import argparse
 import csv
@@ -18,11 +19,11 @@ from harness.programs import MPIRUN, answer, run
 
 DATA = Path(__file__).resolve().parent / "data"
 THREADS = [1, 2, 4]
-RANKS = [(1, 1), (2, 1), (3, 1), (4, 1), (2, 2)]  # and threads of each
+RANKS = [(1, 1), (2, 1), (3, 1), (4, 1), (2, 2)]  # (ranks, threads per rank)
 
 
 def make_tiny(grove, folder, count):
-    """Few agents in a little room: many conflicts, few cells."""
+    """Generates instances with few agents on few cells, which have many conflicts."""
     instances = []
     for seed in range(count):
         path = folder / f"tiny-{seed}.cts.json"
@@ -33,12 +34,12 @@ def make_tiny(grove, folder, count):
 
 
 def by_threads(grove, instances, threads, limit, folder):
-    """The proven optimum of each instance; none where there is no proof."""
+    """Returns {instance: proven optimum, or None without a proof}."""
     found = {}
     for path in instances:
-        said = answer([grove, "solve", path, "--omega", 0, "--threads", threads, "--time-limit", limit],
+        found_plan = answer([grove, "solve", path, "--omega", 0, "--threads", threads, "--time-limit", limit],
                       folder / "plan.json")
-        found[path.name] = said["cost"] if said["status"] == "optimal" else None
+        found[path.name] = found_plan["cost"] if found_plan["status"] == "optimal" else None
     return found
 
 

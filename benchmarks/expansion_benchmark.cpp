@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Constraint-tree expansions per second and memory per node: the fixed policy with w = 0 on 10
-// agents and 20 tasks. The map is random-32-32-20 where GROVE_MOVINGAI names a folder that has it,
-// and one of our own making like it otherwise. Plans that turn up are ignored, so the search never
+// Measures constraint-tree expansions per second and memory per node: fixed policy, omega = 0, 10
+// agents and 20 tasks, or 20 agents and 50 tasks. The map is random-32-32-20 if the directory
+// GROVE_MOVINGAI has it, otherwise a similar generated map. Plans are ignored, so the search never
 // ends early.
 #include <benchmark/benchmark.h>
 
@@ -34,7 +34,7 @@ Source source() {
   return {data / "random-32x32-20.map", data / "random-32x32-20.scen"};
 }
 
-// Expands the best node, growing the forest as Algorithm 4 with w = 0 does.
+// Expands the best node, and instantiates trees as Algorithm 4 with omega = 0 does.
 class Search {
  public:
   explicit Search(const Instance& instance)
@@ -87,14 +87,14 @@ void BM_Expansions(benchmark::State& state) {
       read_map(files.map), scenario,
       {static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), 1, false});
   Search search(instance);
-  search.step();  // tables and buffers
+  search.step();  // fills tables and buffers
   const auto memory_before = static_cast<double>(resident_bytes());
   for (auto _ : state) search.step();
   const auto nodes = static_cast<double>(search.generated());
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()));
   state.counters["bytes_per_node"] =
       (static_cast<double>(resident_bytes()) - memory_before) / nodes;
-  state.counters["node_bytes"] = search.node_bytes();  // of them in nodes and their paths
+  state.counters["node_bytes"] = search.node_bytes();  // the part in nodes and their paths
   const ExpansionCounts counts = search.counts();
   state.counters["labels_per_call"] =
       static_cast<double>(counts.low_level_expanded) / static_cast<double>(counts.low_level_calls);

@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The experiments on Moving AI maps, one command each.
+"""Runs the experiments on Moving AI maps, one command each.
 
-    benchmarks/experiments.py paper                      the paper's cells: what is proven
+    benchmarks/experiments.py paper                      the paper's cells: proven results
     benchmarks/experiments.py large -j 2                 hundreds of agents: plans and gaps
-    benchmarks/experiments.py crowded                    as many agents as fit: first plans
-    benchmarks/experiments.py classical -- --omega 0     no tasks: against other solvers
-    benchmarks/experiments.py ablation --tasks 30        each technique switched off in turn
+    benchmarks/experiments.py crowded                    dense instances: first plans
+    benchmarks/experiments.py classical -- --omega 0     classical MAPF: comparison with other solvers
+    benchmarks/experiments.py ablation --tasks 30        each technique disabled in turn
 
-Instances come from `grove generate instance` and the scenarios <map>-random-<k>.scen; every plan of Grove's, and
-paths that another solver writes, are re-checked with `grove check`. Claims that contradict each other - a plan
-below a proven bound - are said on standard error. Options after `--` go to `grove solve` as they are; without
-`--threads` it runs on one. A case whose map is not there is left out, which is said. The tables are Markdown;
---csv keeps a row per run, for `grove report`, too.
+Instances come from `grove generate instance` and the scenarios <map>-random-<k>.scen. Every plan of Grove, and
+paths of other solvers, are checked with `grove check`. Claims that contradict each other, such as a plan below a
+proven bound, are reported on standard error. Options after `--` are passed to `grove solve`, which uses one thread
+without `--threads`. Cases without a map are skipped and reported. The tables are Markdown; --csv writes a row per
+run, also for `grove report`.
 Exit codes: 0 all ran, 1 some failed, claims contradict each other, or nothing ran, 2 wrong usage.
 """
 
@@ -85,12 +85,12 @@ def classical(arguments):
 
 
 def technique_names(grove):
-    """The techniques that `grove solve --without` knows, from what it says to one it does not."""
-    said = subprocess.run([grove, "solve", "--without", "?", "x"], capture_output=True, text=True,
-                          check=False).stderr
-    names = re.search(r"--without: .*expected one of ([a-z, -]+)", said)
+    """Returns the techniques of `grove solve --without`, from its error message for an unknown one."""
+    message = subprocess.run([grove, "solve", "--without", "?", "x"], capture_output=True, text=True,
+                             check=False).stderr
+    names = re.search(r"--without: .*expected one of ([a-z, -]+)", message)
     if not names:
-        sys.exit(f"{grove} does not tell its techniques; it says: {said}")
+        sys.exit(f"experiments.py: error: {grove}: found no list of techniques in: {message}")
     return names.group(1).strip().split(", ")
 
 
@@ -105,16 +105,16 @@ def ablation(arguments):
 
 
 def add_common(parser, time_limit, scenarios):
-    parser.add_argument("--grove", default=GROVE, help="the program")
+    parser.add_argument("--grove", default=GROVE, help="program grove")
     parser.add_argument("--maps", type=pathlib.Path,
                         default=os.environ.get("GROVE_MOVINGAI", "../shared/movingai"),
-                        help="where the .map and .scen files are; by default what the environment "
-                             "variable GROVE_MOVINGAI says, or %(default)s")
+                        help="folder of the .map and .scen files (default: the environment variable "
+                             "GROVE_MOVINGAI, else %(default)s)")
     parser.add_argument("--scenarios", nargs="+", type=int, default=scenarios, metavar="K")
     parser.add_argument("--time-limit", type=float, default=time_limit, metavar="S",
-                        help="seconds per instance (%(default)s)")
+                        help="time limit per instance, seconds (default: %(default)s)")
     parser.add_argument("-j", "--jobs", type=int, default=1, metavar="N",
-                        help="run so many at a time (%(default)s); times then disturb each other")
+                        help="runs at a time (default: %(default)s); more than one distorts the times")
     parser.add_argument("--csv", type=pathlib.Path, help="write a row per run to this file")
 
 
@@ -139,24 +139,23 @@ def make_parser():
         command.set_defaults(experiment=function)
         add_common(command, time_limit, scenarios)
         return command
-    add_cells(add(paper, "the paper's cells: what is proven", 10, [1, 2, 3]))
+    add_cells(add(paper, "the paper's cells: proven results", 10, [1, 2, 3]))
     add_filter(add(large, "hundreds of agents and tasks: plans and gaps", 60, [1, 2, 3, 4, 5]))
-    add_filter(add(crowded, "as many agents as fit: first plans", 5, [1, 2, 3, 4, 5]))
-    command = add(classical, "no tasks: classical MAPF", 10, [1, 2, 3, 4, 5])
+    add_filter(add(crowded, "dense instances: first plans", 5, [1, 2, 3, 4, 5]))
+    command = add(classical, "classical MAPF: comparison with other solvers", 10, [1, 2, 3, 4, 5])
     add_filter(command)
     command.add_argument("--other", nargs=3, action="append", default=[],
                          metavar=("NAME", "COMMAND", "REGEX"),
-                         help="another solver: its command with {map}, {scen}, {agents}, "
-                              "{time_limit} and {output} (a file it may write) filled in, and what "
-                              "it prints or writes when it has a plan, group 1 being the cost; may "
-                              "be given several times. Paths that it writes to {output}, as EECBS or "
-                              "lacam do, are re-checked")
-    command = add(ablation, "the paper's cells with each technique switched off in turn", 5,
+                         help="another solver (repeatable): its command, in which {map}, {scen}, "
+                              "{agents}, {time_limit} and {output} (a file it may write) are replaced, "
+                              "and a pattern of its output that means a plan, with the cost as group 1. "
+                              "Paths in {output}, as EECBS and lacam write them, are checked")
+    command = add(ablation, "the paper's cells with each technique disabled in turn", 5,
                   [1, 2, 3])
     add_cells(command)
-    command.add_argument("--technique", nargs="+", help="only these; by default all of the program")
+    command.add_argument("--technique", nargs="+", help="only these techniques (default: all)")
     command.add_argument("--instances", type=pathlib.Path, metavar="FOLDER",
-                         help="the *.cts.json files there instead of the cells")
+                         help="use the *.cts.json files of this folder instead of the cells")
     return parser
 
 
@@ -171,7 +170,7 @@ def parse(words):
 
 
 def complain(rows):
-    """Says what is wrong with the rows, and whether anything is."""
+    """Reports contradictions and failed runs on standard error; returns whether there are any."""
     found = contradictions([row_of(row, row["instance"]) for row in rows])
     if found:
         print("PROOFS CONTRADICT EACH OTHER: not all of these claims can be true", file=sys.stderr)
@@ -181,7 +180,7 @@ def complain(rows):
     for row in failed:
         print(f"failed: {row['method']}: {row['error']}", file=sys.stderr)
     for (method,), group in tables.grouped([row for row in rows if row.get("checked") is False], "method").items():
-        print(f"{len(group)} plans of {method} are its claims alone: it writes no paths to {{output}}", file=sys.stderr)
+        print(f"{len(group)} plans of {method} are unchecked claims: it writes no paths to {{output}}", file=sys.stderr)
     return bool(failed or found)
 
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// One call of the low level: n goals on a 32x32 map, so many constraints, ties broken against nine
-// other agents. Each constraint bars a random cell of the path found so far, or the move to it, at
-// the time it is there: the worst that a branch of the constraint tree can pile up.
+// Measures one call of the low level: a given number of goals on a 32x32 map and a given number of
+// constraints, with ties broken by the conflicts with nine other agents. Each constraint forbids a
+// random cell of the path found so far, or the move to it, at the path's time: the worst case of a
+// branch of the constraint tree.
 //
-// The time shown is the median over the cases of one pass; labels and label_limit are the median
-// and the largest number of labels expanded in a call. Maps are made here; with GROVE_MOVINGAI
-// set to a folder of Moving AI maps the real ones are run as well.
+// The time shown is the median over the cases of one pass. labels and max_labels are the median and
+// the maximum number of labels expanded in a call. Maps are generated; if GROVE_MOVINGAI is a
+// directory of Moving AI maps, these are run as well.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -28,7 +29,7 @@ namespace {
 constexpr int kSide = 32;
 constexpr int kCases = 48;
 constexpr int kOthers = 9;
-constexpr int kRoom = 5;  // a room and its wall
+constexpr int kRoom = 5;  // side of a room with its wall
 
 using Random = std::mt19937;
 
@@ -46,7 +47,7 @@ Grid random_map(Random& random) {
   return Grid(kSide, kSide, passable);
 }
 
-// Rooms of 4x4 with a door in each wall between two.
+// Rooms of 4x4 cells with a door in each wall between two rooms.
 Grid room_map(Random& random) {
   std::vector<bool> passable(kSide * kSide);
   for (int y = 0; y < kSide; ++y)
@@ -68,7 +69,7 @@ std::optional<Grid> moving_ai_map(const std::string& name) {
   return std::filesystem::exists(file) ? std::optional(read_map(file)) : std::nullopt;
 }
 
-// Cells of the largest connected part, in random order.
+// Returns the cells of the largest connected component, in random order.
 std::vector<Cell> connected_cells(const Grid& grid, Random& random) {
   std::vector<Cell> best;
   for (Cell source = 0; source < grid.cell_count(); ++source) {
@@ -84,7 +85,7 @@ std::vector<Cell> connected_cells(const Grid& grid, Random& random) {
   return best;
 }
 
-// One agent, its goals visited in the order of always going to the nearest.
+// One agent that always visits the nearest goal next.
 struct Case {
   Case(const Grid& grid, const std::vector<Cell>& cells, int goals);
   PathQuery query() const { return {.constraints = constraints, .others = &others}; }
@@ -126,7 +127,8 @@ Constraint bar_on_path(const Path& path, Random& random) {
   return c;
 }
 
-// On the paths of the search that is measured: each is the other's worst case only.
+// Adds constraints on paths of the search that is measured. The result is the worst case of this
+// search only.
 template <class Search>
 void pile_up_constraints(std::vector<Case>& cases, Search& search, FixedOrderSipp& check, int count,
                          std::size_t i, Random& random) {
@@ -164,7 +166,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-// The two searches, behind one face.
+// The two searches with a common interface.
 class Fixed {
  public:
   explicit Fixed(const Grid& grid, const std::vector<Case>&) : search_(grid) {}
@@ -215,7 +217,7 @@ void measure(benchmark::State& state, const Grid& grid, Random& random) {
     state.SetIterationTime(median(seconds));
   }
   state.counters["labels"] = median(labels);
-  state.counters["label_limit"] = *std::ranges::max_element(labels);
+  state.counters["max_labels"] = *std::ranges::max_element(labels);
 }
 
 template <class Search>

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What a small solve costs from C++, from Python and as a program, in microseconds.
+"""Measures the overhead of a small solve from C++, from Python and as a program, in microseconds.
 
-    overhead.py [BUILD]        (build/release)
+    overhead.py [BUILD]        (default: build/release)
 
-Solves benchmarks/data/random-32x32-20_n5_m10.cts.json, 5 robots and 10 tasks, to the optimum: the
-median of 200 solves, of 30 runs of the program. Needs front_door_benchmark and the Python module.
+Solves benchmarks/data/random-32x32-20_n5_m10.cts.json, 5 robots and 10 tasks, to the optimum. Reports
+the median of 200 solves or 30 runs of the program. Needs public_api_benchmark and the Python module.
 """
 import json
 import statistics
@@ -29,7 +29,7 @@ def microseconds(act, times):
 
 
 def of_benchmarks():
-    done = subprocess.run([BUILD / "bin/front_door_benchmark", "--benchmark_format=json",
+    done = subprocess.run([BUILD / "bin/public_api_benchmark", "--benchmark_format=json",
                            "--benchmark_repetitions=5"], capture_output=True, text=True, check=True)
     return {row["run_name"]: row["real_time"] for row in json.loads(done.stdout)["benchmarks"]
             if row.get("aggregate_name") == "median"}
@@ -44,8 +44,8 @@ def main():
     program = [BUILD / "bin/grove", "solve", INSTANCE, "--omega", "0", "--threads", "1", "--quiet",
                "--output", "/dev/null"]
     rows = [
-        ("the search alone, C++", compiled["BM_Inside"]),
-        ("grove::solve()", compiled["BM_FrontDoor"]),
+        ("only the search, C++", compiled["BM_Inside"]),
+        ("grove::solve()", compiled["BM_PublicApi"]),
         ("grove.solve() of Python", microseconds(lambda: grove.solve(instance), 200)),
         ("with plan.positions()", microseconds(lambda: grove.solve(instance).plan.positions(), 200)),
         ("grove solve, the program", microseconds(lambda: subprocess.run(program, check=True), 30)),

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The paper's experiments: its methods and Grove's search on its data set, and a report of all.
+"""Runs the paper's experiments: its methods and Grove's search on its data set; writes a report.
 
     paper.py OUT [--movingai DIR] [--scenarios 1-50] [--agents 5,10,20] [--tasks 10,20,..] [--time-limit S] [--jobs J]
              [--certify]
 
 Comparison: MG-MAPF on three maps, CTS-CBS-A, -B and -C and four baselines at the paper's omega. Study of
 omega: CTS-MAPF on rooms with the fewest agents, the paper's CTS-CBS at omega 0, 0.01, 0.1 and infinity.
-Beside each stands Grove's own search, which proves the optimum.
+Both include Grove's own search, which proves the optimum.
 
-The same command goes on where an earlier one stopped, also with more scenarios, agents or tasks.
-OUT/report/report.html is what came out, of all that OUT holds.
+The same command resumes an earlier one, also with more scenarios, agents or tasks. OUT/report/report.html is the
+report of all results in OUT.
 """
 import argparse
 import json
@@ -36,7 +36,7 @@ STUDY = {"auto": "--omega 0"} | {f"cts-cbs_{omega}": f"--policy fixed --omega {o
 
 
 def run(*words):
-    """A command that must end well. It has the signals that this program gets, and no others."""
+    """Runs a command; exits with its code if that is not 0. Only signals to this program are passed on to it."""
     try:
         child = subprocess.Popen([str(word) for word in words], process_group=0)
     except OSError as error:
@@ -50,19 +50,19 @@ def run(*words):
 
 
 def settings_of(arguments):
-    """What all results of a folder must have in common."""
+    """Returns the settings that all results of a folder must share."""
     return {"movingai": arguments.movingai and str(Path(arguments.movingai).resolve()),
             "time_limit": float(arguments.time_limit)}
 
 
 def refuse_other_settings(path, settings):
     if path.exists() and (there := json.loads(path.read_text(encoding="utf-8"))) != settings:
-        sys.exit(f"paper.py: error: {path}: results of {there}, found {settings}; expected the same maps and time "
-                 "limit, or another folder")
+        sys.exit(f"paper.py: error: {path}: found {settings}, but the results there have {there}; expected the same "
+                 "maps and time limit, or another folder")
 
 
 def list_of_study(folder, agents):
-    """The rooms (of other maps, the last) with the fewest agents."""
+    """Writes and returns the list of the study: rooms, else the last map, with the fewest agents."""
     entries = [line for line in (folder / "manifest-cts.txt").read_text(encoding="utf-8").splitlines()
                if line and not line.startswith("#")]
     maps = sorted({entry.split("_s")[0] for entry in entries})
@@ -88,18 +88,19 @@ def bench(instances, methods, folder, arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("out", metavar="OUT", type=Path, help="a folder, made if missing")
+    parser.add_argument("out", metavar="OUT", type=Path, help="folder for the results; created if missing")
     parser.add_argument("--movingai", metavar="DIR", default=os.environ.get("GROVE_MOVINGAI"),
-                        help="maps and scenarios of Moving AI; by default where the environment variable "
-                        "GROVE_MOVINGAI points, or maps of Grove's own making")
+                        help="maps and scenarios of Moving AI (default: the environment variable GROVE_MOVINGAI; "
+                        "without it, generated maps)")
     parser.add_argument("--scenarios", metavar="K-K", default="1-50")
     parser.add_argument("--agents", metavar="N,N", default="5,10,20")
     parser.add_argument("--tasks", metavar="M,M", default="10,20,30,40,50")
-    parser.add_argument("--time-limit", metavar="S", default="180", help="seconds for each run (180)")
-    parser.add_argument("--grove", metavar="PROGRAM", default=GROVE, help="the program")
+    parser.add_argument("--time-limit", metavar="S", default="180",
+                        help="time limit of each run, seconds (default: 180)")
+    parser.add_argument("--grove", metavar="PROGRAM", default=GROVE, help="program grove")
     parser.add_argument("--certify", action="store_true",
-                        help="have each run's lower bound certified and verified (column certified)")
-    parser.add_argument("--jobs", metavar="J", help="runs at a time; by default one for each core")
+                        help="certify and verify the lower bound of each run (column certified)")
+    parser.add_argument("--jobs", metavar="J", help="runs at a time (default: one per core)")
     arguments = parser.parse_args()
 
     settings = arguments.out / "settings.json"

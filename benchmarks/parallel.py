@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What threads and ranks gain, on instances of some thousand nodes (w = 0).
+"""Measures the speed-up by threads and ranks on instances of some thousand nodes (omega 0).
 
     benchmarks/parallel.py [--modes 2-threads 2-ranks ...] [--repeat 3] [--maps FOLDER] [--bin BIN_DIR]
 
-Each mode is compared with one thread in the same run: the speed-up, the nodes more or fewer, and of ranks
-the messages and bytes per node. Medians of the repetitions; a machine with other work to do tells nothing.
+Each mode is compared with one thread in the same run: speed-up, change in the number of nodes, and for ranks
+messages and bytes per node. Values are medians of the repetitions. They are meaningless on a machine with other load.
 """
 import argparse
 import os
@@ -25,7 +25,7 @@ MODES = ["2-threads", "4-threads", "1-ranks", "2-ranks", "4-ranks", "8-ranks",
 
 
 def command(mode, programs):
-    """What comes before the instance, and the options after it."""
+    """Returns (words before the instance, options after it)."""
     kind, number = sorted(mode.split("-"), key=str.isdigit)
     if kind == "ranks":
         binding = [] if int(number) <= (os.cpu_count() or 1) else ["--oversubscribe", "--bind-to", "none"]
@@ -35,7 +35,7 @@ def command(mode, programs):
 
 
 def solve(mode, instance, a, folder):
-    """Seconds, cost and statistics of the median run; all must prove the optimum."""
+    """Returns seconds, cost and statistics of the median run; all runs must prove the optimum."""
     before, after = command(mode, a.bin)
     found = median_optimum([*before, "solve", *instance, "--omega", 0, "--time-limit", a.time_limit,
                             *after], folder / "plan.json", a.repeat)
@@ -47,7 +47,7 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--modes", nargs="+", default=["2-threads", "2-ranks"], choices=MODES)
     parser.add_argument("--repeat", type=int, default=3)
-    parser.add_argument("--first", type=int, default=len(CASES), help="only so many instances")
+    parser.add_argument("--first", type=int, default=len(CASES), help="number of instances (default: all)")
     parser.add_argument("--time-limit", type=float, default=120)
     add_folders(parser)
     a = parser.parse_args()
@@ -64,11 +64,11 @@ def main():
                 took, same_cost, stats = solve(mode, instance, a, folder)
                 assert same_cost == cost, (case, mode, cost, same_cost)
                 more = stats["nodes_expanded"] / alone["nodes_expanded"] - 1
-                talk = "" if "messages" not in stats else (
+                messages = "" if "messages" not in stats else (
                     f", {stats['messages'] / stats['nodes_expanded']:.2f} messages and "
                     f"{stats['message_bytes'] / stats['nodes_expanded']:.0f} bytes a node")
                 gains[mode].append((seconds / took, more))
-                cells.append(f"{seconds / took:.2f} times as fast, nodes {100 * more:+.0f} %{talk}")
+                cells.append(f"{seconds / took:.2f} times as fast, nodes {100 * more:+.0f} %{messages}")
             print(f"| {case} | " + " | ".join(cells) + " |", flush=True)
     medians = [f"**{statistics.median(gain for gain, _ in gains[mode]):.2f}**, "
                f"{100 * statistics.median(more for _, more in gains[mode]):+.0f} %"

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What the paper publishes beside what came out here, as Markdown.
+"""Compares the paper's published results with Grove's runs, as Markdown tables.
 
-    published.py           prints its statements and what our runs say of each, its study of omega (both are in
+    published.py           prints the paper's statements with the values of our runs, its study of omega (both are in
                            docs/researchers.md), and every cell of its comparison (results/paper/cells.md)
-    published.py --write   puts the tables into these pages
+    published.py --write   writes the tables into these pages
 
-Our runs are results/paper/results.csv, what it says is results/paper/published.csv. Nothing is typed in here.
+Our runs are in results/paper/results.csv, the published values in results/paper/published.csv. This program contains
+no values.
 """
 import argparse
 import csv
@@ -30,7 +31,7 @@ BASELINES = (*EXACT, "s-cbs")
 A, B, C = ADAPTATIONS = ("cts-cbs-a", "cts-cbs-b", "cts-cbs-c")
 NAMES = {"auto": "Grove", A: "A", B: "B", C: "C", "optimal-cbs": "Optimal-CBS", "hcbs": "HCBS", "mgcbs": "MGCBS",
          "s-cbs": "S-CBS"}
-SIMILAR = 0.1  # of success rates
+SIMILAR = 0.1  # maximum difference of success rates that count as similar
 OMEGAS = ("0", "0.01", "0.1", "inf")
 
 
@@ -44,14 +45,14 @@ def our_rows():
 
 
 def comparison(rows):
-    """{cell: {method: Measures}} of MG-MAPF."""
+    """Returns {cell: {method: Measures}} of MG-MAPF."""
     rows = [row for row in rows if row.problem == "mg"]
     return {cell: {line.method: measures for line, measures in lines.items()}
             for cell, lines in by_cell(rows, best_costs(rows)).items()}
 
 
 def study(rows):
-    """{(method, omega): Measures}: CTS-MAPF on rooms with 5 agents."""
+    """Returns {(method, omega): Measures} of CTS-MAPF, rooms with 5 agents."""
     rows = [row for row in rows if row.problem == "cts"]
     return {(line.method, line.omega): measures for line, measures in measures_by_line(rows, best_costs(rows)).items()}
 
@@ -69,13 +70,13 @@ def seconds(value):
 
 
 def pairs(cells, firsts, others):
-    """(cell, method, its measures, other method, its measures) of all cells."""
+    """Returns (cell, method, its measures, other method, its measures) of all cells."""
     return [(cell, first, lines[first], second, lines[second]) for cell, lines in cells.items()
             for first in firsts for second in others]
 
 
 def largest(cells, ratio):
-    """The largest ratio of an adaptation to a baseline, and where; the first of several."""
+    """Returns the largest ratio of an adaptation to a baseline, and its (first) cell, as text."""
     found = [(ratio(one, other), cell, name, second)
              for cell, name, one, second, other in pairs(cells, ADAPTATIONS, BASELINES) if one.solved and other.solved]
     value, cell, name, second = max(found, key=lambda each: each[0])
@@ -91,7 +92,7 @@ def speed_up(cells):
 
 
 def losses(cells, methods, baselines):
-    """How much of a baseline's mean SQR is lost, where both solve something."""
+    """Returns (relative loss of mean SQR, cell, method) against the baselines, where both solve an instance."""
     return [(1 - one.mean_sqr / other.mean_sqr, cell, method)
             for cell, method, one, _, other in pairs(cells, methods, baselines) if one.solved and other.solved]
 
@@ -164,7 +165,7 @@ def runtime_c(cells):
 
 
 def quality_c(cells):
-    """Of the easiest and the hardest third of the cells, by A's success: mean distance of C's SQR to A's and to B's."""
+    """Returns the mean SQRs of A, C and B in the easiest and the hardest third of the cells, by A's success rate."""
     both = sorted(((lines[A].success, lines) for lines in cells.values() if lines[A].solved and lines[B].solved and lines[C].solved),
                   key=lambda entry: -entry[0])
     third = max(1, len(both) // 3)
@@ -225,7 +226,7 @@ PARTS = {"claims": (claims_table, GUIDE), "omega": (omega_table, GUIDE)} | {
 
 
 def marked(name):
-    """The place of a table in a page."""
+    """Returns the pattern of the place of a table in a page."""
     return re.compile(rf"(<!-- published\.py {name} -->\n).*?(?=\n<!-- end -->)", re.S)
 
 
@@ -234,13 +235,13 @@ def write(rows):
         text = page.read_text(encoding="utf-8")
         new, times = marked(name).subn(lambda found: found.group(1) + table(rows), text)
         if times != 1:
-            sys.exit(f"published.py: error: {page}: {times} places for the table '{name}'; expected one")
+            sys.exit(f"published.py: error: {page}: found {times} places for the table '{name}'; expected one")
         page.write_text(new, encoding="utf-8")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--write", action="store_true")
+    parser.add_argument("--write", action="store_true", help="write the tables into the pages")
     if parser.parse_args().write:
         write(our_rows())
     else:

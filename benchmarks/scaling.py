@@ -1,19 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""How the distributed search scales: simulated with up to thousands of ranks, and checked with real ones.
+"""Measures the scaling of the distributed search: simulated with up to 4096 ranks, and checked with real ranks.
 
-    benchmarks/scaling.py simulate --maps FOLDER [--jobs 2]   three hard instances: simulated.csv
-    benchmarks/scaling.py hours --ranks 1,128             instances of minutes: hours.csv
-    benchmarks/scaling.py weak                            more ranks for more work: weak.csv
-    benchmarks/scaling.py bound --maps FOLDER                 if messages cost nothing: bound.csv
-    benchmarks/scaling.py compare --maps FOLDER               2 ranks, also measured: compared.csv
-    benchmarks/scaling.py processor --maps FOLDER             1 to 8 ranks, by processor time: processor.csv
-    benchmarks/scaling.py draw                                scaling.png from these; needs matplotlib
-    benchmarks/scaling.py tables                              the tables in Markdown, to stdout
+    benchmarks/scaling.py simulate --maps FOLDER [--jobs 2]        three hard instances: simulated.csv
+    benchmarks/scaling.py long --ranks 1,128                  instances of minutes: long.csv
+    benchmarks/scaling.py weak                                 weak scaling: weak.csv
+    benchmarks/scaling.py bound --maps FOLDER                      zero-cost communication: bound.csv
+    benchmarks/scaling.py compare --maps FOLDER                    2 ranks, simulated and measured: compared.csv
+    benchmarks/scaling.py processor --maps FOLDER                  1 to 8 ranks, by processor time: processor.csv
+    benchmarks/scaling.py draw                                     scaling.png from these; needs matplotlib
+    benchmarks/scaling.py tables                                   tables in Markdown, to stdout
 
-All read and write the folder --output. Everything begins with an optimal plan, which is found first, and
-nobody looks for plans beside the tree: what must be expanded is then nearly the same whatever the number
-of ranks. results/scaling/README.md has the results.
+All read and write the folder --output. Every run starts from an optimal plan, which is found first, and without
+primal heuristics. So the set of nodes to expand hardly depends on the number of ranks. results/scaling/README.md
+has the results.
 """
 import argparse
 import concurrent.futures
@@ -33,21 +33,21 @@ from harness.programs import MPIRUN, add_folders, median_optimum, optimum, run
 
 HERE = Path(__file__).resolve().parent
 
-# Proven optimal after about 10^5 nodes. A simulation takes as long as one rank needs, and more where
-# ranks expand more; larger ones would take hours.
+# Proven optimal after about 10^5 nodes. A simulation takes as long as one rank needs, and longer if the ranks
+# expand more nodes.
 HARD = [Case("room-32-32-4", 22, 40, 2), Case("random-32-32-20", 50, None, 1),
         Case("room-32-32-4", 40, None, 4)]
-# One core needs minutes and 10^6 nodes or more for each; data/hours has the plans to begin with.
+# One core needs minutes and 10^6 nodes or more for each; data/long has their start plans.
 OPEN = "map random --width 32 --height 32 --obstacles 0.2 --seed 1"
 ROOMS = "map rooms --width 32 --height 32 --seed 1"
 WAREHOUSE = "roadmap --kind warehouse"
-HOURS = [DrawnCase("rooms-50-mapf", ROOMS, 50, None, 1), DrawnCase("open-60-mapf", OPEN, 60, None, 1),
+LONG = [DrawnCase("rooms-50-mapf", ROOMS, 50, None, 1), DrawnCase("open-60-mapf", OPEN, 60, None, 1),
          DrawnCase("open-40-40", OPEN, 40, 40, 1), DrawnCase("rooms-25-60-mg", ROOMS, 25, 60, 1, mg=True),
          DrawnCase("rooms-25-50-mg", ROOMS, 25, 50, 1, mg=True),
          DrawnCase("warehouse-100-200", WAREHOUSE, 100, 200, 1)]
-# More and more of the same, for more and more ranks.
+# Weak scaling: instances of growing size, for a growing number of ranks.
 WEAK = [DrawnCase(f"rooms-{agents}-mapf", ROOMS, agents, None, 1) for agents in (40, 43, 45, 50)]
-# Seconds of one core: to be measured here.
+# Seconds on one core, for measurements on this machine.
 SHORT = [Case("room-32-32-4", 20, 20, 3), Case("room-32-32-4", 20, 30, 3),
          Case("room-32-32-4", 20, 40, 1), Case("room-32-32-4", 20, 40, 2)]
 RANKS = [1, 2, 16, 128, 1024, 4096]
@@ -56,19 +56,19 @@ COST_PER_WORK = 1.3e-7  # seconds; see results/scaling/README.md
 NO_LIMIT = ["--time-limit", 40000]
 FREE_MESSAGES = ["--latency", 0, "--message-cost", 0, "--bandwidth", 1e15, "--poll", 0]
 OPTIMAL = ["--omega", 0]
-TREE_ONLY = ["--threads", 1, "--without", "primal,configurations"]
+TREE_ONLY = ["--threads", 1, "--without", "primal,lacam"]
 
 
 def until_bound_of(plan):
-    """The options with which a run begins with a plan, and ends when the bound that its file says is proven."""
+    """Returns options: start from a plan, and end when the lower bound in its file is proven."""
     known = json.loads(plan.read_text(encoding="utf-8"))
     return ["--omega", f"{math.ceil((known['cost'] / known['lower_bound'] - 1) * 1e6) / 1e6:f}", "--start", plan]
 
 
 def prepared(case, a, folder):
-    """How a program is told of the case, with a plan to begin with: the one that is kept, or an optimal one."""
+    """Returns the arguments for a case and its start plan: the one in data/long, else an optimal one."""
     instance = instance_arguments(a.bin / "grove", Maps(a.maps), case, folder)
-    kept = HERE / f"data/hours/{case}.plan.json"
+    kept = HERE / f"data/long/{case}.plan.json"
     if kept.exists():
         return [*instance, *until_bound_of(kept)]
     plan = folder / "start.json"
@@ -77,7 +77,7 @@ def prepared(case, a, folder):
 
 
 def simulated(case, problem, ranks, a, folder, machine=()):
-    """A row per number of ranks, but for those that did not end within the limits."""
+    """Simulates a case; returns a row per number of ranks, without runs that reached a limit."""
     table = folder / "table.csv"
     run([a.bin / "grove-sim", *problem, "--ranks", ",".join(map(str, ranks)), "--cost-per-work",
          a.cost_per_work, "--memory-limit", a.memory_limit, "--output", table, *machine])
@@ -85,12 +85,12 @@ def simulated(case, problem, ranks, a, folder, machine=()):
         rows = [{"instance": str(case), **row} for row in csv.DictReader(file)]
     for row in rows:
         if row["status"] == "unfinished":
-            print(f"{case}: {row['ranks']} ranks did not end within the limits (--memory-limit): no row", flush=True)
+            print(f"{case}: {row['ranks']} ranks reached a limit (--memory-limit): no row", flush=True)
     return [row for row in rows if row["status"] != "unfinished"]
 
 
 def measured(before, problem, a, folder):
-    """Seconds and nodes of the median run."""
+    """Returns seconds and nodes of the median run."""
     stats = median_optimum([*before, "solve", *problem, *TREE_ONLY], folder / "plan.json", a.repeat)["stats"]
     return stats["wall_s"], stats["nodes_expanded"]
 
@@ -117,11 +117,11 @@ def chosen(cases, a):
 
 
 def merge(path, rows):
-    """The rows of a file anew, but for those of other instances or other numbers of ranks."""
+    """Replaces the rows of a file with the same instance and number of ranks; keeps the others."""
     def key(row):
         return order.index(row["instance"]), int(row.get("ranks", 0))
 
-    order = [str(case) for case in HARD + SHORT + HOURS + WEAK]
+    order = [str(case) for case in HARD + SHORT + LONG + WEAK]
     others = read(path) if path.exists() else []
     new = {key(row) for row in rows}
     write(path, sorted([row for row in others if key(row) not in new] + rows, key=key))
@@ -144,12 +144,12 @@ def simulate(a):
     study(HARD, a.output / "simulated.csv", (), a)
 
 
-def hours(a):
-    study(HOURS, a.output / "hours.csv", NO_LIMIT, a)
+def long(a):
+    study(LONG, a.output / "long.csv", NO_LIMIT, a)
 
 
 def ranks_for(alone, seconds):
-    """So many that each has about so many seconds of what one rank does."""
+    """Returns a number of ranks so that each has about `seconds` of the work of a single rank."""
     return max(2, round(float(alone["wall_s"]) / seconds))
 
 
@@ -161,7 +161,7 @@ def weak(a):
             alone = simulated(case, problem, [1], a, folder, NO_LIMIT)
             rows = alone and simulated(case, problem, [ranks_for(alone[0], a.seconds)], a, folder, NO_LIMIT)
         if not rows:
-            continue  # simulated() has said why
+            continue  # reported by simulated()
         merge(a.output / "weak.csv", alone + rows)
         print(f"{case}: simulated", flush=True)
 
@@ -192,7 +192,7 @@ def compare(a):
 
 
 def processor_time(command):
-    """Seconds of all processes."""
+    """Runs a command; returns the processor time of all its processes, seconds."""
     def used():
         usage = resource.getrusage(resource.RUSAGE_CHILDREN)
         return usage.ru_utime + usage.ru_stime
@@ -203,7 +203,7 @@ def processor_time(command):
 
 
 def by_processor(ranks, problem, a, folder):
-    """Processor seconds of the search of so many ranks, the median, less what they take without a search."""
+    """Returns the median processor time of a search on `ranks` ranks, seconds, minus the time without a search."""
     solve = [*MPIRUN, "--oversubscribe", "--bind-to", "none", "-np", ranks, a.bin / "grove-mpi", "solve",
              *problem, *TREE_ONLY, "--quiet", "--output", folder / "plan.json"]
     return statistics.median(processor_time(solve) - processor_time([*solve, "--time-limit", 0.001])
@@ -211,7 +211,7 @@ def by_processor(ranks, problem, a, folder):
 
 
 def processor(a):
-    """Where there are more ranks than cores: all ranks together, by processor time."""
+    """Measures more ranks than cores: the processor time of all ranks."""
     for case in chosen(SHORT, a):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
@@ -224,9 +224,9 @@ def processor(a):
 
 
 def shares(row):
-    """What became of the workers' time in a run: shares that sum to 1.
+    """Returns the shares of the workers' time in a run; they sum to 1.
 
-    Where ranks together expand for less time than one would, there is no overhead.
+    If all ranks together expand for less time than a single rank, the overhead is 0.
     """
     whole = float(row["wall_s"]) * int(row["ranks"])
     working = int(row["ranks"]) - int(row["ranks_without_node"])
@@ -234,10 +234,10 @@ def shares(row):
              + int(row["ranks_without_node"]) * float(row["wall_s"])) / whole
     idle = float(row["idle_share"])
     useful = min(float(row["efficiency"]), 1 - idle)
-    return {"expanding, as one rank would": useful,
-            "expanding more (search overhead)": 1 - idle - useful,
-            "waiting for the first node": min(first, idle),
-            "waiting later, and at the end": max(0.0, idle - first)}
+    return {"expansions of a single rank": useful,
+            "search overhead": 1 - idle - useful,
+            "start-up idle": min(first, idle),
+            "idle": max(0.0, idle - first)}
 
 
 def overhead(row):
@@ -266,7 +266,7 @@ def simulated_table(rows, free):
 
 
 def earlier_table(earlier, now):
-    """What an earlier version took, beside this one where that was simulated as well."""
+    """Returns a table of an earlier version, with the current one where it was simulated, too."""
     present = {(row["instance"], row["ranks"]): row for row in now}
     head = ["instance", "ranks", "time", "time now", "efficiency", "efficiency now", "search overhead",
             "search overhead now"]
@@ -307,7 +307,7 @@ def compared_table(rows):
 
 
 def processor_table(rows):
-    """How much more all ranks together take than one."""
+    """Returns a table of how much more processor time all ranks take than one rank."""
     def growth(instance, column):
         times = [float(row[column]) for row in rows if row["instance"] == instance]
         return [f"{100 * (time / times[0] - 1):+.0f} %" for time in times[1:]]
@@ -325,10 +325,10 @@ def processor_table(rows):
 def print_tables(a):
     print(simulated_table(read(a.output / "simulated.csv"), read(a.output / "bound.csv")))
     print()
-    print(simulated_table(read(a.output / "hours.csv"), []))
+    print(simulated_table(read(a.output / "long.csv"), []))
     print()
     print(earlier_table(read(a.output / "earlier.csv"),
-                        read(a.output / "simulated.csv") + read(a.output / "hours.csv")))
+                        read(a.output / "simulated.csv") + read(a.output / "long.csv")))
     print()
     print(weak_table(read(a.output / "weak.csv")))
     print()
@@ -341,13 +341,14 @@ def draw(a):
     try:
         import matplotlib
     except ImportError:
-        raise SystemExit("scaling.py: draw needs matplotlib (Debian: python3-matplotlib)") from None
+        raise SystemExit("scaling.py: error: draw: found no module matplotlib; expected the Debian package "
+                         "python3-matplotlib") from None
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
     groups = tables.grouped(read(a.output / "simulated.csv"), "instance")
     figure, panels = pyplot.subplots(1, 1 + len(groups), figsize=(15, 4.8), sharey=True)
-    draw_efficiency(panels[0], groups, tables.grouped(read(a.output / "hours.csv"), "instance"),
+    draw_efficiency(panels[0], groups, tables.grouped(read(a.output / "long.csv"), "instance"),
                     tables.grouped(read(a.output / "bound.csv"), "instance"))
     for panel, ((name,), rows) in zip(panels[1:], groups.items()):
         draw_shares(panel, name, rows)
@@ -369,11 +370,11 @@ def draw_efficiency(panel, groups, longer, free):
 
     for rows in longer.values():
         draw_line(rows, ".-", color="grey", linewidth=1)
-    panel.plot([], [], ".-", color="grey", linewidth=1, label=f"{len(longer)} that take one rank minutes")
+    panel.plot([], [], ".-", color="grey", linewidth=1, label=f"{len(longer)} long instances (minutes on one rank)")
     for (key, rows), marker in zip(groups.items(), "osD"):
-        color = draw_line(rows, f"{marker}-", label=f"{key[0]}\n({float(rows[0]['wall_s']):.0f} s by one rank)")
+        color = draw_line(rows, f"{marker}-", label=f"{key[0]}\n({float(rows[0]['wall_s']):.0f} s on one rank)")
         draw_line(free.get(key, []), "x--", color=color, linewidth=1)
-    panel.plot([], [], "x--", color="black", linewidth=1, label="if messages cost nothing")
+    panel.plot([], [], "x--", color="black", linewidth=1, label="zero-cost communication")
     panel.set_xscale("log", base=2)
     ranks = sorted({int(row["ranks"]) for rows in groups.values() for row in rows})
     panel.set_xticks(ranks, text_of(ranks), rotation=45)
@@ -397,7 +398,7 @@ def draw_shares(panel, name, rows):
         panel.bar(ranks, heights, bottom=bottoms, label=label, color=colour, width=0.75)
         bottoms = [bottom + height for bottom, height in zip(bottoms, heights)]
     panel.plot(ranks, [float(row["coordinator_talking_share"]) for row in rows], "k.--",
-               linewidth=1, label="rank 0 talks (on a processor of its own)")
+               linewidth=1, label="rank 0 communication (on its own processor)")
     panel.set_xlabel("ranks")
     panel.set_title(f"Workers' time: {name}", fontsize=9.5)
     panel.tick_params(axis="x", rotation=45)
@@ -410,22 +411,24 @@ def whole_numbers(text):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0],
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["simulate", "hours", "weak", "bound", "compare", "processor", "draw",
+    parser.add_argument("what", choices=["simulate", "long", "hours", "weak", "bound", "compare", "processor", "draw",
                                          "tables"])
     parser.add_argument("--ranks", type=whole_numbers,
-                        default=RANKS, help="whole numbers with commas; begin with 1")
-    parser.add_argument("--only", default="", help="instances whose name contains this")
-    parser.add_argument("--repeat", type=int, default=3, help="measurements of each; the median counts")
-    parser.add_argument("--jobs", type=int, default=1, help="simulations at a time")
-    parser.add_argument("--cost-per-work", type=float, default=COST_PER_WORK)
-    parser.add_argument("--seconds", type=float, default=2.5, help="weak: of one rank's time, for each rank")
-    parser.add_argument("--memory-limit", type=float, default=8, help="gigabytes for a simulation")
+                        default=RANKS, help="comma-separated numbers of ranks; the first is 1")
+    parser.add_argument("--only", default="", help="only instances whose name contains this text")
+    parser.add_argument("--repeat", type=int, default=3, help="runs per measurement; the median counts")
+    parser.add_argument("--jobs", type=int, default=1, help="simulations at a time (default: 1)")
+    parser.add_argument("--cost-per-work", type=float, default=COST_PER_WORK,
+                        help="seconds per unit of work")
+    parser.add_argument("--seconds", type=float, default=2.5,
+                        help="weak: seconds of the work of a single rank, for each rank")
+    parser.add_argument("--memory-limit", type=float, default=8, help="memory limit of a simulation, GB")
     parser.add_argument("--time-limit", type=float, default=600,
-                        help="seconds in which the plan to begin with must be found")
+                        help="time limit for finding the start plan, seconds")
     parser.add_argument("--output", type=Path, default=HERE / "results/scaling")
     add_folders(parser)
     a = parser.parse_args()
-    {"simulate": simulate, "hours": hours, "weak": weak, "bound": bound, "compare": compare,
+    {"simulate": simulate, "long": long, "hours": long, "weak": weak, "bound": bound, "compare": compare,
      "processor": processor, "draw": draw, "tables": print_tables}[a.what](a)
 
 

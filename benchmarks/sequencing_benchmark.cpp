@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sequencing on random places of random 32x32 grids: tables, K-best lists, sequence graphs.
+// Measures sequencing on random places of random 32x32 grids: tables, K-best lists, sequence
+// graphs.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -17,8 +18,8 @@
 namespace grove::detail {
 namespace {
 
-// One agent with n tasks on a grid with a fifth of its cells blocked, always the same one for a
-// seed.
+// Cost matrix of one agent with n tasks on a grid with a fifth of its cells blocked. The same seed
+// gives the same matrix.
 CostMatrix random_matrix(int n, std::uint32_t seed) {
   std::mt19937 random(seed);
   constexpr int kSide = 32;
@@ -26,7 +27,7 @@ CostMatrix random_matrix(int n, std::uint32_t seed) {
   for (std::size_t i = 0; i < passable.size(); ++i) passable[i] = random() % 5 != 0;
   for (int i = kSide / 4; i < kSide; ++i) passable[kSide / 2 * kSide + i] = true;
   const Grid grid(kSide, kSide, passable);
-  // Places are drawn from the cells that the middle one reaches: nearly all.
+  // Places are drawn from the cells reachable from the middle: nearly all.
   const DistanceField reach = distance_field(grid, grid.cell({kSide / 2, kSide / 2}));
   std::vector<Cell> places;
   while (std::ssize(places) < n + 2) {
@@ -43,7 +44,7 @@ CostMatrix random_matrix(int n, std::uint32_t seed) {
   return cost_matrix(instance, 0, DistanceFields(instance));
 }
 
-// The first question to a table pays for it.
+// The first query builds the table.
 void table(benchmark::State& state) {
   const CostMatrix matrix = random_matrix(static_cast<int>(state.range(0)), 1);
   const Limits limits;
@@ -55,7 +56,7 @@ void table(benchmark::State& state) {
 BENCHMARK(table)->Arg(10)->Arg(14)->Arg(16)->Arg(18)->Arg(20)->Arg(22)->Unit(
     benchmark::kMillisecond);
 
-// After the table or graph of the first sequence.
+// K-best sequences, without the time for the table or graph of the first sequence.
 void k_best(benchmark::State& state, RtspBackend backend) {
   const CostMatrix matrix = random_matrix(static_cast<int>(state.range(0)), 1);
   const Limits limits;
@@ -86,7 +87,7 @@ BENCHMARK_CAPTURE(k_best, cbc, RtspBackend::kCbc)
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
 
-// The graph that the best sequence asks for, from nothing, and its size.
+// Building the graph for the best sequence, and the size of the graph.
 void graph(benchmark::State& state) {
   const CostMatrix matrix =
       random_matrix(static_cast<int>(state.range(0)), static_cast<std::uint32_t>(state.range(1)));

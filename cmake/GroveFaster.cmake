@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# What makes building faster where it is installed, and is not needed.
+# Optional tools and flags that make builds faster.
 
-# A compiler's results are kept from build to build. (With precompiled headers ccache needs to be told
-# that time stamps in them do not matter; it then asks the compiler what a source includes.)
+# ccache keeps compiler results between builds. (With precompiled headers it must ignore their time stamps;
+# it then asks the compiler for the files that a source includes.)
 find_program(GROVE_CCACHE ccache)
 if(GROVE_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER
@@ -19,5 +19,5 @@ foreach(linker mold lld)
   endif()
 endforeach()
 
-# GCC collects its garbage less often: that takes time, and memory is there.
+# Makes GCC collect garbage less often, which is faster and uses more memory.
 add_compile_options($<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1048576>)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-# FindMPI caches a search that failed, and then fails for ever. Open MPI's compiler wrapper, for one,
-# prints a complaint among its flags while the machine has no network interface that is up. So
-# grove_find_mpi() forgets a failed search, and quotes what the wrapper says.
+# FindMPI caches a failed search and then always fails. A search fails, for example, while the machine has no
+# active network interface, because Open MPI's compiler wrapper then prints a message among its flags. So
+# grove_find_mpi() clears a failed search from the cache and quotes the message of the wrapper.
 
-# grove_forget_cached(<prefix> <name> ...): removes the cache variables with the prefix but the named ones.
+# grove_forget_cached(<prefix> <name> ...): removes all cache variables with the prefix except the named ones.
 function(grove_forget_cached prefix)
   get_cmake_property(cached CACHE_VARIABLES)
   list(FILTER cached INCLUDE REGEX "^${prefix}")
@@ -14,7 +14,7 @@ function(grove_forget_cached prefix)
   endforeach()
 endfunction()
 
-# grove_find_mpi(): defines MPI::MPI_CXX, or ends the configuration; the next one searches again.
+# grove_find_mpi(): defines MPI::MPI_CXX, or ends the configuration; the next configuration searches again.
 macro(grove_find_mpi)
   get_cmake_property(grove_given CACHE_VARIABLES)
   find_package(MPI 3.1 QUIET COMPONENTS CXX)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# What `cmake --install` installs. Components: libraries, mpi_libraries, development, python, programs,
-# pictures, mpi_programs; each is a package (GrovePackage.cmake).
+# Installation rules. Components: libraries, mpi_libraries, development, python, programs, pictures,
+# mpi_programs; each becomes a package (GrovePackage.cmake).
 include(CMakePackageConfigHelpers)
 
 install(TARGETS grove_library EXPORT groveTargets
@@ -17,7 +17,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/grove/ ${PROJECT_BINARY_DIR}/inc
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/grove COMPONENT development
   FILES_MATCHING PATTERN "*.hpp" ${grove_no_mpi})
 
-# How other projects find them: find_package(grove), or pkg-config.
+# Files for find_package(grove) and pkg-config.
 set(grove_package ${CMAKE_INSTALL_LIBDIR}/cmake/grove)
 install(EXPORT groveTargets NAMESPACE grove:: DESTINATION ${grove_package} COMPONENT development)
 if(GROVE_WITH_MPI)
@@ -39,13 +39,13 @@ install(FILES ${PROJECT_BINARY_DIR}/grove.pc
 
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGES.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libraries)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/front_door ${PROJECT_SOURCE_DIR}/examples/lifelong
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/minimal ${PROJECT_SOURCE_DIR}/examples/lifelong
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT development
   FILES_MATCHING PATTERN "*.cpp" PATTERN "*.h")
 
 if(GROVE_WITH_PYTHON)
-  # Where Python looks is known when PREFIX is: a virtual environment has site-packages, Debian's
-  # Python dist-packages.
+  # Python's search path depends on PREFIX: a virtual environment has site-packages, Debian's Python
+  # dist-packages.
   set(grove_python python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR})
   if(Python_SITELIB MATCHES dist-packages)
     set(grove_outside dist-packages)
@@ -100,29 +100,29 @@ install(FILES ${grove_pages} DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT progr
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/benchmarks/data/
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT programs
   FILES_MATCHING PATTERN "*.map" PATTERN "*.scen" PATTERN "*.json")
-# What `grove report` and others become lies apart: nobody calls it by itself. There is a grove beside
-# it for what calls that.
-set(grove_companions ${CMAKE_INSTALL_LIBEXECDIR}/grove)
-install(TARGETS grove-follow RUNTIME DESTINATION ${grove_companions} COMPONENT programs)
-install(TARGETS grove-picture RUNTIME DESTINATION ${grove_companions} COMPONENT pictures)
+# Programs that `grove report` and other commands execute are installed in a separate folder, because users do
+# not call them directly. The folder has a link to grove for programs that call it.
+set(grove_helper_programs ${CMAKE_INSTALL_LIBEXECDIR}/grove)
+install(TARGETS grove-follow RUNTIME DESTINATION ${grove_helper_programs} COMPONENT programs)
+install(TARGETS grove-picture RUNTIME DESTINATION ${grove_helper_programs} COMPONENT pictures)
 foreach(program report toio vda5050)
   install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/${program}/grove-${program}
-    DESTINATION ${grove_companions} COMPONENT programs)
+    DESTINATION ${grove_helper_programs} COMPONENT programs)
 endforeach()
 foreach(package driving report toio vda5050)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/${package}/grove_${package}
-    DESTINATION ${grove_companions} COMPONENT programs PATTERN __pycache__ EXCLUDE)
+    DESTINATION ${grove_helper_programs} COMPONENT programs PATTERN __pycache__ EXCLUDE)
 endforeach()
 install(CODE "
   include(\"${CMAKE_CURRENT_LIST_DIR}/compile_python.cmake\")
   foreach(package driving report toio vda5050)
-    compile_python(/usr/bin/python3 \"\${CMAKE_INSTALL_PREFIX}/${grove_companions}/grove_\${package}\")
+    compile_python(/usr/bin/python3 \"\${CMAKE_INSTALL_PREFIX}/${grove_helper_programs}/grove_\${package}\")
   endforeach()" COMPONENT programs)
-file(RELATIVE_PATH grove_from_companions
+file(RELATIVE_PATH grove_from_helper_programs
   ${CMAKE_INSTALL_FULL_LIBEXECDIR}/grove ${CMAKE_INSTALL_FULL_BINDIR}/grove)
-file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/companion)
-file(CREATE_LINK ${grove_from_companions} ${PROJECT_BINARY_DIR}/companion/grove SYMBOLIC)
-install(FILES ${PROJECT_BINARY_DIR}/companion/grove DESTINATION ${grove_companions} COMPONENT programs)
-# For editors: docs/formats.md.
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/helper_programs)
+file(CREATE_LINK ${grove_from_helper_programs} ${PROJECT_BINARY_DIR}/helper_programs/grove SYMBOLIC)
+install(FILES ${PROJECT_BINARY_DIR}/helper_programs/grove DESTINATION ${grove_helper_programs} COMPONENT programs)
+# JSON schemas for editors: docs/formats.md.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/schemas
   DESTINATION ${CMAKE_INSTALL_DATADIR}/grove COMPONENT programs)

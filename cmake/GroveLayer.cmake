@@ -1,25 +1,24 @@
 # SPDX-License-Identifier: MIT
-# Assertions, those of the standard library too, in debug and sanitizer builds. For all targets alike:
-# headers hold some.
+# Assertions, including those of the standard library, in debug and sanitizer builds. All targets use the same
+# setting, because headers contain assertions.
 add_compile_definitions("$<$<CONFIG:Debug>:GROVE_ASSERTIONS=1;_GLIBCXX_ASSERTIONS>")
 
-# What all targets are compiled with, and write text with.
+# Compiler options and text output library of all targets.
 add_library(grove_options INTERFACE)
 target_link_libraries(grove_options INTERFACE fmt::fmt)
 target_compile_options(grove_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   $<$<BOOL:${GROVE_WERROR}>:-Werror>
-  # GCC 12 sees overlapping copies in std::string's operator+ that are not there (GCC bug 105651).
+  # False positive of GCC 12: overlapping copies in std::string's operator+ (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
-  # Clang 17 and later warn of what std::stable_sort of GCC 12's library calls.
+  # Clang 17 and later warn about a function that std::stable_sort of GCC 12's library calls.
   $<$<AND:$<CXX_COMPILER_ID:Clang>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,17>>:-Wno-error=deprecated-declarations>
-  # It does not take several sources compiled as one for what they are, and warns of classes with
-  # members from unnamed namespaces.
+  # GCC does not recognise unity builds and warns about classes with members from unnamed namespaces.
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>)
 
-# What most sources include, compiled once: headers take longer than the sources do. Twice, if what
-# most time is spent in is compiled with other flags.
-set(GROVE_HOT_FLAGS "" CACHE STRING "More flags of the compiler for what most time is spent in")
+# Precompiled headers of most sources, because parsing headers takes longer than compiling the sources. There are
+# two versions if hot code is compiled with other flags.
+set(GROVE_HOT_FLAGS "" CACHE STRING "Additional compiler flags for hot code")
 function(grove_headers name)
   add_library(${name} STATIC ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
   target_link_libraries(${name} PRIVATE grove_options)
@@ -36,8 +35,8 @@ else()
 endif()
 
 # grove_compile(<target> [HOT | UNHURRIED])
-# How the sources of a target are compiled. HOT: most time is spent in it. UNHURRIED: hardly any, and
-# its headers take long to optimise; all its sources are compiled as one.
+# Sets how the sources of a target are compiled. HOT: most run time is spent in it. UNHURRIED: hardly any run time
+# is spent in it, and its headers take long to optimise; all its sources are compiled as one.
 function(grove_compile target)
   cmake_parse_arguments(COMPILE "HOT;UNHURRIED" "" "" ${ARGN})
   target_link_libraries(${target} PRIVATE grove_options)
@@ -54,8 +53,8 @@ function(grove_compile target)
 endfunction()
 
 # grove_layer(<name> [HOT | UNHURRIED] [DEPENDS <layer> ...] [LINK_PUBLIC ...] [LINK_PRIVATE ...])
-# One layer of the design as the static library grove_<name>, alias grove::<name>: headers and sources in
-# src/<name>/. `cmake --build --preset release --target grove_<name>` builds it alone.
+# Defines one layer of the design as the static library grove_<name>, alias grove::<name>, from the headers and
+# sources in src/<name>/. `cmake --build --preset release --target grove_<name>` builds only this layer.
 function(grove_layer name)
   cmake_parse_arguments(LAYER "" "" "DEPENDS;LINK_PUBLIC;LINK_PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
@@ -68,7 +67,8 @@ function(grove_layer name)
 endfunction()
 
 # grove_private_headers(<name> <header> ...)
-# Headers of grove_<name> that no other layer includes; tests/structure holds them against the sources.
+# Lists the headers of grove_<name> that no other layer includes; tests/structure compares the list with the
+# sources.
 function(grove_private_headers name)
   target_sources(grove_${name} PRIVATE ${ARGN})
 endfunction()

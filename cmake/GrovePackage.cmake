@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# What `cpack` makes: Debian packages, one for each component that is installed. Where libraries and
-# Python's modules belong follows from the prefix, so only a build for /usr has them: tools/package.
+# Debian packages made by `cpack`, one per installed component. The folders of libraries and Python modules depend
+# on the prefix, so packages need a build for /usr: tools/package.
 if(NOT PROJECT_IS_TOP_LEVEL OR NOT GROVE_BUILD_TOOLS OR NOT CMAKE_INSTALL_PREFIX STREQUAL /usr)
   return()
 endif()
@@ -13,7 +13,7 @@ set(CPACK_SET_DESTDIR ON)
 set(CPACK_INSTALL_PREFIX /usr)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
-set(CPACK_DEBIAN_PACKAGE_RELEASE 0grove1)  # older than Debian's own would be
+set(CPACK_DEBIAN_PACKAGE_RELEASE 0grove1)  # sorts before a version of Debian
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
@@ -21,9 +21,9 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 set(CPACK_DEBIAN_PACKAGE_SOURCE grove)
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own summary
 set(grove_debian ${PROJECT_SOURCE_DIR}/cmake/package)
-# Stripped programs, copyright, changelogs, compressed manual pages: what Debian wants.
+# Debian policy: stripped programs, copyright, changelogs, compressed manual pages.
 set(CPACK_PRE_BUILD_SCRIPTS ${grove_debian}/finish.cmake)
 
 # grove_package(COMPONENT NAME SECTION SUMMARY TEXT [FIELD VALUE]...)
@@ -50,19 +50,20 @@ set(grove_abi ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(grove_same "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 
 set(CPACK_COMPONENTS_ALL "")
-# Python runs three of the commands. Few need the rest, which brings MPI, X11 or a hundred packages; a
-# command that lacks something says what.
+# Depends on python3, because three of the commands are Python programs. Other packages are only suggested: they
+# bring MPI, X11 or a hundred packages, and few users need them. A command reports a missing package.
 grove_package(programs grove science
   "solver for multi-agent path finding with tasks and proven bounds"
-  "${grove_what}the programs: grove, grove-sim, which predicts how
-many processes would fare, and grove-verify, which checks proofs. Package
-grove-mpi has the program for many processes and machines, grove-pictures
-what draws plans as SVG, PNG and GIF."
+  "${grove_what}the programs: grove; grove-sim, which predicts the
+scaling to many processes; and grove-verify, which checks certificates. The
+package grove-mpi has the program for many processes and machines,
+grove-pictures the program that draws plans as SVG, PNG and GIF."
   DEPENDS python3
   SUGGESTS "grove-pictures, grove-mpi, python3-matplotlib, python3-bleak, python3-paho-mqtt, python3-grove")
 grove_package(pictures grove-pictures science
   "solver for multi-agent path finding with tasks - pictures of plans"
-  "${grove_what}what draws plans as SVG, PNG and GIF for grove view."
+  "${grove_what}the program that draws plans as SVG, PNG and GIF for
+grove view."
   DEPENDS "grove ${grove_same}")
 if(GROVE_WITH_MPI)
   grove_package(mpi_programs grove-mpi science
@@ -81,7 +82,7 @@ if(GROVE_WITH_CBC)
   string(APPEND grove_may_need ", coinor-libcbc-dev")
 endif()
 if(GROVE_WITH_MPI)
-  # By itself, since it brings an MPI.
+  # A separate package, because it depends on an MPI.
   grove_package(mpi_libraries libgrove-mpi${grove_abi} libs
     "solver for multi-agent path finding with tasks - shared MPI library"
     "${grove_what}the library for programs in C++ of many processes.")
@@ -89,11 +90,12 @@ if(GROVE_WITH_MPI)
   string(APPEND grove_needs_libraries ", libgrove-mpi${grove_abi} ${grove_same}")
   string(APPEND grove_may_need ", libopenmpi-dev")
 endif()
-# The static library needs what it is made of, the component mpi an MPI: few want one of them.
+# Not dependencies, because few users need them: the libraries of the static library, and an MPI for the component
+# mpi.
 grove_package(development libgrove-dev libdevel
   "solver for multi-agent path finding with tasks - development files"
-  "${grove_what}headers, the static library, and what CMake and
-pkg-config ask for."
+  "${grove_what}headers, the static library, and the files for CMake
+and pkg-config."
   DEPENDS ${grove_needs_libraries} SUGGESTS ${grove_may_need})
 if(GROVE_WITH_PYTHON)
   math(EXPR grove_next_python "${Python_VERSION_MINOR} + 1")
@@ -104,7 +106,7 @@ if(GROVE_WITH_PYTHON)
     RECOMMENDS python3-numpy SUGGESTS python3-pandas)
 endif()
 
-# What the scripts of Python are compiled to is made and removed with the package.
+# Installing and removing the package also makes and removes the bytecode of its Python programs.
 foreach(component programs python)
   string(TOUPPER ${component} upper)
   set(GROVE_PACKAGE ${CPACK_DEBIAN_${upper}_PACKAGE_NAME})

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# compile_python(INTERPRETER FOLDER), of `cmake --install`: compiles what is installed, as Python itself
-# would at the first run, and puts it into the manifest: so whoever uninstalls by that leaves nothing.
-# Packages are compiled where they are unpacked.
+# compile_python(INTERPRETER FOLDER), for `cmake --install`: compiles installed Python files, as Python would at the
+# first run, and adds the results to the install manifest, so that uninstalling by the manifest leaves nothing.
+# Debian packages compile at their installation instead.
 function(compile_python interpreter folder)
   if(NOT "$ENV{DESTDIR}" STREQUAL "" OR NOT EXISTS "${interpreter}")
     return()

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks certificates of classical MAPF that use vertex and edge splits alone: docs/proof.md in a page of Python.
+"""Checks certificates of classical MAPF that use only vertex and edge splits: docs/proof.md in a page of Python.
 
     proof_checker.py INSTANCE.cts.json PROOF
 
-Maps, agents with a start and a goal, no tasks, no turns; in the certificate (if compressed, zstd has to be installed) no lemmas, no rules but `leaf` and `split`, no demands
-but `bar` and `move`. It is here to be read: grove-verify takes all of it, and fast. It takes no more than 1 GB of memory: of a certificate that would need more it says
-so, and refuses it.
+Instances: maps, agents with a start and a goal, no tasks, no turns. Certificates: no lemmas, only the rules `leaf`
+and `split`, only the constraints `bar` and `move`; a compressed one needs zstd. This program is meant for reading:
+grove-verify checks all certificates, and faster. It uses at most 1 GB of memory and refuses a certificate that
+needs more.
 """
 import heapq
 import json
@@ -30,18 +31,18 @@ def expect(condition, reason):
 
 
 def members(pairs):
-    """An object of JSON, no key twice, without remarks."""
+    """Returns a JSON object without remarks. Refuses duplicate keys."""
     expect(len(dict(pairs)) == len(pairs), "a key is there twice")
     return {key: value for key, value in pairs if not key.startswith("_") and key != "$schema"}
 
 
 def read_instance(path):
-    """(links of each place, starts, goals, checksum)."""
+    """Returns (neighbours of each place, starts, goals, checksum)."""
     instance = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=members)
     agents = instance.get("agents", [])
-    # What is dropped could be a constraint, and then the bound would be of another problem.
+    # Refuses other keys: they could restrict the plans, and the bound would be one of another problem.
     expect(instance.keys() == {"map", "agents", "tasks"} and agents and not instance["tasks"] and
-           all(agent.keys() == {"id", "start", "goal"} for agent in agents), "not classical MAPF alone")
+           all(agent.keys() == {"id", "start", "goal"} for agent in agents), "expected classical MAPF")
     rows = (path.parent / instance["map"]).read_text(encoding="utf-8").split("\n")[4:]
     rows = [["." if letter in ".GSE" else "@" for letter in row.strip()] for row in rows if row.strip()]
     height, width = len(rows), len(rows[0])
@@ -61,7 +62,7 @@ def read_instance(path):
 
 
 def distances(links, goal):
-    """Steps to the goal from wherever it can be reached."""
+    """Returns {place: steps to the goal} for the places that can reach it."""
     found, queue = {goal: 0}, [goal]
     for place in queue:
         for near in links[place]:
@@ -71,10 +72,10 @@ def distances(links, goal):
     return found
 
 
-def least_cost(links, to_go, start, goal, demands):
-    """c(A, D) by A* over places and times; None: there is no path."""
-    last = max((d[-1] for d in demands), default=0)  # later, all times are alike
-    bars, moves = ({d[1:] for d in demands if d[0] == kind} for kind in ("bar", "move"))
+def least_cost(links, to_go, start, goal, constraints):
+    """Computes c(A, D) by A* over places and times. Returns None if there is no path."""
+    last = max((d[-1] for d in constraints), default=0)  # all later times are equivalent
+    bars, moves = ({d[1:] for d in constraints if d[0] == kind} for kind in ("bar", "move"))
     rest_from = 1 + max((time for place, time in bars if place == goal), default=-1)
     waiting = [(to_go[start], 0, start)] if start in to_go and (start, 0) not in bars else []
     seen = set()
@@ -95,66 +96,67 @@ def number(word):
     return int(word)
 
 
-def read_demand(words, agents):
-    """(agent, ("bar", P, T)) or (agent, ("move", P, Q, T)): at one time each."""
+def read_constraint(words, agents):
+    """Reads (agent, ("bar", P, T)) or (agent, ("move", P, Q, T)), each for one time."""
     agent, kind, *numbers = words
     *places, begin, end = map(number, numbers)
-    expect((kind, len(places), len(set(places))) in (("bar", 1, 1), ("move", 2, 2)), "this demand is not among those known here")
+    expect((kind, len(places), len(set(places))) in (("bar", 1, 1), ("move", 2, 2)),
+           "this constraint is not supported here")
     expect(number(agent) < agents and begin == end, "expected an agent, and one time")
     return int(agent), (kind, *places, begin)
 
 
 def read_split(line, agents):
-    """The two demands, of which every plan meets one."""
+    """Reads the two constraints of a split, at least one of which every plan satisfies."""
     words = [side.split(" ") for side in line.removeprefix("split ").split(" | ")]
-    expect(line.startswith("split ") and len(words) == 2, "this rule is not among those known here")
-    (a, (kind, *one)), (b, (other, *two)) = (read_demand(side, agents) for side in words)
+    expect(line.startswith("split ") and len(words) == 2, "this rule is not supported here")
+    (a, (kind, *one)), (b, (other, *two)) = (read_constraint(side, agents) for side in words)
     met = one == two if kind == "bar" else one == [two[1], two[0], two[2]]
-    expect(a != b and kind == other and met, "a plan may meet neither of these demands")
+    expect(a != b and kind == other and met, "a plan may satisfy neither of these constraints")
     return (a, (kind, *one)), (b, (other, *two))
 
 
 def check(instance, lines):
-    """What is proven, and whether agents may follow each other."""
+    """Checks a certificate; returns (proven lower bound, whether following is allowed)."""
     links, starts, goals, instance_sum = read_instance(instance)
     to_go = [distances(links, goal) for goal in goals]
     head = [next(lines) for _ in range(4)]
     expect(head[0] == "grove-proof 1" and head[2] in ("following yes", "following no") and head[3].startswith("theorem "),
-           "this head is not among those known here")
-    expect(head[1] == f"instance {instance_sum}", "it is of another instance")
+           "this header is not supported here")
+    expect(head[1] == f"instance {instance_sum}", "the certificate is for another instance")
     bound = float("inf") if head[3] == "theorem inf" else number(head[3].removeprefix("theorem "))
-    demands = [[] for _ in starts]
-    splits = []  # (agent of the demand in force, the second demand if it is still to come)
+    constraints = [[] for _ in starts]
+    splits = []  # (agent of the active constraint, second constraint if it is still to come)
     known = {}
 
     def cost(agent):
-        key = agent, tuple(demands[agent])
+        key = agent, tuple(constraints[agent])
         if key not in known:
-            known[key] = least_cost(links, to_go[agent], starts[agent], goals[agent], demands[agent])
+            known[key] = least_cost(links, to_go[agent], starts[agent], goals[agent], constraints[agent])
         return known[key]
 
     while True:
         line = next(lines)
         if line != "leaf":
             (agent, first), second = read_split(line, len(starts))
-            demands[agent].append(first)
+            constraints[agent].append(first)
             splits.append((agent, second))
             continue
         costs = [cost(agent) for agent in range(len(starts))]
-        expect(None in costs or sum(costs) >= bound, f"costs are {costs}, expected {bound} in all")
+        expect(None in costs or sum(costs) >= bound, f"costs are {costs}; expected a sum of at least {bound}")
         while splits and splits[-1][1] is None:
-            demands[splits.pop()[0]].pop()
+            constraints[splits.pop()[0]].pop()
         if not splits:
             expect(next(lines) == "end" and next(lines, None) is None, "expected 'end'")
             return bound, head[2] == "following yes"
         agent, (other, second) = splits.pop()
-        demands[agent].pop()
-        demands[other].append(second)
+        constraints[agent].pop()
+        constraints[other].append(second)
         splits.append((other, None))
 
 
 def lines_of(path):
-    """The lines of a certificate, one at a time: a few compressed bytes may hold any number of them."""
+    """Yields the lines of a certificate one at a time, because few compressed bytes may hold any number of lines."""
     with path.open("rb") as file:
         compressed = file.read(4) == b"\x28\xb5\x2f\xfd"
     source = subprocess.Popen(["zstd", "-dcq", "--", path], stdout=subprocess.PIPE).stdout if compressed else path.open("rb")
@@ -169,18 +171,18 @@ def main(instance, proof):
         bound, may_follow = check(Path(instance), lines_of(Path(proof)))
         print(f"verified: no plan costs less than {bound}" + ", where following is forbidden" * (not may_follow))
     except (Refused, ValueError, IndexError, StopIteration) as error:
-        sys.exit(f"refused: {error or 'it is cut off'}")
+        sys.exit(f"refused: {error or 'the certificate is incomplete'}")
 
 
 def run(instance, proof):
-    """main() within the memory limit."""
+    """Runs main() within the memory limit."""
     _, most = resource.getrlimit(resource.RLIMIT_DATA)
     resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, most))
     try:
         main(instance, proof)
     except MemoryError:
-        resource.setrlimit(resource.RLIMIT_DATA, (most, most))  # to say so
-        sys.exit(f"refused: it needs more than {MEMORY / 1e9:.1f} GB of memory")
+        resource.setrlimit(resource.RLIMIT_DATA, (most, most))  # for the message
+        sys.exit(f"refused: needs more than {MEMORY / 1e9:.1f} GB of memory")
 
 
 if __name__ == "__main__":

@@ -85,7 +85,7 @@
 #include <variant>
 #include <vector>
 
-#include "mpi/overloaded.h"
+#include "mpi/messages.h"
 
 namespace grove::detail {
 namespace {
@@ -112,7 +112,7 @@ Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, co
       load_balancer_(children_.ranks(), options.tuning),
       timer_(options.checkpoints, limits),
       heard_at_(limits.now()) {
-  run_.announcements().survey_by([this] { return survey(); });
+  run_.run_events().survey_by([this] { return survey(); });
 }
 
 // The observer comes first: it may write the plan to disk.
@@ -140,7 +140,7 @@ void Coordinator::restore(CheckpointReader& checkpoint) {
   while (auto next = checkpoint.next()) {
     const NodePtr& root = roots->at(next->tree);
     check(*next, *root, instance_);
-    nodes_.tell(root->tree());
+    nodes_.send(root->tree());
     nodes.push_back(std::move(*next));
     if (nodes.size() == kNodesEntrusted) send();
   }
@@ -150,22 +150,24 @@ void Coordinator::restore(CheckpointReader& checkpoint) {
 
 void Coordinator::handle(int from, message::Message&& message) {
   const auto unexpected = [](const auto&) {
-    throw std::invalid_argument("a message for a rank came to the coordinator");
+    throw std::invalid_argument("coordinator: unexpected message type");
   };
   std::visit(
-      Overloaded{
-          [&](message::Status& status) { heard(children_.with(from), std::move(status)); },
-          [&](message::NewPlan& found) { run_.ledger().post(std::move(found.plan), found.source); },
-          [&](message::SnapshotTaken& gathered) {
-            if (gathering_) gathering_->handle(gathered);  // else it was aborted
-          },
-          [&](message::SnapshotPart& part) {
-            if (gathering_) gathering_->handle(std::move(part));
-          },
-          [&](message::ProcessStatistics& account) {
-            for (const auto& [rank, survey] : account.survey.ranks) surveys_[rank] = account.survey;
-          },
-          [&](message::RankFinished& said) { leave(said); }, unexpected},
+      Overloaded{[&](message::Status& status) { heard(children_.with(from), std::move(status)); },
+                 [&](message::NewPlan& found) {
+                   run_.shared_bounds().post(std::move(found.plan), found.source);
+                 },
+                 [&](message::SnapshotTaken& gathered) {
+                   if (gathering_) gathering_->handle(gathered);  // else it was aborted
+                 },
+                 [&](message::SnapshotPart& part) {
+                   if (gathering_) gathering_->handle(std::move(part));
+                 },
+                 [&](message::ProcessStatistics& account) {
+                   for (const auto& [rank, survey] : account.survey.ranks)
+                     surveys_[rank] = account.survey;
+                 },
+                 [&](message::RankFinished& finished) { leave(finished); }, unexpected},
       message);
   heard_at_ = limits_.now();  // not before: writing a checkpoint takes time
 }
@@ -174,18 +176,19 @@ void Coordinator::heard(int child, message::Status status) {
   load_balancer_.heard(child, status);
   for (const message::BatchReceived& taken : status.taken) {
     load_balancer_.arrived(taken.by);
-    children_.tell(children_.with(taken.from),
+    children_.send(children_.with(taken.from),
                    message::ReleaseCustody{taken.from, taken.by, taken.batches});
   }
   if (status.stopped != StopReason::kNone) limits_.stop(status.stopped);
-  if (status.proven > 0) run_.ledger().prove(status.proven, status.proven_by);
+  if (status.proven > 0) run_.shared_bounds().prove(status.proven, status.proven_by);
   nodes_.update(child, std::move(status));
-  run_.ledger().nodes_changed();
-  run_.announcements().worked();
+  run_.shared_bounds().nodes_changed();
+  run_.run_events().worked();
   if (ending_) return;  // a batch sent after a RankFinished would be left in transit
   run_.trees().instantiate_due_tree();
-  while (const auto gift = load_balancer_.next())
-    children_.tell(gift->from, message::SendNodes{gift->to, gift->nodes, gift->to_idle});
+  while (const auto transfer = load_balancer_.next())
+    children_.send(transfer->from,
+                   message::SendNodes{transfer->to, transfer->nodes, transfer->to_idle});
 }
 
 // Writes one checkpoint at a time, and the last one when the search is over, before Terminate is
@@ -193,8 +196,8 @@ void Coordinator::heard(int child, message::Status status) {
 void Coordinator::look_after_checkpoints() {
   if (gathering_ && gathering_->is_done()) gathering_.reset();
   if (gathering_ || options_.checkpoints.directory.empty() || !restored_) return;
-  const bool is_last = run_.ledger().over() && !gathered_at_end_;
-  if (!is_last && (run_.ledger().over() || !timer_.due())) return;
+  const bool is_last = run_.shared_bounds().over() && !gathered_at_end_;
+  if (!is_last && (run_.shared_bounds().over() || !timer_.due())) return;
   gathered_at_end_ = is_last;
   gathering_.emplace(options_.checkpoints, limits_, run_, transport_, children_);
 }
@@ -203,7 +206,7 @@ void Coordinator::step() {
   if (ending_) return;
   look_after_checkpoints();
   if (gathering_) return;
-  if (run_.ledger().over()) {
+  if (run_.shared_bounds().over()) {
     ending_ = true;
     children_.broadcast(message::Terminate{});
   } else if (!nodes_.any()) {
@@ -213,9 +216,9 @@ void Coordinator::step() {
   }
 }
 
-void Coordinator::leave(const message::RankFinished& said) {
-  add(said, farewell_);
-  if (++farewells_ == children_.count()) children_.send_message_counts({farewell_.messages});
+void Coordinator::leave(const message::RankFinished& message) {
+  add(message, finished_);
+  if (++farewells_ == children_.count()) children_.send_message_counts({finished_.messages});
 }
 
 // The last report of an unresponsive rank stays valid. Silence before the limit does not count:
@@ -227,14 +230,14 @@ std::int64_t Coordinator::check_unresponsive_ranks() {
   if (!stopped_at_) stopped_at_ = now;
   if (now - std::max(heard_at_, *stopped_at_) < kLongSilence) return 0;
   if (gathering_) {
-    run_.announcements().checkpoint({.failure = "a rank says nothing any more"});
+    run_.run_events().checkpoint({.failure = "a rank is unresponsive"});
     gathering_.reset();
     gathered_at_end_ = true;
     return 0;
   }
   if (!ending_ || now - *stopped_at_ < 2 * kLongSilence) return 0;
-  const auto& said = farewell_.survey.ranks;
-  return transport_.ranks() - std::ssize(said) - (said.contains(0) ? 0 : 1);
+  const auto& ranks = finished_.survey.ranks;
+  return transport_.ranks() - std::ssize(ranks) - (ranks.contains(0) ? 0 : 1);
 }
 
 Solution Coordinator::conclude() {
@@ -247,7 +250,7 @@ Solution Coordinator::conclude() {
 // The final statistics of the ranks that have finished, and the latest statistics of the others. A
 // simulated run that reaches a limit ends without RankFinished.
 RunStatistics Coordinator::told() const {
-  RunStatistics all = farewell_.survey;
+  RunStatistics all = finished_.survey;
   for (const auto& [rank, survey] : surveys_)
     if (!all.ranks.contains(rank)) add(survey, all);
   return all;
@@ -256,7 +259,7 @@ RunStatistics Coordinator::told() const {
 RunStatistics Coordinator::survey() const {
   RunStatistics survey = told();
   Stats of_plans;
-  run_.ledger().add_counts(of_plans);
+  run_.shared_bounds().add_counts(of_plans);
   for (const auto& [key, count] : of_plans.counts) survey.whole.counts[key] += count;
   survey.rank_count = transport_.ranks();
   return survey;

@@ -8,8 +8,8 @@
 
 #include "engine/run_observer.h"
 #include "engine/run_state.h"
-#include "mpi/child_links.h"
 #include "mpi/distributed_checkpoint.h"
+#include "mpi/hierarchy_links.h"
 #include "mpi/load_balancer.h"
 #include "mpi/messages.h"
 #include "mpi/rank_nodes.h"
@@ -37,7 +37,7 @@ class Coordinator {
   // repeatedly.
   void step();
 
-  Cost lower_bound() { return run_.ledger().lower_bound(); }
+  Cost lower_bound() { return run_.shared_bounds().lower_bound(); }
   // Has every child sent RankFinished?
   bool ended() const { return farewells_ == children_.count(); }
   // Tests for unresponsive ranks. It acts only if a limit was reached and no message has arrived
@@ -66,7 +66,7 @@ class Coordinator {
   void restore(CheckpointReader& checkpoint);
   void heard(int child, message::Status status);
   void look_after_checkpoints();
-  void leave(const message::RankFinished& said);
+  void leave(const message::RankFinished& message);
   RunStatistics told() const;
   RunStatistics survey() const;
 
@@ -91,7 +91,7 @@ class Coordinator {
   // When check_unresponsive_ranks() first saw that a limit was reached.
   std::optional<Clock::time_point> stopped_at_;
   int farewells_ = 0;
-  message::RankFinished farewell_;        // sum over the children that have finished
+  message::RankFinished finished_;        // sum over the children that have finished
   std::map<int, RunStatistics> surveys_;  // by rank: the latest statistics before its RankFinished
 };
 

@@ -53,7 +53,7 @@ void DistributedCheckpoint::write(Write what) {
   } catch (const InputError& error) {
     report_.failure = error.what();
   } catch (const std::bad_alloc&) {
-    report_.failure = "there is no memory left to write it";
+    report_.failure = "not enough memory to write it";
   }
   if (!report_.failure.empty()) writer_.reset();
 }
@@ -98,7 +98,7 @@ void DistributedCheckpoint::ask_next() {
   }
   write([&] { writer_->finish(); });
   report_.seconds = std::chrono::duration<double>(limits_.now() - begin_).count();
-  run_.announcements().checkpoint(report_);
+  run_.run_events().checkpoint(report_);
   done_ = true;
 }
 

@@ -9,7 +9,7 @@
 
 #include "engine/checkpoint.h"
 #include "engine/run_state.h"
-#include "mpi/child_links.h"
+#include "mpi/hierarchy_links.h"
 #include "mpi/messages.h"
 #include "mpi/transport.h"
 

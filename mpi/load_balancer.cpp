@@ -41,11 +41,11 @@ LoadBalancer::LoadBalancer(const std::vector<std::vector<int>>& children, const 
 
 void LoadBalancer::heard(int child, const message::Status& status) {
   View& at = view(child);
-  for (const Request& wish : at.wishes) wishes_.erase(wish);
+  for (const Request& request : at.wishes) wishes_.erase(request);
   at.wishes.clear();
   for (const message::WorkRequest& want : status.work_requests) {
-    const Request& wish = at.wishes.emplace_back(!want.idle, -want.best, want.rank);
-    wishes_[wish] = child;
+    const Request& request = at.wishes.emplace_back(!want.idle, -want.best, want.rank);
+    wishes_[request] = child;
   }
   offer(child, status.surplus);
 }
@@ -76,8 +76,8 @@ void LoadBalancer::take(int child, std::int64_t nodes) {
 // Requests are in order of urgency: if no transfer is worthwhile for one, none is for those after
 // it.
 std::optional<LoadBalancer::Transfer> LoadBalancer::next() {
-  for (const auto& [wish, child] : wishes_) {
-    const auto& [busy, minus_best, to] = wish;
+  for (const auto& [request, child] : wishes_) {
+    const auto& [busy, minus_best, to] = request;
     if (awaiting_.contains(to)) continue;
     auto best = offers_.begin();
     if (best != offers_.end() && std::get<int>(*best) == child) ++best;
@@ -88,14 +88,14 @@ std::optional<LoadBalancer::Transfer> LoadBalancer::next() {
     const int from = std::get<int>(*best);
     const message::Surplus& surplus = view(from).surplus[0];
     const bool helps = -minus_best == kInfiniteCost ||
-                       (-minus_best > surplus.bound && surplus.nodes >= tuning_.plenty_nodes);
+                       (-minus_best > surplus.bound && surplus.nodes >= tuning_.min_surplus_nodes);
     if (!helps) break;
     const std::int64_t nodes = busy ? surplus.nodes : all_of(surplus);
     if (nodes == 0) continue;
-    const Transfer gift{from, to, std::min(nodes, tuning_.gift_nodes), !busy};
-    take(from, gift.nodes);
+    const Transfer transfer{from, to, std::min(nodes, tuning_.transfer_nodes), !busy};
+    take(from, transfer.nodes);
     awaiting_.insert(to);
-    return gift;
+    return transfer;
   }
   return std::nullopt;
 }
@@ -121,8 +121,8 @@ std::vector<message::Surplus> LoadBalancer::surplus() const {
 
 std::vector<message::WorkRequest> LoadBalancer::work_requests() const {
   std::vector<message::WorkRequest> work_requests;
-  for (const auto& [wish, child] : wishes_) {
-    const auto& [busy, minus_best, rank] = wish;
+  for (const auto& [request, child] : wishes_) {
+    const auto& [busy, minus_best, rank] = request;
     if (work_requests.size() == kWishesPassedOn) break;
     if (!awaiting_.contains(rank)) work_requests.push_back({rank, !busy, -minus_best});
   }

@@ -44,7 +44,7 @@ void serialize(Archive& archive, ProcessStatistics& account) {
 
 template <class Archive>
 void serialize(Archive& archive, RankStatistics& rank) {
-  archive(rank.expanded, rank.open, rank.bound, rank.low_level_calls, rank.prices_asked);
+  archive(rank.expanded, rank.open, rank.bound, rank.low_level_calls, rank.branching_cost_queries);
   at_full_width(archive, rank.memory);
 }
 
@@ -57,7 +57,7 @@ template <class Archive, class Enum>
 void enumerated(Archive& archive, Enum& value, Enum last) {
   auto number = static_cast<std::uint8_t>(value);
   archive(number);
-  if (number > static_cast<std::uint8_t>(last)) throw cereal::Exception("a value of no known kind");
+  if (number > static_cast<std::uint8_t>(last)) throw cereal::Exception("message: unknown kind");
   value = static_cast<Enum>(number);
 }
 
@@ -184,8 +184,8 @@ void serialize(Archive& archive, Restart& restart) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, MessageCounts& goodbye) {
-  archive(goodbye.messages);
+void serialize(Archive& archive, MessageCounts& message_counts) {
+  archive(message_counts.messages);
 }
 
 template <class Archive>

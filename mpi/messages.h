@@ -12,10 +12,10 @@
 #include <variant>
 #include <vector>
 
-#include "engine/bound_source.h"
 #include "engine/run_statistics.h"
 #include "engine/serialize.h"
-#include "lagrangian/pricing_messages.h"
+#include "engine/shared_bounds.h"
+#include "lagrangian/pricer.h"
 #include "model/limits.h"
 #include "primal/plan_source.h"
 #include "search/group_bounds.h"
@@ -213,3 +213,15 @@ std::string bytes_of(const Message& message, int level);
 Addressed message_of(std::string_view bytes);
 
 }  // namespace grove::detail::message
+
+namespace grove::detail {
+
+// Visitor composed of lambdas, for std::visit of a message.
+template <class... Handlers>
+struct Overloaded : Handlers... {
+  using Handlers::operator()...;
+};
+template <class... Handlers>
+Overloaded(Handlers...) -> Overloaded<Handlers...>;  // needed by clang 16
+
+}  // namespace grove::detail

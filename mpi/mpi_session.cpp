@@ -16,7 +16,7 @@ MpiSession::MpiSession(int& argc, char**& argv) : has_mpi_(true) {
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   if (provided < MPI_THREAD_FUNNELED)
-    throw std::runtime_error("this MPI cannot be used by a process with threads");
+    throw std::runtime_error("this MPI library does not support processes with threads");
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks_);
 }

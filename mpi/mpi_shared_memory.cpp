@@ -57,7 +57,7 @@ bool MpiSharedMemory::all_on_host(bool mine) const {
 // Pages of the file that are never touched take no memory.
 void MpiSharedMemory::allocate(std::size_t bytes, std::size_t zero_bytes) {
   if (!all_on_host(has_room(bytes))) {
-    why_not_ = std::string("there is too little room in ") + kFolder;
+    why_not_ = std::string("there is too little memory in ") + kFolder;
     return;
   }
   MPI_Comm_set_errhandler(host_, MPI_ERRORS_RETURN);
@@ -67,7 +67,7 @@ void MpiSharedMemory::allocate(std::size_t bytes, std::size_t zero_bytes) {
   const int error = MPI_Win_allocate_shared(size, 1, MPI_INFO_NULL, host_, &begin, &window_);
   if (error != MPI_SUCCESS) window_ = MPI_WIN_NULL;
   if (!all_on_host(error == MPI_SUCCESS)) {
-    why_not_ = "MPI makes no windows";
+    why_not_ = "MPI cannot allocate shared memory";
     if (window_ != MPI_WIN_NULL) MPI_Win_free(&window_);
     return;
   }

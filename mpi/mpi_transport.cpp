@@ -35,7 +35,7 @@ MpiTransport::~MpiTransport() {
 
 void MpiTransport::do_send(int to, std::string bytes) {
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    throw std::length_error("a message is too long for MPI");
+    throw std::length_error("MPI transport: message too long");
   forget_sent();
   Sending& sending = sending_.emplace_back(Sending{MPI_REQUEST_NULL, std::move(bytes)});
   MPI_Isend(sending.bytes.data(), static_cast<int>(sending.bytes.size()), MPI_BYTE, to, kTag,
@@ -51,9 +51,9 @@ std::optional<ReceivedMessage> MpiTransport::receive() {
   if (arrived == 0) return std::nullopt;
   int size = 0;
   MPI_Get_count(&status, MPI_BYTE, &size);
-  ReceivedMessage parcel{status.MPI_SOURCE, std::string(static_cast<std::size_t>(size), '\0')};
-  MPI_Mrecv(parcel.bytes.data(), size, MPI_BYTE, &message, MPI_STATUS_IGNORE);
-  return parcel;
+  ReceivedMessage received{status.MPI_SOURCE, std::string(static_cast<std::size_t>(size), '\0')};
+  MPI_Mrecv(received.bytes.data(), size, MPI_BYTE, &message, MPI_STATUS_IGNORE);
+  return received;
 }
 
 // Tests the oldest sends first, which usually complete first.

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "mpi/overloaded.h"
+#include "mpi/messages.h"
 
 namespace grove::detail {
 namespace {
@@ -53,60 +53,61 @@ Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& li
       parent_(transport, hierarchy_, {transport.rank(), 0}, first_status(transport.rank())),
       stops_(stops),
       trees_(problem, stops_, nodes_.pool),
-      ledger_(limits, nodes_.frontier),
-      search_(options, limits, nodes_, ledger_, elsewhere_, unwatched_),
-      knowledge_(transport.rank(), transport.ranks(),
-                 options.tuning.knowledge_rate * kBytesPerMegabyte) {
+      shared_bounds_(limits, nodes_.frontier),
+      search_(options, limits, nodes_, shared_bounds_, elsewhere_, unwatched_),
+      bound_broadcast_(transport.rank(), transport.ranks(),
+                       options.tuning.bound_broadcast_rate * kBytesPerMegabyte) {
   if (transport.rank() == 0) search_.lagrangian().set_ranks(transport.ranks());
   if (transport.ranks() > 1) others_wait();
 }
 
 void Rank::handle(int from, message::Message&& message) {
   const auto unexpected = [](const auto&) {
-    throw std::invalid_argument("a message for the coordinator came to a rank");
+    throw std::invalid_argument("rank: unexpected message type");
   };
   std::visit(
-      Overloaded{
-          [&](message::NodeBatch& batch) {
-            ++heard_;
-            take_over(from, batch);
-          },
-          [&](message::RequestPricing& ask) {
-            ++heard_;
-            search_.lagrangian().help(problem_.instance, std::move(ask.share));
-          },
-          [&](message::PricingDone& prices) {
-            ++heard_;
-            ledger_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
-                          BoundSource::kLagrangian);
-          },
-          [&](message::LearnedBounds& facts) {
-            ++heard_;
-            receive(facts);
-          },
-          [&](message::NewTree& tree) {
-            const NodePtr& root = roots_[tree.number] = trees_.add(tree.tree, tree.number);
-            trees_of_facts_.add(root->tree());
-            take_over_held();
-          },
-          [&](message::AssignNodes& entrusted) { accept(entrusted); },
-          [&](message::SendNodes& order) { give(order); },
-          [&](message::ReleaseCustody& covered) { release(covered); },
-          [&](message::Incumbent& incumbent) {
-            const Cost cost = incumbent.plan.cost;
-            ledger_.adopt(std::move(incumbent.plan));
-            nodes_.prune(cost);
-          },
-          [&](message::Restart& order) { restart(order.proven); },
-          [&](message::SnapshotRequest&) { gather(); },
-          [&](message::SnapshotNext&) { send_part(); }, [](message::Heartbeat&) {},
-          [&](message::Terminate&) {
-            ended_ = true;
-            parent_.end_reports();
-            ledger_.end();
-          },
-          [&](message::MessageCounts& goodbye) { to_hear_ = goodbye.messages[transport_.rank()]; },
-          unexpected},
+      Overloaded{[&](message::NodeBatch& batch) {
+                   ++heard_;
+                   take_over(from, batch);
+                 },
+                 [&](message::RequestPricing& ask) {
+                   ++heard_;
+                   search_.lagrangian().help(problem_.instance, std::move(ask.share));
+                 },
+                 [&](message::PricingDone& prices) {
+                   ++heard_;
+                   shared_bounds_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
+                                        BoundSource::kLagrangian);
+                 },
+                 [&](message::LearnedBounds& facts) {
+                   ++heard_;
+                   receive(facts);
+                 },
+                 [&](message::NewTree& tree) {
+                   const NodePtr& root = roots_[tree.number] = trees_.add(tree.tree, tree.number);
+                   trees_of_facts_.add(root->tree());
+                   take_over_held();
+                 },
+                 [&](message::AssignNodes& entrusted) { accept(entrusted); },
+                 [&](message::SendNodes& order) { give(order); },
+                 [&](message::ReleaseCustody& covered) { release(covered); },
+                 [&](message::Incumbent& incumbent) {
+                   const Cost cost = incumbent.plan.cost;
+                   shared_bounds_.adopt(std::move(incumbent.plan));
+                   nodes_.prune(cost);
+                 },
+                 [&](message::Restart& order) { restart(order.proven); },
+                 [&](message::SnapshotRequest&) { gather(); },
+                 [&](message::SnapshotNext&) { send_part(); }, [](message::Heartbeat&) {},
+                 [&](message::Terminate&) {
+                   ended_ = true;
+                   parent_.end_reports();
+                   shared_bounds_.end();
+                 },
+                 [&](message::MessageCounts& message_counts) {
+                   to_hear_ = message_counts.messages[transport_.rank()];
+                 },
+                 unexpected},
       message);
 }
 
@@ -149,7 +150,7 @@ void Rank::give(const message::SendNodes& order) {
   Peer& peer = peers_[order.to];
   peer.custody[peer.sent + 1] = nodes;
   in_custody_ += std::ssize(nodes);
-  tell(order.to, batch);
+  send(order.to, batch);
   ++peer.sent;
   nodes_sent_ += std::ssize(nodes);
   parent_.urge();
@@ -174,7 +175,7 @@ bool Rank::keeps_next() const {
 void Rank::release(const message::ReleaseCustody& covered) {
   Peer& peer = peers_[covered.to];
   while (!peer.custody.empty() && peer.custody.begin()->first <= covered.batches) {
-    for (const NodePtr& node : peer.custody.begin()->second) nodes_.frontier.settle(node);
+    for (const NodePtr& node : peer.custody.begin()->second) nodes_.frontier.complete(node);
     in_custody_ -= std::ssize(peer.custody.begin()->second);
     peer.custody.erase(peer.custody.begin());
   }
@@ -191,7 +192,7 @@ void Rank::push(const std::vector<NodeRecord>& records, const std::vector<GroupB
   std::vector<NodePtr> nodes;  // nullptr: pruned
   for (const NodeRecord& record : records) {
     const NodePtr& root = roots_.at(record.tree);
-    const bool pruned = record.bound >= ledger_.cutoff();
+    const bool pruned = record.bound >= shared_bounds_.cutoff();
     nodes.push_back(pruned ? nullptr : node_of(record, root, problem_.instance));
   }
   merge(findings, nodes, *search_.memory());
@@ -204,7 +205,7 @@ void Rank::gather() {
   Frontier::Snapshot snapshot = nodes_.frontier.snapshot();
   send_found();
   gathered_ = std::move(snapshot.live);
-  parent_.tell(message::SnapshotTaken{snapshot.evicted_bound});
+  parent_.send(message::SnapshotTaken{snapshot.evicted_bound});
 }
 
 void Rank::send_part() {
@@ -232,7 +233,7 @@ message::Status Rank::status() const {
   const auto live = static_cast<std::int64_t>(nodes_.frontier.live());
   status.live = live > 0;
   status.evicted_bound = nodes_.evicted_bound();
-  std::tie(status.proven, status.proven_by) = ledger_.proven();
+  std::tie(status.proven, status.proven_by) = shared_bounds_.proven();
   status.bound = nodes_.bound();
   std::vector<Frontier::Level> levels = nodes_.frontier.levels(kLevels);
   const bool has_open = !levels.empty();
@@ -257,7 +258,7 @@ message::Status Rank::status() const {
 // has no surplus. (When such nodes were transferred, 128 ranks that proved 1 % took 1.7 times as
 // long.)
 bool Rank::is_wanted(Cost bound) const {
-  const Cost cutoff = ledger_.cutoff();
+  const Cost cutoff = shared_bounds_.cutoff();
   return cutoff == kInfiniteCost || !omega_.accepts(cutoff, bound);
 }
 
@@ -276,19 +277,19 @@ void Rank::send_updates(double now) {
 
 void Rank::speak_of_prices() {
   for (auto& [rank, share] : search_.lagrangian().dispatch_pricing())
-    tell(rank, message::RequestPricing{std::move(share)});
+    send(rank, message::RequestPricing{std::move(share)});
   if (auto answer = search_.lagrangian().take_answer())
-    tell(0, message::PricingDone{std::move(*answer)});
+    send(0, message::PricingDone{std::move(*answer)});
 }
 
 void Rank::speak_of_facts(double now) {
-  if (!knowledge_.is_on()) return;
+  if (!bound_broadcast_.is_on()) return;
   const auto memory = search_.memory();
   for (const LearnedBound& fact : facts_of(memory->take_new_entries(), *memory, trees_of_facts_))
-    knowledge_.add(fact);
-  for (auto& [rank, facts] : knowledge_.due(now)) {
+    bound_broadcast_.add(fact);
+  for (auto& [rank, facts] : bound_broadcast_.due(now)) {
     facts_sent_ += std::ssize(facts.facts);
-    tell(rank, facts);
+    send(rank, facts);
   }
 }
 
@@ -299,14 +300,14 @@ void Rank::receive(message::LearnedBounds& facts) {
   const bool has_room = search_.has_room_for_facts();
   for (std::string& bytes : facts.facts) {
     LearnedBound fact = message::unpacked(bytes);
-    if (!ended_) knowledge_.add(fact.utility(), std::move(bytes), facts.reach);
+    if (!ended_) bound_broadcast_.add(fact.utility(), std::move(bytes), facts.reach);
     if (has_room) merge(std::move(fact), trees_of_facts_, *memory);
   }
 }
 
 void Rank::send_found() {
-  if (auto found = ledger_.take_found())
-    parent_.tell(message::NewPlan{std::move(found->plan), found->source});
+  if (auto found = shared_bounds_.take_found())
+    parent_.send(message::NewPlan{std::move(found->plan), found->source});
 }
 
 RunStatistics Rank::survey(Stats counts) const {
@@ -314,8 +315,8 @@ RunStatistics Rank::survey(Stats counts) const {
   counts.counts["messages"] += transport_.messages();
   counts.counts["message_bytes"] += transport_.bytes();
   counts.counts["nodes_sent"] += nodes_sent_;
-  counts.counts["facts_sent"] += facts_sent_;
-  std::int64_t& batches = counts.counts["batches"];
+  counts.counts["learned_bounds_sent"] += facts_sent_;
+  std::int64_t& batches = counts.counts["node_batches"];
   for (const auto& [rank, peer] : peers_) batches += peer.sent;
   RunStatistics survey{{std::move(counts.counts), search_.memory_use()}, {}};
   RankStatistics& mine = survey.ranks[transport_.rank()];
@@ -324,25 +325,25 @@ RunStatistics Rank::survey(Stats counts) const {
   if (nodes_.any()) mine.bound = nodes_.bound();
   mine.memory = survey.whole.memory.process;
   mine.low_level_calls = survey.whole.counts["low_level_calls"];
-  mine.prices_asked = survey.whole.counts["prices_asked"];
+  mine.branching_cost_queries = survey.whole.counts["branching_cost_queries"];
   return survey;
 }
 
 void Rank::send_statistics(Stats counts) {
-  parent_.tell(message::ProcessStatistics{survey(std::move(counts))});
+  parent_.send(message::ProcessStatistics{survey(std::move(counts))});
 }
 
 // A limit may be reached just when a plan was found.
 void Rank::send_finished(Stats counts) {
   send_found();
-  parent_.tell(message::RankFinished{survey(std::move(counts)), told_});
+  parent_.send(message::RankFinished{survey(std::move(counts)), told_});
 }
 
 bool Rank::left() const {
   return to_hear_ && heard_ >= *to_hear_;
 }
 
-void Rank::tell(int rank, const message::Message& message) {
+void Rank::send(int rank, const message::Message& message) {
   ++told_[rank];
   transport_.send(rank, bytes_of(message, 0));
 }

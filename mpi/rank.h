@@ -10,13 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include "engine/local_nodes.h"
+#include "engine/live_nodes.h"
+#include "engine/run_observer.h"
 #include "engine/shared_search.h"
 #include "engine/solve.h"
 #include "mpi/bound_broadcast.h"
 #include "mpi/hierarchy.h"
+#include "mpi/hierarchy_links.h"
 #include "mpi/messages.h"
-#include "mpi/parent_link.h"
 #include "mpi/remote_bounds.h"
 #include "mpi/transport.h"
 #include "planning/agent_stops_cache.h"
@@ -45,7 +46,7 @@ class Rank {
   // receive.
   void handle(int from, message::Message&& message);
   // On rank 0: sets the lower bound of the whole search.
-  void know(Cost bound) { ledger_.know(bound); }
+  void know(Cost bound) { shared_bounds_.know(bound); }
   // Sends what is new. Plans are always sent. A status is sent at once if it is urgent, otherwise
   // at a limited rate; see ParentLink::report(). `now` in seconds since the beginning.
   void send_updates(double now);
@@ -53,7 +54,7 @@ class Rank {
   // since the beginning. Infinity: never.
   double next_send_time() const {
     return ended_ ? parent_.reports_at()
-                  : std::min(parent_.reports_at(), knowledge_.next_send_time());
+                  : std::min(parent_.reports_at(), bound_broadcast_.next_send_time());
   }
 
   // Sends the statistics so far, including `counts` of the workers. Not after send_finished().
@@ -89,7 +90,7 @@ class Rank {
   message::Status status() const;
   RunStatistics survey(Stats counts) const;
   bool is_wanted(Cost bound) const;
-  void tell(int rank, const message::Message& message);
+  void send(int rank, const message::Message& message);
 
   const Problem& problem_;
   const Omega omega_;
@@ -100,14 +101,14 @@ class Rank {
   LocalNodes nodes_;
   AgentStopsCache stops_;
   Trees trees_;  // outlives every holder of their nodes
-  RemoteBounds ledger_;
+  RemoteBounds shared_bounds_;
   TreeSource elsewhere_;    // the coordinator instantiates trees,
   WorkObserver unwatched_;  // and counts the work
   SharedSearch search_;
 
   std::map<std::uint32_t, NodePtr> roots_;  // by tree number
   TreeIndex trees_of_facts_;
-  BoundBroadcast knowledge_;
+  BoundBroadcast bound_broadcast_;
   std::int32_t epoch_ = 0;
   std::int64_t assigned_ = 0;
   std::vector<DeferredBatch> held_;

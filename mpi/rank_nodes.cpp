@@ -12,7 +12,7 @@ RankNodes::RankNodes(ChildLinks& children)
     : children_(children),
       latest_(static_cast<std::size_t>(children.count())),
       under_way_(latest_.size()),
-      children_of_this_era_(children.count()) {
+      children_of_this_epoch_(children.count()) {
   for (std::size_t child = 0; child < latest_.size(); ++child) bounds_.insert(kInfiniteCost);
 }
 
@@ -24,7 +24,7 @@ void RankNodes::update(int child, message::Status status) {
   const std::int64_t arrived = status.entrusted - latest.entrusted;
   if (arrived < 0 || arrived > std::ssize(sent) || status.epoch < latest.epoch ||
       status.epoch > epoch_)
-    throw std::invalid_argument("a status of a rank that does not fit what it was told");
+    throw std::invalid_argument("coordinator: status does not match the messages to the rank");
   bounds_.insert(status.bound);
   bounds_.erase(bounds_.find(latest.bound));
   for (std::int64_t i = 0; i < arrived; ++i) {
@@ -41,7 +41,7 @@ void RankNodes::add(const message::Status& status, int sign) {
   counts_.expanded += sign * status.expanded;
   counts_.open += sign * status.open;
   if (status.live) children_with_nodes_ += sign;
-  if (status.epoch == epoch_) children_of_this_era_ += sign;
+  if (status.epoch == epoch_) children_of_this_epoch_ += sign;
 }
 
 Cost RankNodes::bound() const {
@@ -55,7 +55,7 @@ Cost RankNodes::evicted_bound() const {
 // The nodes of a child that has not handled the last Restart are unknown.
 bool RankNodes::any() const {
   return children_with_nodes_ > 0 || entrusted_under_way_ > 0 ||
-         children_of_this_era_ < std::ssize(latest_);
+         children_of_this_epoch_ < std::ssize(latest_);
 }
 
 message::Status RankNodes::merged() const {
@@ -76,7 +76,7 @@ message::Status RankNodes::merged() const {
 }
 
 void RankNodes::push(const NodePtr& root) {
-  tell(root->tree());
+  send(root->tree());
   assign({{record_of(*root)}, kInfiniteCost});
 }
 
@@ -86,10 +86,10 @@ void RankNodes::assign(int child, message::AssignNodes nodes) {
   bounds_.insert(bound);
   under_way_.at(static_cast<std::size_t>(child)).push_back(bound);
   ++entrusted_under_way_;
-  children_.tell(child, nodes);
+  children_.send(child, nodes);
 }
 
-void RankNodes::tell(const Tree& tree) {
+void RankNodes::send(const Tree& tree) {
   if (told_.insert(tree.number).second)
     children_.broadcast(message::NewTree{tree.number, record_of(tree)});
 }
@@ -106,7 +106,7 @@ int RankNodes::idlest() const {
 void RankNodes::broadcast_restart(Cost proven) {
   children_.broadcast(message::Restart{proven});
   ++epoch_;
-  children_of_this_era_ = 0;
+  children_of_this_epoch_ = 0;
 }
 
 void RankNodes::restart(std::span<const NodePtr> roots, Cost proven) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/live_nodes.h"
-#include "mpi/child_links.h"
+#include "mpi/hierarchy_links.h"
 #include "mpi/messages.h"
 
 namespace grove::detail {
@@ -42,7 +42,7 @@ class RankNodes : public LiveNodes {
   void assign(int child, message::AssignNodes nodes);
   void assign(message::AssignNodes nodes) { assign(idlest(), std::move(nodes)); }
   // Broadcasts a tree, once.
-  void tell(const Tree& tree);
+  void send(const Tree& tree);
   // Broadcasts Restart. Until the status of a child has the new epoch, the nodes of the child are
   // unknown.
   void broadcast_restart(Cost proven);
@@ -58,7 +58,7 @@ class RankNodes : public LiveNodes {
   std::int64_t children_with_nodes_ = 0;
   std::int64_t entrusted_under_way_ = 0;
   std::int32_t epoch_ = 0;
-  std::int64_t children_of_this_era_;
+  std::int64_t children_of_this_epoch_;
   Counts counts_;
   std::set<std::uint32_t> told_;  // numbers of the trees broadcast
 };

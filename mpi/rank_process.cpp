@@ -22,9 +22,9 @@ RankProcess::RankProcess(const Problem& problem, const SolveOptions& options, co
 
 bool RankProcess::exchange_messages(double now) {
   bool heard = false;
-  while (auto parcel = transport_.receive()) {
+  while (auto received = transport_.receive()) {
     heard = true;
-    handle(parcel->from, message::message_of(parcel->bytes));
+    handle(received->from, message::message_of(received->bytes));
   }
   if (coordinator_) {
     coordinator_->step();
@@ -44,7 +44,7 @@ void RankProcess::handle(int from, message::Addressed&& addressed) {
   else if (coordinator_ && level == std::ssize(subs_) + 1)
     coordinator_->handle(from, std::move(message));
   else
-    throw std::invalid_argument("a message for a coordinator that is not here");
+    throw std::invalid_argument("rank process: message for a coordinator of another process");
 }
 
 double RankProcess::next_send_time() const {

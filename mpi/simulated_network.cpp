@@ -22,7 +22,7 @@ class SimulatedNetwork::End : public Transport {
   const int rank_;
 };
 
-SimulatedNetwork::SimulatedNetwork(int ranks, Delay delay)
+SimulatedNetwork::SimulatedNetwork(int ranks, DelayModel delay)
     : delay_(std::move(delay)),
       inboxes_(static_cast<std::size_t>(ranks)),
       last_arrival_(static_cast<std::size_t>(ranks)) {
@@ -54,9 +54,9 @@ std::optional<ReceivedMessage> SimulatedNetwork::receive(int rank) {
   Inbox& inbox = inboxes_[static_cast<std::size_t>(rank)];
   if (inbox.empty() || inbox.top().arrival > now_) return std::nullopt;
   // The order depends only on arrival and serial, so the bytes may be moved out.
-  ReceivedMessage parcel = std::move(const_cast<UnderWay&>(inbox.top()).parcel);
+  ReceivedMessage received = std::move(const_cast<UnderWay&>(inbox.top()).received);
   inbox.pop();
-  return parcel;
+  return received;
 }
 
 }  // namespace grove::detail

@@ -21,9 +21,9 @@ namespace grove::detail {
 class SimulatedNetwork {
  public:
   // The time from sending to arrival, in seconds of the simulated clock.
-  using Delay = std::function<double(int from, int to, std::size_t bytes)>;
+  using DelayModel = std::function<double(int from, int to, std::size_t bytes)>;
 
-  SimulatedNetwork(int ranks, Delay delay);
+  SimulatedNetwork(int ranks, DelayModel delay);
   ~SimulatedNetwork();
 
   // The transport of `rank`. It lives as long as the network.
@@ -41,7 +41,7 @@ class SimulatedNetwork {
   struct UnderWay {
     double arrival;
     std::int64_t serial;  // number of the message in order of sending
-    ReceivedMessage parcel;
+    ReceivedMessage received;
   };
   struct Later {
     bool operator()(const UnderWay& a, const UnderWay& b) const {
@@ -53,7 +53,7 @@ class SimulatedNetwork {
   void send(int from, int to, std::string bytes);
   std::optional<ReceivedMessage> receive(int rank);
 
-  const Delay delay_;
+  const DelayModel delay_;
   std::vector<std::unique_ptr<End>> ends_;
   std::vector<Inbox> inboxes_;
   std::vector<std::unordered_map<int, double>> last_arrival_;  // by sender, then receiver

@@ -77,7 +77,7 @@ class Searching {
 // kMostAtOnce_s: messages that arrived in that time are not received yet.
 class ReceiveTimeout {
  public:
-  void go_on(double now, bool heard) {
+  void update(double now, bool heard) {
     seconds_ = heard ? 0 : seconds_ + std::min(now - last_, kMostAtOnce_s);
     last_ = now;
   }
@@ -105,7 +105,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
   const Limits::Clock::time_point begin = limits.now();
   RankProcess member(problem, options, limits, observer, transport);
   Searching searching(problem, options, limits, member.rank(), transport.rank());
-  const double patience = options.tuning.patience;
+  const double patience = options.tuning.unresponsive_timeout;
   ReceiveTimeout silence;
   bool said_farewell = false;
   double accounted = 0;
@@ -129,12 +129,11 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
       said_farewell = true;
     }
     if (heard) heard_at = now;
-    silence.go_on(now, heard);
+    silence.update(now, heard);
     if (!member.coordinator() && std::min(silence.seconds(), -limits.seconds_left()) > patience)
-      throw std::runtime_error(
-          fmt::format("rank 0 has said nothing for {} s after the limit: it stands still, and "
-                      "the job ends without an answer",
-                      patience));
+      throw std::runtime_error(fmt::format(
+          "rank 0 has not responded for {} s after the limit; the job ends without an answer",
+          patience));
     const double rested = seconds();
     const double poll_interval = max_poll_interval(member.rank().ended());
     if (!heard) sleep(next_poll(heard_at, rested + kLeastNap_s, poll_interval) - rested);

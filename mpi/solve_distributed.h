@@ -31,7 +31,7 @@ struct UnresponsiveRanks : std::runtime_error {
 // `options.deterministic` must not be set. Throws what solve() throws. Rank 0 throws
 // UnresponsiveRanks; the other ranks then wait for rank 0 until their process is ended from
 // outside. They throw std::runtime_error if rank 0 is unresponsive: if they have received nothing
-// for `--tune patience` seconds, and the time limit was that long ago.
+// for `--tune unresponsive-timeout` seconds, and the time limit was that long ago.
 std::optional<Solution> solve_distributed(const Problem& problem, const SolveOptions& options,
                                           const Limits& limits, Transport& transport,
                                           RunObserver& observer,

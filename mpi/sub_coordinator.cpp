@@ -7,15 +7,15 @@
 #include <utility>
 #include <variant>
 
-#include "mpi/overloaded.h"
+#include "mpi/messages.h"
 
 namespace grove::detail {
 namespace {
 
 // Status at the beginning, when all ranks below are idle.
-message::Status first_status(const LoadBalancer& broker) {
+message::Status first_status(const LoadBalancer& load_balancer) {
   message::Status status;
-  status.work_requests = broker.work_requests();
+  status.work_requests = load_balancer.work_requests();
   return status;
 }
 
@@ -31,45 +31,46 @@ SubCoordinator::SubCoordinator(Transport& transport, const Hierarchy& hierarchy,
 void SubCoordinator::handle(int from, message::Message&& message) {
   const auto child = [&] { return children_.with(from); };
   const auto unexpected = [](const auto&) {
-    throw std::invalid_argument("a message for somebody else came to a coordinator of some ranks");
+    throw std::invalid_argument("sub-coordinator: unexpected message type");
   };
-  std::visit(
-      Overloaded{[&](message::Status& status) { heard(child(), std::move(status)); },
-                 [&](message::NewPlan& found) {
-                   if (found.plan.cost < cutoff_) parent_.tell(found);
-                 },
-                 [&](message::ProcessStatistics& account) { parent_.tell(account); },
-                 [&](message::SnapshotTaken& parts) { gathered(parts); },
-                 [&](message::RankFinished& said) { send_finished(said); },
-                 [&](message::SendNodes& ordered) { order(ordered); },
-                 [&](message::ReleaseCustody& release) {
-                   children_.tell(children_.with(release.from), release);
-                 },
-                 [&](message::AssignNodes& nodes) {
-                   ++assigned_;
-                   nodes_.assign(std::move(nodes));
-                   parent_.urge();
-                 },
-                 [&](message::Restart& order) { restart(order); },
-                 [&](message::Incumbent& incumbent) {
-                   cutoff_ = std::min(cutoff_, incumbent.plan.cost);
-                   children_.broadcast(incumbent);
-                 },
-                 [&](message::NewTree& tree) { children_.broadcast(tree); },
-                 [&](message::SnapshotRequest& gather) {
-                   looked_ = 0;
-                   gathered_ = {};
-                   children_.broadcast(gather);
-                 },
-                 [&](message::Heartbeat& alive) { children_.broadcast(alive); },
-                 [&](message::Terminate& end) {
-                   ending_ = true;
-                   parent_.end_reports();
-                   children_.broadcast(end);
-                 },
-                 [&](message::MessageCounts& goodbye) { children_.send_message_counts(goodbye); },
-                 unexpected},
-      message);
+  std::visit(Overloaded{[&](message::Status& status) { heard(child(), std::move(status)); },
+                        [&](message::NewPlan& found) {
+                          if (found.plan.cost < cutoff_) parent_.send(found);
+                        },
+                        [&](message::ProcessStatistics& account) { parent_.send(account); },
+                        [&](message::SnapshotTaken& parts) { gathered(parts); },
+                        [&](message::RankFinished& finished) { send_finished(finished); },
+                        [&](message::SendNodes& ordered) { order(ordered); },
+                        [&](message::ReleaseCustody& release) {
+                          children_.send(children_.with(release.from), release);
+                        },
+                        [&](message::AssignNodes& nodes) {
+                          ++assigned_;
+                          nodes_.assign(std::move(nodes));
+                          parent_.urge();
+                        },
+                        [&](message::Restart& order) { restart(order); },
+                        [&](message::Incumbent& incumbent) {
+                          cutoff_ = std::min(cutoff_, incumbent.plan.cost);
+                          children_.broadcast(incumbent);
+                        },
+                        [&](message::NewTree& tree) { children_.broadcast(tree); },
+                        [&](message::SnapshotRequest& gather) {
+                          looked_ = 0;
+                          gathered_ = {};
+                          children_.broadcast(gather);
+                        },
+                        [&](message::Heartbeat& alive) { children_.broadcast(alive); },
+                        [&](message::Terminate& end) {
+                          ending_ = true;
+                          parent_.end_reports();
+                          children_.broadcast(end);
+                        },
+                        [&](message::MessageCounts& message_counts) {
+                          children_.send_message_counts(message_counts);
+                        },
+                        unexpected},
+             message);
   changed_ = true;
 }
 
@@ -79,31 +80,32 @@ void SubCoordinator::heard(int child, message::Status&& status) {
   for (const message::BatchReceived& taken : status.taken) {
     load_balancer_.arrived(taken.by);
     if (children_.include(taken.from))
-      children_.tell(children_.with(taken.from),
+      children_.send(children_.with(taken.from),
                      message::ReleaseCustody{taken.from, taken.by, taken.batches});
     else
       taken_.push_back(taken);
   }
   nodes_.update(child, std::move(status));
   if (ending_) return;  // a batch sent after a RankFinished would be left in transit
-  while (const auto gift = load_balancer_.next())
-    children_.tell(gift->from, message::SendNodes{gift->to, gift->nodes, gift->to_idle});
+  while (const auto transfer = load_balancer_.next())
+    children_.send(transfer->from,
+                   message::SendNodes{transfer->to, transfer->nodes, transfer->to_idle});
 }
 
 // All plans found before the snapshots have been forwarded by then.
 void SubCoordinator::gathered(const message::SnapshotTaken& parts) {
   gathered_.evicted_bound = std::min(gathered_.evicted_bound, parts.evicted_bound);
-  if (++looked_ == children_.count()) parent_.tell(gathered_);
+  if (++looked_ == children_.count()) parent_.send(gathered_);
 }
 
-void SubCoordinator::send_finished(const message::RankFinished& said) {
-  add(said, farewell_);
-  if (++farewells_ == children_.count()) parent_.tell(farewell_);
+void SubCoordinator::send_finished(const message::RankFinished& message) {
+  add(message, finished_);
+  if (++farewells_ == children_.count()) parent_.send(finished_);
 }
 
 // Some child must send a batch, even an empty one, because the receiver waits for it.
 void SubCoordinator::order(const message::SendNodes& order) {
-  children_.tell(load_balancer_.donor(order.count), order);
+  children_.send(load_balancer_.donor(order.count), order);
 }
 
 void SubCoordinator::restart(const message::Restart& order) {

@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "engine/solve.h"
-#include "mpi/child_links.h"
+#include "mpi/hierarchy_links.h"
 #include "mpi/load_balancer.h"
 #include "mpi/messages.h"
-#include "mpi/parent_link.h"
 #include "mpi/rank_nodes.h"
 
 namespace grove::detail {
@@ -34,7 +33,7 @@ class SubCoordinator {
  private:
   void heard(int child, message::Status&& status);
   void gathered(const message::SnapshotTaken& gathered);
-  void send_finished(const message::RankFinished& said);
+  void send_finished(const message::RankFinished& message);
   void order(const message::SendNodes& order);
   void restart(const message::Restart& order);
   message::Status status() const;
@@ -49,7 +48,7 @@ class SubCoordinator {
   Cost cutoff_ = kInfiniteCost;                // cost of the incumbent
   message::SnapshotTaken gathered_;  // merged over the children that have taken a snapshot
   int looked_ = 0;
-  message::RankFinished farewell_;  // sum over the children that have finished
+  message::RankFinished finished_;  // sum over the children that have finished
   int farewells_ = 0;
   bool ending_ = false;
 };

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Makes docs/python-api.md: what is there by the stubs, what it is by its docstrings.
+"""Makes docs/python-api.md from the stubs (names, signatures) and the docstrings.
 
     api_page.py PACKAGE_DIR > docs/python-api.md
 
-PACKAGE_DIR: build/release/python. A test says when the page is out of date.
+PACKAGE_DIR: build/release/python. A test fails if the page is out of date.
 """
 import ast
 import inspect
@@ -15,21 +15,22 @@ from pathlib import Path
 WIDTH = 100
 HEAD = """# Python: every name
 
-[python.md](python.md) is the guide. `python/api_page.py` makes this page of the stubs and the docstrings.
+[python.md](python.md) is the guide. `python/api_page.py` makes this page from the stubs and the docstrings.
 
-`Place` is `(x, y)` on a grid; of a roadmap `"A"`, a vertex, or `("A", "B", steps)`, on a road, with the number of the edge
-as a fourth entry where several roads join the two. `Path` is a text or an `os.PathLike`. Plans are in steps, clocks in seconds.
+`Place` is `(x, y)` on a grid. On a roadmap it is `"A"`, a vertex, or `("A", "B", steps)`, a place on a road, with the
+number of the edge as a fourth entry if several roads join the two vertices. `Path` is a `str` or an `os.PathLike`.
+Times in plans are in steps, run times in seconds.
 
-What is wrong raises `grove.Error`: `InputError` for files, `InvalidArgument` for values. Worlds, instances, plans and
-solutions never change, and any number of threads may use one; a session is for one thread at a time. Searches let other
-threads go on. `grove.__version__` is a text, "0.1.0".
+Errors are subclasses of `grove.Error`: `InputError` for files, `InvalidArgument` for values. Worlds, instances, plans
+and solutions are immutable: any thread may read them. Sessions: one thread at a time. Other Python threads keep running
+during a search. `grove.__version__` is a text, "0.1.0".
 """
 SECTIONS = {
     "Worlds and instances": ["World", "Instance", "instance_from_dict", "instance_from_arrays", "read_instance",
                              "read_scenario"],
     "Solving": ["solve", "Solution", "Progress", "Session", "default_threads", "default_memory_limit"],
     "Plans": ["Plan", "AgentPlan", "check", "read_plan", "visits", "data_frame"],
-    "Looking": ["view", "View", "picture"],
+    "Displaying": ["view", "View", "picture"],
     "Errors": ["Error", "InputError", "InvalidArgument"],
 }
 
@@ -45,27 +46,27 @@ def parameter(argument, default=None, star=""):
 
 
 def parameters(arguments):
-    """As in a definition, without self."""
+    """Returns the parameters as in a definition, without self."""
     needed = len(arguments.args) - len(arguments.defaults)
-    told = [parameter(argument, default)
-            for argument, default in zip(arguments.args, [None] * needed + arguments.defaults)
-            if argument.arg != "self"]
+    found = [parameter(argument, default)
+             for argument, default in zip(arguments.args, [None] * needed + arguments.defaults)
+             if argument.arg != "self"]
     if arguments.vararg:
-        told.append(parameter(arguments.vararg, star="*"))
+        found.append(parameter(arguments.vararg, star="*"))
     elif arguments.kwonlyargs:
-        told.append("*")
-    return told + [parameter(*pair) for pair in zip(arguments.kwonlyargs, arguments.kw_defaults)]
+        found.append("*")
+    return found + [parameter(*pair) for pair in zip(arguments.kwonlyargs, arguments.kw_defaults)]
 
 
 def signature(name, node):
-    """In one line, or as few as it takes."""
+    """Returns the signature, in as few lines of WIDTH columns as possible."""
     result = code_text(node.returns)
     tail = ")" + (f" -> {result}" if result != "None" else "")
-    told = parameters(node.args)
-    if len(f"{name}(" + ", ".join(told) + tail) <= WIDTH:
-        return f"{name}(" + ", ".join(told) + tail
+    parts = parameters(node.args)
+    if len(f"{name}(" + ", ".join(parts) + tail) <= WIDTH:
+        return f"{name}(" + ", ".join(parts) + tail
     lines = [f"{name}("]
-    for part in [part + "," for part in told[:-1]] + [told[-1] + tail]:
+    for part in [part + "," for part in parts[:-1]] + [parts[-1] + tail]:
         if len(lines) == 1 or len(f"{lines[-1]} {part}") > WIDTH:
             lines.append("   ")
         lines[-1] += f" {part}"
@@ -73,7 +74,7 @@ def signature(name, node):
 
 
 def doc_of(thing, name):
-    """Without the signature that pybind11 puts before it."""
+    """Returns the docstring without the signature that pybind11 adds."""
     text = re.sub(r"^\w+\(.*\) -> .*\n+", "", inspect.getdoc(thing) or "").strip()
     if not text:
         raise SystemExit(f"api_page.py: {name} has no docstring")
@@ -81,7 +82,7 @@ def doc_of(thing, name):
 
 
 def markdown(text):
-    """A docstring: paragraphs; `name: what it is` as a list; and what begins with >>> as it is."""
+    """Converts a docstring to Markdown: `name: text` lines become a list, paragraphs that begin with >>> code."""
     blocks = []
     for paragraph in re.split(r"\n\s*\n", text):
         if paragraph.startswith(">>>"):
@@ -95,8 +96,8 @@ def markdown(text):
                 blocks.append(line)
             else:
                 blocks[-1] += " " + line.strip()
-    told = "\n\n".join(blocks).replace("*.", "\\*.")
-    return re.sub(r"^(- .*)\n\n(?=- )", r"\1\n", told, flags=re.M)
+    text = "\n\n".join(blocks).replace("*.", "\\*.")
+    return re.sub(r"^(- .*)\n\n(?=- )", r"\1\n", text, flags=re.M)
 
 
 def has_mark(node, mark):
@@ -117,13 +118,13 @@ def class_blocks(name, node, thing):
         blocks.append(f"Bases: {', '.join(bases)}.")
     rows, methods = [], []
     for key, item in functions.items():
-        told = markdown(doc_of(getattr(thing, key), f"{name}.{key}"))
+        description = markdown(doc_of(getattr(thing, key), f"{name}.{key}"))
         if has_mark(item, "property"):
-            kind = code_text(item.returns).replace(" | ", " or ")  # a bar parts cells
-            rows.append(f"| `{key}` | `{kind}` | {told} |")
+            kind = code_text(item.returns).replace(" | ", " or ")  # a bar would separate cells
+            rows.append(f"| `{key}` | `{kind}` | {description} |")
         else:
             owner = f"grove.{name}" if has_mark(item, "staticmethod") else name.lower()
-            methods += [code(signature(f"{owner}.{key}", item)), told]
+            methods += [code(signature(f"{owner}.{key}", item)), description]
     if rows:
         blocks.append("\n".join(["| property | type | |", "|---|---|---|", *rows]))
     return blocks + methods
@@ -137,9 +138,9 @@ def blocks_of(name, node, thing):
 
 def page(grove, stubs):
     nodes = {node.name: node for node in stubs.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
-    told = [name for names in SECTIONS.values() for name in names] + ["__version__"]
-    if sorted(told) != sorted(grove.__all__):
-        raise SystemExit(f"api_page.py: SECTIONS and grove.__all__ differ in {set(told) ^ set(grove.__all__)}")
+    documented = [name for names in SECTIONS.values() for name in names] + ["__version__"]
+    if sorted(documented) != sorted(grove.__all__):
+        raise SystemExit(f"api_page.py: SECTIONS and grove.__all__ differ in {set(documented) ^ set(grove.__all__)}")
     blocks = [HEAD.strip()]
     for section, names in SECTIONS.items():
         blocks.append(f"## {section}")

@@ -1,19 +1,19 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: MIT
-# Sourced by tools/package-test and tools/fresh-machine: a bare Debian 12 in a folder, and commands in it.
-# As root, with debootstrap. Packages come from this machine's apt sources.
+# Sourced by tools/package-test and tools/fresh-machine: makes a minimal Debian 12 in a folder and runs
+# commands in it. Needs root and debootstrap. Packages come from this machine's apt sources.
 
 give_up() { echo "tools/${0##*/}: error: $*" >&2; exit 2; }
 
 needs_debootstrap() {
-  [ "$(id -u)" -eq 0 ] || give_up "this makes a root file system; expected to be run as root"
-  command -v debootstrap >/dev/null || give_up "there is no debootstrap; expected the Debian package of that name"
+  [ "$(id -u)" -eq 0 ] || give_up "needs root, because it makes a root file system"
+  command -v debootstrap >/dev/null || give_up "debootstrap was not found; expected the Debian package debootstrap"
 }
 
-# make_bare_debian ROOT: as little of Debian 12 as possible in an empty folder, with a user `someone`.
+# make_bare_debian ROOT: a minimal Debian 12 in an empty folder, with a user `someone`.
 make_bare_debian() {
   local root=$1 sources mirror
-  # SITE RELEASE COMPONENT of everything that is from Debian 12.
+  # SITE RELEASE COMPONENT of all apt sources of Debian 12.
   # shellcheck disable=SC2016
   sources=$(apt-get indextargets --format '$(SITE) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' |
     grep -E '^[^ ]+ bookworm(-updates|-security)? ' | sort -u) ||
@@ -24,15 +24,15 @@ make_bare_debian() {
   # shellcheck disable=SC2001
   sed 's/^/deb /' <<<"$sources" >"$root/etc/apt/sources.list"
   apt-config dump | grep -E '^Acquire::(https?::|Check-)' >"$root/etc/apt/apt.conf.d/90host" || true
-  echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe-io"  # it may be lost with this machine
+  echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe-io"  # loss at a power failure is acceptable
   cp -L /etc/resolv.conf "$root/etc/resolv.conf"
-  # As Debian's installer writes it.
+  # As written by Debian's installer.
   printf '127.0.0.1\tlocalhost\n127.0.1.1\t%s\n' "$(uname -n)" >"$root/etc/hosts"
   inside "$root" root useradd --create-home --shell /bin/bash someone
 }
 
-# inside ROOT USER COMMAND...: runs a command as a user of that Debian. Of this machine it sees the kernel
-# and the network, but no file. What it mounts and starts ends with it.
+# inside ROOT USER COMMAND...: runs a command as a user of that Debian. It shares the kernel and the network
+# with this machine, but no files. Its mounts and processes end with it.
 inside() {
   local root=$1 user=$2 home
   shift 2

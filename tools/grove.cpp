@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The program: subcommands, and what becomes of their failures.
+// grove: the subcommands and the exit code.
 #include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "tools/common/commands.h"
-#include "tools/common/companion.h"
+#include "tools/common/helper_program.h"
 #include "tools/common/program.h"
 #include "tools/common/signals.h"
 #include "tools/view/view_command.h"
@@ -14,17 +14,16 @@ namespace grove::detail {
 namespace {
 
 constexpr const char* kDescription =
-    "Grove solves CTS-MAPF: many agents on a grid or a roadmap, each with places to visit in any\n"
-    "order and a destination, without collisions, at the least sum of finish times - with a proof "
-    "of\n"
-    "how far from the least the answer can be. Agents may need time to turn, tasks may take "
-    "time.\n";
+    "Grove plans collision-free paths for many agents on a grid or a roadmap, each with places to\n"
+    "visit in any order and a destination (CTS-MAPF). It minimises the sum of finish times and\n"
+    "proves how far from optimal the plan is at most. Agents may need time to turn, and tasks may\n"
+    "take time.\n";
 
 constexpr const char* kProgramFooter = R"(Exit codes:
-  0  ended cleanly; a plan file says how
+  0  ended cleanly; the plan file has the status
   1  internal failure
   2  bad usage or input: one line on stderr with file, place and what was expected
-  3  no plan was found, where --require-plan asks for one
+  3  no plan was found, with --require-plan
 
 'grove help COMMAND' and 'grove COMMAND --help' explain a command, with examples.)";
 
@@ -39,12 +38,13 @@ int main(int argc, char** argv) {
   add_replan_command(app);
   const std::vector<std::string> words(argv + 1, argv + argc);
   add_view_command(
-      app, {.hand_over = [&] { become("grove-picture", words, "grove-pictures"); }, .draw = {}});
+      app,
+      {.hand_over = [&] { exec_program("grove-picture", words, "grove-pictures"); }, .draw = {}});
   add_proof_command(app);
   add_generate_command(app);
   add_convert_command(app);
   add_bench_command(app);
-  add_companion_commands(app);
+  add_helper_commands(app);
   return run_only_process(app, argc, argv);
 }
 

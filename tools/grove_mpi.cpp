@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove-mpi: the same search by several processes.
+// grove-mpi: the search of Grove with several processes.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -19,17 +19,18 @@ namespace grove::detail {
 namespace {
 
 constexpr const char* kDescription =
-    "Grove by several processes, on one machine or many: each rank searches with threads of its\n"
-    "own, all share one search. Start it with mpirun or srun.\n";
+    "Grove with several processes, on one machine or many: each rank searches with its own "
+    "threads,\n"
+    "and all share one search. Start it with mpirun or srun.\n";
 
 constexpr const char* kProgramFooter = R"(Exit codes:
-  0  ended cleanly; a plan file says how
+  0  ended cleanly; the plan file has the status
   1  internal failure
   2  bad usage or input: one line on stderr with file, place and what was expected
 
 'grove-mpi help COMMAND' and 'grove-mpi COMMAND --help' explain a command, with examples.)";
 
-// Whether the program is asked only about itself: needs no MPI, which may not start here.
+// Whether the user asks only for help or the version. That needs no MPI, which may not start here.
 bool asks_for_help(std::span<char* const> arguments) {
   if (arguments.empty() || std::string_view(arguments.front()) == "help") return true;
   for (const std::string_view word : arguments) {
@@ -39,7 +40,7 @@ bool asks_for_help(std::span<char* const> arguments) {
   return false;
 }
 
-// Of the processes that mpirun or srun started, as their environment says; else the only one.
+// Whether this is rank 0 according to the environment of mpirun or srun, or the only process.
 bool is_first_process() {
   for (const char* variable : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "SLURM_PROCID"})
     if (const char* rank = std::getenv(variable)) return std::string_view(rank) == "0";
@@ -66,7 +67,7 @@ int main(int argc, char** argv) {
     MpiSession session;
     return run(session, is_first_process(), argc, argv);
   }
-  stop_on_signals();  // one may come while MPI begins, and would kill the job
+  stop_on_signals();  // before MPI starts, since a signal then would kill the job
   MpiSession session(argc, argv);
   return run(session, session.rank() == 0, argc, argv);
 }

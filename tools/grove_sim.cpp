@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove-sim: how the distributed search would scale, predicted on one processor.
+// grove-sim: predicts the scaling of the distributed search on one processor.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -30,39 +30,39 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kDescription =
     R"(Predicts how fast grove-mpi would solve an instance on a machine with many more processors
-than this one has. It really solves the instance, once for each number of ranks: one thread
-plays all ranks in turn, with the engine's own code, on a simulated clock. An expansion, or a
-price for the Lagrangian bound, takes as long as its work takes on this processor, a message
-what the network's figures below say.
-So few ranks take about as long to simulate as one thread takes to solve, 128 two to five times
-as long, 1,024 up to fifteen times.
+than this one. It solves the instance once for each number of ranks: one thread executes all
+ranks in turn, with the engine's own code, on a simulated clock. An expansion, or a subproblem of
+the Lagrangian bound, takes the time of its work on this processor, and a message the time that
+follows from the options for the network. The simulation of a few ranks takes about as long as a
+solve with one thread, of 128 ranks two to five times as long, of 1,024 up to fifteen times.
 )";
 
 constexpr const char* kFooter =
     R"(The table (CSV, one row per number of ranks; wall_s: simulated seconds):
   speed_up, efficiency        against one rank; efficiency = speed-up / ranks
   nodes_overhead, expanding_overhead
-                              nodes, and time to work on them and on prices, beyond those of one rank
+                              nodes, and time for them and for subproblems, beyond those of one rank
   messages..., bytes..., nodes_sent
                               sent by all ranks
-  talking_share               of the ranks' time, sending and receiving
-  coordinator_talking_share   of rank 0's: near 1, rank 0 is what limits the search
-  coordinator_wait_s          how long a message waits for rank 0 to look at it
-  max_over_mean, idle_share   how evenly the work is spread; the workers' time without any
+  talking_share               share of the ranks' time for sending and receiving
+  coordinator_talking_share   the same of rank 0: near 1, rank 0 limits the search
+  coordinator_wait_s          mean time until rank 0 processes a message
+  max_over_mean, idle_share   balance of the work; share of the workers' time without work
   first_node_s, ranks_without_node
-                              when ranks were given their first node; how many never were
+                              when ranks received their first node; how many never did
 
-Assumed: each rank has one worker, and a processor for its messages; processors do not slow
-each other down; the network has no traffic but this. Nobody looks for plans beside the tree,
-so begin with a good one: --start, or what the search for plans finds in --primal-steps. With
---omega 0 and an optimal plan what must be expanded is nearly fixed, and what is seen is
-scaling; else luck as well. The time to read the instance and to start ranks is left out.
+Assumptions: each rank has one worker, and another processor for its messages; processors do not
+slow each other down; the network has no other traffic. There is no primal search outside the
+tree, so use a good start plan: --start, or the plan that the primal search finds in
+--primal-steps. With --omega 0 and an optimal plan, the nodes that must be expanded are nearly
+fixed, so the result shows scaling; otherwise it also depends on luck. The time to read the
+instance and to start ranks is not included.
 
-A run that a limit struck is unfinished: its row says of it only how far it came.
+A run that reached a limit is unfinished: its row has only how far it came.
 
-Without --cost-per-work the run of one rank is timed, and its mean time per unit of work
-(about one label of the low level) is what work costs in the others. Given the figure, all
-is repeatable.
+Without --cost-per-work the run of one rank is timed, and its mean time per unit of work (about
+one label of the low level) is the cost of work in the other runs. If the value is given, all
+results are repeatable.
 
 Examples:
   grove-sim benchmarks/data/rooms-32x32_n10_m30.cts.json --omega 0 --ranks 1,2,16
@@ -80,45 +80,46 @@ void add_options(CLI::App& app, SimArguments& a) {
   a.solve.time_limit_s = 3600;
   a.solve.instance.add_to(app);
   add_integers(app, "--ranks", a.ranks, {1, 1 << 16},
-               "how many ranks; a run of one is made in any case, to compare with")
+               "numbers of ranks; one rank is always simulated as well, for comparison")
       ->default_str("1,2,16,128,1024,4096");
-  add_number(app, "--latency", a.machine.latency, 0, 1e3,
-             "seconds that a message is under way, however short")
+  add_number(app, "--latency", a.machine.latency, 0, 1e3, "latency of a message, seconds")
       ->type_name("S");
   add_number(app, "--bandwidth", a.machine.bandwidth, 1, 1e15,
-             "bytes that a rank packs and sends, or receives and unpacks, in a second")
+             "bytes that a rank packs and sends, or receives and unpacks, per second")
       ->type_name("B/S");
-  add_number(app, "--message-cost", a.machine.message_cost, 0, 1e3,
-             "seconds that sender and receiver spend on each message beside its bytes")
+  add_number(
+      app, "--message-cost", a.machine.message_cost, 0, 1e3,
+      "time that sender and receiver need for each message in addition to its bytes, seconds")
       ->type_name("S");
-  add_number(app, "--poll", a.machine.poll, 0, 1e3,
-             "seconds between two looks of a rank at the network, at most; soon after a message "
-             "it looks more often")
+  add_number(
+      app, "--poll", a.machine.poll, 0, 1e3,
+      "maximum interval at which a rank polls the network, seconds; shorter soon after a message")
       ->type_name("S");
   add_number(app, "--cost-per-work", a.machine.seconds_per_work, 0, 1e3,
-             "seconds that a unit of work takes; 0: what it takes here")
+             "time per unit of work, seconds; 0: as measured here")
       ->type_name("S");
   a.solve.instance.add_rules_to(app);
   add_omega_option(app, a.solve);
   add_method_options(app, a.solve);
-  app.add_option("--start", a.solve.start, "a plan file of this instance: the first incumbent")
+  app.add_option("--start", a.solve.start, "plan file of this instance: the first incumbent")
       ->type_name("PLAN");
   add_integer(app, "--primal-steps", a.primal_steps, {0, 1'000'000'000},
-              "without --start, look for a plan first, for about so many milliseconds");
+              "without --start: search for a plan first, for about N milliseconds");
   add_number(app, "--time-limit", a.solve.time_limit_s, 0, 1e9,
-             "simulate no number of ranks for longer than so many seconds")
+             "time limit of the simulation of each number of ranks, seconds")
       ->type_name("S");
   add_number(app, "--memory-limit", a.solve.memory_limit_gb, 0, 1e6,
-             "nor one for which this process would need more than so many gigabytes")
+             "memory limit of this process for each number of ranks, GB")
       ->type_name("GB");
-  app.add_option("--output", a.solve.output, "write the table to this file too")
+  app.add_option("--output", a.solve.output, "write the table to this file as well")
       ->type_name("TABLE.csv");
-  app.add_option("--profile", a.profile,
-                 "write here how many workers are busy, in each hundredth of each run's time")
+  app.add_option(
+         "--profile", a.profile,
+         "write the number of busy workers in each hundredth of each run's time to this file")
       ->type_name("FILE.csv");
 }
 
-// What the search for plans finds by itself.
+// Returns the plan that the primal search finds without a tree.
 std::optional<Plan> find_plan(const Problem& problem, const SolveOptions& options,
                               const Limits& limits, std::int64_t steps) {
   AgentStopsCache stops(problem.instance, problem.distances);
@@ -154,7 +155,7 @@ class Study {
     RunObserver silent;
     if (presolve(problem, options_, unlimited, silent))
       throw InputError(a_.solve.instance.name(), "",
-                       "has no plan, as is seen without a search; expected something to search");
+                       "presolve shows that there is no plan; expected an instance to search");
     begin_with_plan(problem);
     print_line(scaling_header());
     const SimulatedRun alone = simulated(problem, 1);
@@ -176,8 +177,8 @@ class Study {
     limits.watch_interrupt(&interrupted);
     options_.start = a_.solve.start.empty() ? find_plan(problem, options_, limits, a_.primal_steps)
                                             : read_valid_plan(a_.solve.start, loaded_.instance);
-    note(options_.start ? fmt::format("begins with a plan of cost {}", options_.start->cost)
-                        : "begins without a plan");
+    note(options_.start ? fmt::format("starting with a plan of cost {}", options_.start->cost)
+                        : "starting without a plan");
   }
 
   SimulatedRun simulated(const Problem& problem, int ranks) {
@@ -202,7 +203,7 @@ class Study {
     return run;
   }
 
-  // What work costs in the other runs; where there was none, each finds out for itself.
+  // Sets the cost of work for the other runs; if this run did no work, each of them measures it.
   void calibrate(const SimulatedRun& alone) {
     const SimulatedWorker::Tally& tally = alone.ranks.front().worker;
     if (a_.machine.seconds_per_work > 0 || tally.work <= 0) return;

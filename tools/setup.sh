@@ -1,11 +1,11 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: MIT
-# Sourced by tools/quickstart and tools/test: makes sure that packages are installed, and builds
-# presets quietly.
+# Sourced by tools/quickstart, tools/test and others: installs missing packages, and configures presets
+# quietly.
 
 say() { printf '\n== %s\n' "$*"; }
 
-# Runs a command; shows what it printed only if it fails.
+# Runs a command; shows its output only if it fails.
 quietly() {
   local log status=0
   log=$(mktemp)
@@ -15,7 +15,8 @@ quietly() {
   return "$status"
 }
 
-# find_missing_packages LIST...: those of the lists that are not installed, in one array `missing`.
+# find_missing_packages LIST...: sets the array `missing` to the packages of the lists that are not
+# installed.
 find_missing_packages() {
   local package
   missing=()
@@ -26,7 +27,7 @@ find_missing_packages() {
   done < <(cat "$@")
 }
 
-# Installs `missing`; the arguments are what to put before apt-get.
+# install_missing [PREFIX...]: installs `missing`; PREFIX are words before apt-get, such as sudo.
 install_missing() {
   local apt=("$@" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=120)
   quietly "${apt[@]}" update &&
@@ -34,8 +35,8 @@ install_missing() {
     switch_off_daemons "$@"
 }
 
-# Debian starts the daemons that it installs, at once and at every boot. Those among `missing` are for
-# tests, which start their own; one that was there before is somebody else's and left alone.
+# Debian starts installed daemons immediately and at every boot. The tests start their own, so the daemons
+# among `missing` are disabled. Daemons that were installed before are not changed.
 switch_off_daemons() {
   local package
   [ -d /run/systemd/system ] || return 0
@@ -46,7 +47,7 @@ switch_off_daemons() {
   done
 }
 
-# The commands that install `missing`, for a user who may not run them without a password, or at all.
+# Prints the commands that install `missing`, for a user who may not run them, or only with a password.
 say_what_to_install() {
   local as_root=""
   if command -v sudo >/dev/null; then
@@ -59,7 +60,7 @@ say_what_to_install() {
   echo "  ${as_root}apt-get install -y --no-install-recommends ${missing[*]}"
 }
 
-# ensure_packages LIST...: installs what is missing if this user may; else says what to do and exits
+# ensure_packages LIST...: installs missing packages if this user may; else prints the commands and exits
 # with 2.
 ensure_packages() {
   local missing

@@ -1,21 +1,21 @@
 # SPDX-License-Identifier: MIT
-"""Running Grove's programs: to any good end, or to a proof."""
+"""Runs Grove's programs; a failure is an exception."""
 import json
 import os
 import shlex
 import subprocess
 from pathlib import Path
 
-# It minds root.
+# Open MPI refuses to run as root without these variables.
 MPIRUN = ["env", "OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", "mpirun"]
 
 
 class Failure(Exception):
-    """A program did not do what it should."""
+    """A program failed."""
 
 
 def add_folders(parser):
-    """Options that say where the programs are, and the maps."""
+    """Adds the options --bin and --maps."""
     parser.add_argument("--bin", type=Path,
                         default=Path(__file__).resolve().parents[2] / "build/release/bin")
     parser.add_argument("--maps", type=Path,
@@ -23,31 +23,31 @@ def add_folders(parser):
 
 
 def run(command, timeout=None):
-    """The output of a command that must succeed."""
+    """Returns the output of a command. Raises Failure unless it exits with 0."""
     command = [str(word) for word in command]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=timeout)
     if done.returncode != 0:
-        raise Failure(f"{shlex.join(command)} ended with {done.returncode}: "
+        raise Failure(f"{shlex.join(command)}: exit code {done.returncode}: "
                       f"{(done.stderr or done.stdout).strip()}")
     return done.stdout
 
 
 def answer(solve, plan):
-    """What the file `plan` says after a solve."""
-    plan.unlink(missing_ok=True)  # a better one would stay
+    """Runs a solve; returns the content of its plan file."""
+    plan.unlink(missing_ok=True)  # otherwise a better one would be kept
     run([*solve, "--quiet", "--output", plan])
     return json.loads(plan.read_text(encoding="utf-8"))
 
 
 def optimum(solve, plan):
-    """The same of one that must prove the optimum."""
+    """Runs a solve that must prove the optimum; returns the content of its plan file."""
     found = answer(solve, plan)
     if found["status"] != "optimal":
-        raise SystemExit(f"{shlex.join(map(str, solve))}: {found['status']}; expected optimal")
+        raise SystemExit(f"{shlex.join(map(str, solve))}: found status {found['status']}; expected optimal")
     return found
 
 
 def median_optimum(solve, plan, repeat):
-    """The same of the median of several runs, by their time."""
+    """Runs optimum() `repeat` times; returns the plan file of the run with the median time."""
     runs = [optimum(solve, plan) for _ in range(repeat)]
     return sorted(runs, key=lambda found: found["stats"]["wall_s"])[repeat // 2]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Running solvers on cases, several at a time; a row of results per run."""
+"""Runs solvers on cases, several at a time; one row of results per run."""
 
 import collections
 import concurrent.futures
@@ -18,16 +18,16 @@ import time
 from harness.instances import instance_arguments
 from harness.programs import Failure, run
 
-# Of those that `grove bench` writes, so that `grove report` reads them.
+# A subset of the columns of `grove bench`, so that `grove report` can read the rows.
 COLUMNS = ["instance", "method", "options", "map", "scenario", "agents", "tasks", "problem", "omega",
            "seed", "time_limit_s", "solved", "status", "cost", "lower_bound", "gap", "runtime_s",
            "wall_s", "first_plan_s", "roots", "rtsp_calls", "nodes", "low_level_calls",
            "peak_memory_mb", "version", "ended_at", "error", "threads", "counts"]
 FROM_STATS = {"roots": "roots_generated", "nodes": "nodes_expanded"} | {
     name: name for name in ("seed", "threads", "rtsp_calls", "low_level_calls", "peak_memory_mb", "version")}
-PATHS = re.compile(r"^(Agent \d+:|solution=)", re.M)  # in what other solvers write
+PATHS = re.compile(r"^(Agent \d+:|solution=)", re.M)  # paths in the output of other solvers
 FIRST_PLAN = re.compile(r"^[*HCLS] .* (\d+\.\d+)s$", re.M)
-GRACE_S = 10  # after its time limit a program is killed
+GRACE_S = 10  # a program is killed this long after its time limit
 
 
 def gap(cost, bound):
@@ -37,16 +37,16 @@ def gap(cost, bound):
 
 
 def first_plan_seconds(log):
-    """When the first plan was there, by the log of a run; None: never."""
+    """Returns the time of the first plan in the log of a run. Returns None if there was no plan."""
     found = FIRST_PLAN.search(log)
     return float(found.group(1)) if found else None
 
 
 @dataclasses.dataclass(frozen=True)
 class Grove:
-    """`grove solve` with some options, on one thread unless they say otherwise.
+    """`grove solve` with options; on one thread without --threads.
 
-    Every plan is re-checked with `grove check`.
+    Every plan is checked with `grove check`.
     """
 
     program: str
@@ -78,9 +78,9 @@ class Grove:
 class OtherSolver:
     """Any program for classical MAPF.
 
-    `command` may hold {map}, {scen}, {agents}, {time_limit} and {output}, a file of its own to
-    write. `pattern` is searched in what it prints and in that file: it claims a plan if there is a
-    match, whose group 1 is the cost. If it writes paths there, `grove check` re-checks them.
+    `command` may contain {map}, {scen}, {agents}, {time_limit} and {output}, a file that it may write. `pattern` is
+    searched in its output and in that file: a match means that it claims a plan, and group 1 is the cost. Paths in
+    that file are checked with `grove check`.
     """
 
     grove: str
@@ -136,7 +136,7 @@ def csv_value(value):
 
 
 def row_of(job, maps):
-    """Runs a job. What goes wrong is a row of status "error"."""
+    """Runs a job; returns its row. A failure gives a row with status "error"."""
     case = job.case
     row = dict.fromkeys(COLUMNS) | {
         "instance": case.id, "method": job.solver.name, "map": case.map, "scenario": case.scenario,
@@ -153,7 +153,7 @@ def row_of(job, maps):
 
 
 class Progress:
-    """One line on a terminal that is written over and over."""
+    """Progress line on a terminal."""
 
     def __init__(self, total):
         self.total = total
@@ -173,14 +173,14 @@ class Progress:
 
 
 def run_all(jobs, maps, workers, csv_path=None):
-    """The rows of all jobs whose files are there, in their order; says what is left out.
+    """Returns the rows of all jobs in their order; skips and reports cases whose files are missing.
 
-    Rows also go to the CSV file as they come, so an interrupted run leaves what it has.
+    Each row is also written to the CSV file when its job ends, so that an interrupted run keeps its rows.
     """
     cases = dict.fromkeys(job.case for job in jobs)
     missing = collections.Counter(filter(None, map(maps.missing, cases)))
     for file, count in missing.items():
-        print(f"skipped {count} of {len(cases)} cases: there is no {file}", file=sys.stderr)
+        print(f"skipped {count} of {len(cases)} cases: {file} is missing", file=sys.stderr)
     jobs = [job for job in jobs if not maps.missing(job.case)]
     progress = Progress(len(jobs))
     rows = [None] * len(jobs)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tables in Markdown from rows of results."""
+"""Writes Markdown tables of result rows."""
 
 import math
 import statistics
@@ -8,7 +8,7 @@ PROVEN = ("optimal", "bounded")
 
 
 def grouped(rows, *columns):
-    """{values of the columns: rows}, in the order of first appearance."""
+    """Returns {values of the columns: rows}, in the order of first appearance."""
     groups = {}
     for row in rows:
         groups.setdefault(tuple(row[column] for column in columns), []).append(row)
@@ -20,7 +20,7 @@ def values(rows, column):
 
 
 def percents(rows):
-    """The same with the gap in percent."""
+    """Returns the rows with the gap in percent."""
     return [row | {"gap": row["gap"] and 100 * row["gap"]} for row in rows]
 
 
@@ -54,7 +54,7 @@ def table(head, lines):
 
 
 def cells(rows):
-    """A line per cell (map, N, M); its entries are the scenarios'."""
+    """Returns a table with a line per cell (map, N, M); entries list the values of its scenarios."""
     return table(
         ["map", "N", "M", "proven", "status", "cost", "bound", "gap %", "roots", "rTSP calls",
          "nodes", "s"],
@@ -66,7 +66,7 @@ def cells(rows):
 
 
 def proofs(rows):
-    """What is proven, by map and N, and in all."""
+    """Returns a table of proven results by map and N, and of all rows."""
     def line(name, agents, group):
         return [name, agents, len(group), count(group, "optimal"),
                 sum(map(within_one_percent, group)), sum(row["cost"] is None for row in group),
@@ -78,7 +78,7 @@ def proofs(rows):
 
 
 def plans(rows):
-    """How soon there is a plan and how good it gets."""
+    """Returns a table of the times of first plans and of the final gaps."""
     return table(
         ["map", "N/M", "plans", "first plan s, median", "worst", "gap %, median", "worst",
          "proven", "memory MB"],
@@ -90,7 +90,7 @@ def plans(rows):
 
 
 def comparison(rows):
-    """Solvers side by side: solved, and the median time of what they solved."""
+    """Returns a table that compares solvers: solved instances and the median time of these."""
     solvers = list(dict.fromkeys(row["method"] for row in rows))
 
     def entries(group, solver):
@@ -106,13 +106,13 @@ def comparison(rows):
 
 
 def ratio(pairs):
-    """Geometric mean of a/b; None where there is nothing to compare."""
+    """Returns the geometric mean of a/b as text, "-" without pairs."""
     logs = [math.log(a / b) for a, b in pairs]
     return f"{math.exp(statistics.fmean(logs)):.2f}" if logs else "-"
 
 
 def ablation(rows, reference):
-    """Each solver against the one named `reference`; ratios over what both proved."""
+    """Returns a table of each solver against the solver `reference`; ratios are over instances that both proved."""
     def key(row):
         return row["instance"]
     full = {key(row): row for row in rows if row["method"] == reference}

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""A second host inside a sandbox: a host name, a network and a /dev/shm of its own, joined to the
-first host by a virtual cable. Files, processors and memory are all that the two share."""
+"""A second host inside a sandbox, with its own host name, network and /dev/shm.
+
+A virtual cable connects it to the first host. The two share only files, processors and memory.
+"""
 import subprocess
 
 from . import sandbox
@@ -12,7 +14,7 @@ HOLDER = ["unshare", "--net", "--uts", "--ipc", "--mount", "sh", "-c",
 
 
 def start():
-    """Starts it; it is there until the sandbox ends."""
+    """Starts the second host; it exists until the sandbox ends."""
     holder = subprocess.Popen(HOLDER, stdout=subprocess.PIPE, text=True)
     if holder.stdout.readline() != "ready\n":
         raise sandbox.NotHere("a second set of namespaces is not permitted")

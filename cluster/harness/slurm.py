@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""A Slurm of its own inside a sandbox: munged, one slurmctld, a slurmd on each host.
+"""A private Slurm inside a sandbox: munged, one slurmctld, and a slurmd on each host.
 
-Its configuration is what a cluster of such hosts has, with two partitions: `batch`, and `urgent`,
-whose jobs take the place of those of `batch`. It does without cgroups (proctrack/pgid), which a
-container may not have; so it neither binds ranks to cores nor enforces limits of memory. Ports and
-sockets are the usual ones: nobody else is in the sandbox.
+It is configured like a cluster of such hosts, with two partitions: `batch`, and `urgent`, whose jobs pre-empt those
+of `batch`. It does not use cgroups (proctrack/pgid), which a container may not have. So it neither binds ranks to
+cores nor enforces memory limits. Ports and sockets are the defaults, because the sandbox is isolated.
 """
 import os
 import subprocess
@@ -15,7 +14,7 @@ from . import sandbox
 FOLDER = sandbox.FILES / "slurm"
 CONFIGURATION = FOLDER / "slurm.conf"
 READY_WITHIN_S = 20
-# What a node is said to offer: what the job scripts ask for.
+# Configured resources of a node, as the job scripts request them.
 CPUS, MEMORY_MB = 8, 16384
 
 SILENT = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
@@ -50,8 +49,10 @@ PartitionName=urgent Nodes=ALL PriorityTier=2 PreemptMode=OFF
 
 
 def start(hosts):
-    """Starts the daemons on these hosts, the first of which is the sandbox's, and waits until they
-    take jobs. Returns the environment that commands need."""
+    """Starts the daemons on `hosts` and waits until they accept jobs; returns the environment for commands.
+
+    hosts: host names; the first one is the sandbox's.
+    """
     sandbox.need_program("munge", "munged")
     sandbox.need_program("slurmctld", "slurmctld")
     sandbox.need_program("slurmd", "slurmd")
@@ -73,7 +74,7 @@ def start(hosts):
 
 
 def _start_munged():
-    """As its own user, with a key of its own, at its usual socket, which is the sandbox's."""
+    """Starts munged as user munge, with a new key and the default socket, which is private to the sandbox."""
     folder = sandbox.FILES.parent / "munge"
     folder.mkdir(mode=0o755)
     subprocess.run(["chown", "munge:", folder], check=True)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Run by cpack on what is installed, before it becomes packages: programs and libraries are stripped,
-# each package gets the documents that Debian wants in it, and folders are named as Debian's.
+# Run by cpack on the installed files before it makes packages: strips programs and libraries, adds the
+# documents that Debian policy requires to each package, and renames folders as in Debian.
 cmake_minimum_required(VERSION 3.22)
 set(source ${CMAKE_CURRENT_LIST_DIR}/../..)
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
@@ -61,7 +61,7 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
     file(RENAME ${usr}/share/doc/grove ${usr}/share/doc/${package})
   endif()
   write_documents(${usr}/share/doc/${package})
-  # What it says is in the copyright.
+  # Its content is in the copyright file.
   file(REMOVE ${usr}/libexec/grove/grove_vda5050/schemas/LICENSE.txt
     ${usr}/libexec/grove/grove_vda5050/schemas/README.md)
   file(GLOB pages ${usr}/share/man/man1/*.1)
@@ -75,6 +75,6 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   configure_file(${source}/cmake/package/lintian-overrides ${usr}/share/lintian/overrides/${package} COPYONLY)
   if(component MATCHES "libraries")
     file(APPEND ${usr}/share/lintian/overrides/${package}
-      "# cpack's, besides the trigger.\nmaintscript-calls-ldconfig\n")
+      "# Added by cpack, in addition to the trigger.\nmaintscript-calls-ldconfig\n")
   endif()
 endforeach()

@@ -10,10 +10,10 @@ namespace {
 
 constexpr int kFar = std::numeric_limits<int>::max();
 
-// Steps from every cell to one, by breadth-first search; kFar from where there is no way.
-class DistanceView {
+// Distances from all cells to one cell, by breadth-first search; kFar if there is no route.
+class DistanceField {
  public:
-  DistanceView(const grove::World& world, grove::Cell to)
+  DistanceField(const grove::World& world, grove::Cell to)
       : width_(world.width()),
         steps_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(world.height()), kFar) {
     std::deque<grove::Cell> next{to};
@@ -36,7 +36,7 @@ class DistanceView {
   std::vector<int> steps_;
 };
 
-// Those without a task.
+// Robots without a task.
 std::vector<const grove::Agent*> free_robots(const grove::Instance& now) {
   std::set<std::string> busy;
   for (const grove::Task& task : now.tasks()) busy.insert(task.agents.begin(), task.agents.end());
@@ -58,7 +58,7 @@ Given Assignment::give(const grove::Instance& now) {
       ++errand;
       continue;
     }
-    DistanceView distances(world_, errand->cell);
+    DistanceField distances(world_, errand->cell);
     const auto nearest = std::ranges::min_element(
         free, {}, [&](const auto* robot) { return distances.from(*robot); });
     given.emplace_back((*nearest)->id, *errand);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which robot does what.
+// Assigns errands to robots.
 #pragma once
 
 #include <cstddef>
@@ -13,20 +13,20 @@
 
 namespace lifelong {
 
-// The id of a robot, and what it is to do.
+// Pairs of a robot's id and its errand.
 using Given = std::vector<std::pair<std::string, Errand>>;
 
-// Greedily: the oldest errand first, each to the nearest robot that has none. An errand on a cell
-// that another robot is on its way to waits: a robot rests on its last errand, as far as its plan
-// knows.
+// Greedy assignment: the oldest errand first, each to the nearest robot without a task. An errand
+// on a cell that is another robot's current task waits, because a robot rests at its last task
+// until it gets a new one.
 class Assignment {
  public:
   explicit Assignment(grove::World world) : world_(std::move(world)) {}
 
   void add(const Errand& errand) { open_.push_back(errand); }
 
-  // For the robots of `now`, of which each has one task or none. What is given is not open any
-  // more.
+  // Assigns errands to the idle robots of `now`. Each robot of `now` has at most one task. Assigned
+  // errands are removed from the open ones.
   Given give(const grove::Instance& now);
 
  private:

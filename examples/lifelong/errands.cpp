@@ -16,7 +16,8 @@ std::vector<grove::Cell> passable_cells(const grove::World& world) {
   return cells;
 }
 
-// Below `bound`. (What the distributions of the standard library draw differs between libraries.)
+// Returns a number below `bound`. (The distributions of the standard library differ between
+// implementations.)
 std::size_t draw(std::mt19937_64& random, std::size_t bound) {
   return static_cast<std::size_t>(random() % bound);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What robots are asked to do, as time goes on.
+// Random errands that arrive over time.
 #pragma once
 
 #include <cstdint>
@@ -8,18 +8,18 @@
 
 namespace lifelong {
 
-// A robot has to be on the cell once, at step `arrives` or later.
+// A robot must visit the cell once, at step `arrives` or later.
 struct Errand {
   int id = 0;
   int arrives = 0;
   grove::Cell cell = {};
 };
 
-// `count` errands on passable cells, spread evenly at random over `steps`, in order of time; the
-// same seed makes the same ones.
+// Returns `count` errands on passable cells, at uniformly random times below `steps`, in order of
+// time. The same seed gives the same errands.
 std::vector<Errand> random_errands(const grove::World& world, int count, int steps,
                                    std::uint64_t seed);
-// Distinct passable cells for robots to start on; fewer than `robots` if there are no more.
+// Returns distinct passable cells as starts; fewer than `robots` if there are not enough cells.
 std::vector<grove::Cell> random_starts(const grove::World& world, int robots, std::uint64_t seed);
 
 }  // namespace lifelong

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove-lifelong: a loop over a Session. Errands arrive all the time; at each decision free robots
-// are given the oldest ones, and the plan is changed for what is new.
+// grove-lifelong: a control loop around a Session. Errands arrive continuously. At each decision
+// the oldest ones are assigned to free robots, and the robots are re-planned.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -29,7 +29,7 @@ constexpr double kPatientSeconds = 60;
 constexpr const char* kUsage =
     R"(usage: grove-lifelong MAP [--OPTION NUMBER]...
 
-Robots that are given errands as they arrive, on a Moving AI map.
+Assigns errands to robots as they arrive, on a Moving AI map.
 
   --robots N      robots (default: 200)
   --tasks N       errands that arrive (default: 1000)
@@ -37,14 +37,14 @@ Robots that are given errands as they arrive, on a Moving AI map.
   --every N       steps between decisions (default: 1)
   --think S       seconds for each decision (default: 0.1)
   --turn-steps N  steps of a quarter turn; 0: robots turn freely (default: 0)
-  --seed N        of what is drawn at random (default: 0)
+  --seed N        seed of errands and starts (default: 0)
 )";
 
 struct BadUsage : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-struct Asked {
+struct Arguments {
   std::string map;
   int robots = 200;
   int tasks = 1000;
@@ -70,16 +70,16 @@ int integer(const std::string& option, const std::string& text, int least) {
   return static_cast<int>(value);
 }
 
-Asked asked_by(const std::vector<std::string>& words) {
-  Asked asked;
+Arguments parse_arguments(const std::vector<std::string>& words) {
+  Arguments arguments;
   const std::map<std::string, std::pair<int*, int>> integers{
-      {"--robots", {&asked.robots, 1}}, {"--tasks", {&asked.tasks, 1}},
-      {"--steps", {&asked.steps, 1}},   {"--every", {&asked.every, 1}},
-      {"--seed", {&asked.seed, 0}},     {"--turn-steps", {&asked.turn_steps, 0}}};
+      {"--robots", {&arguments.robots, 1}}, {"--tasks", {&arguments.tasks, 1}},
+      {"--steps", {&arguments.steps, 1}},   {"--every", {&arguments.every, 1}},
+      {"--seed", {&arguments.seed, 0}},     {"--turn-steps", {&arguments.turn_steps, 0}}};
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (!words[i].starts_with("--")) {
-      if (!asked.map.empty()) throw BadUsage("found two maps; expected one");
-      asked.map = words[i];
+      if (!arguments.map.empty()) throw BadUsage("found two maps; expected one");
+      arguments.map = words[i];
       continue;
     }
     const std::string& option = words[i];
@@ -87,32 +87,33 @@ Asked asked_by(const std::vector<std::string>& words) {
     if (found == integers.end() && option != "--think") throw BadUsage(option + ": no such option");
     if (++i == words.size()) throw BadUsage(option + ": expected a number after it");
     if (found == integers.end())
-      asked.think_s = number(option, words[i], 0, 1e6);
+      arguments.think_s = number(option, words[i], 0, 1e6);
     else
       *found->second.first = integer(option, words[i], found->second.second);
   }
-  if (asked.map.empty()) throw BadUsage("expected a MAP");
-  return asked;
+  if (arguments.map.empty()) throw BadUsage("expected a MAP");
+  return arguments;
 }
 
 struct Report {
   int done = 0;
   int done_by_the_end_of_arrivals = 0;
-  long waited = 0;  // from arrival to visit, summed
+  long waited = 0;  // sum of the steps from arrival to visit
   int last = 0;
   int decisions = 0;
   int without_plan = 0;
   std::vector<double> seconds;  // of each decision
 };
 
-// All robots on their starts, with nothing to do.
-grove::Instance standing(const grove::World& world, const Asked& asked) {
+// All robots at their starts, without tasks.
+grove::Instance idle_instance(const grove::World& world, const Arguments& arguments) {
   std::vector<grove::Agent> robots;
   for (const grove::Cell cell :
-       random_starts(world, asked.robots, static_cast<std::uint64_t>(asked.seed))) {
-    grove::Agent robot{
-        .id = "r" + std::to_string(robots.size()), .start = {cell}, .turn_steps = asked.turn_steps};
-    if (asked.turn_steps > 0) robot.start.heading = grove::Heading::north;
+       random_starts(world, arguments.robots, static_cast<std::uint64_t>(arguments.seed))) {
+    grove::Agent robot{.id = "r" + std::to_string(robots.size()),
+                       .start = {cell},
+                       .turn_steps = arguments.turn_steps};
+    if (arguments.turn_steps > 0) robot.start.heading = grove::Heading::north;
     robots.push_back(std::move(robot));
   }
   return {world, std::move(robots), {}};
@@ -124,20 +125,20 @@ double seconds_since(Clock::time_point start) {
 
 class Loop {
  public:
-  Loop(const grove::World& world, const Asked& asked)
-      : asked_(asked),
-        errands_(random_errands(world, asked.tasks, asked.steps,
-                                static_cast<std::uint64_t>(asked.seed))),
+  Loop(const grove::World& world, const Arguments& arguments)
+      : arguments_(arguments),
+        errands_(random_errands(world, arguments.tasks, arguments.steps,
+                                static_cast<std::uint64_t>(arguments.seed))),
         assignment_(world),
-        session_(standing(world, asked)) {
-    session_.replan();  // all stand still
+        session_(idle_instance(world, arguments)) {
+    session_.replan();  // no robot moves
   }
 
   Report run() {
-    for (now_ = 0; report_.done < asked_.tasks && now_ < 50 * asked_.steps; ++now_) {
+    for (now_ = 0; report_.done < arguments_.tasks && now_ < 50 * arguments_.steps; ++now_) {
       for (; next_ < errands_.size() && errands_[next_].arrives <= now_; ++next_)
         assignment_.add(errands_[next_]);
-      if (now_ % asked_.every == 0) decide();
+      if (now_ % arguments_.every == 0) decide();
       step();
     }
     return report_;
@@ -146,22 +147,22 @@ class Loop {
  private:
   void decide() {
     Given given = assignment_.give(session_.instance());
-    give_back(given, at_once_);
+    return_excess(given, at_once_);
     if (given.empty()) return;
     const auto start = Clock::now();
-    take_on(given);
-    const double left = std::max(0.0, asked_.think_s - seconds_since(start));
+    add_tasks(given);
+    const double left = std::max(0.0, arguments_.think_s - seconds_since(start));
     const bool is_planned = session_.replan({.omega = kOmega, .time_limit = left}).plan.has_value();
-    if (!is_planned) do_without(given);
-    // As many new errands at a time as are planned in time.
+    if (!is_planned) drop_tasks(given);
+    // Adapts the number of new errands per decision to what is planned within the time.
     at_once_ =
         is_planned ? at_once_ + at_once_ / 4 + 1 : std::max<std::size_t>(1, given.size() / 2);
-    at_once_ = std::min<std::size_t>(at_once_, static_cast<std::size_t>(asked_.robots));
+    at_once_ = std::min<std::size_t>(at_once_, static_cast<std::size_t>(arguments_.robots));
     ++report_.decisions;
     report_.seconds.push_back(seconds_since(start));
   }
 
-  void take_on(const Given& given) {
+  void add_tasks(const Given& given) {
     grove::Change change;
     for (const auto& [robot, errand] : given) {
       const std::string id = std::to_string(errand.id);
@@ -171,14 +172,14 @@ class Loop {
     session_.change(change);
   }
 
-  // All but the first `kept`, for another time.
-  void give_back(Given& given, std::size_t kept) {
+  // Returns all but the first `kept` errands to the open ones.
+  void return_excess(Given& given, std::size_t kept) {
     for (std::size_t i = kept; i < given.size(); ++i) assignment_.add(given[i].second);
     given.resize(std::min(kept, given.size()));
   }
 
-  // No plan was found in time: the robots go on without the new errands.
-  void do_without(const Given& given) {
+  // If no plan was found in time, the robots continue without the new errands.
+  void drop_tasks(const Given& given) {
     ++report_.without_plan;
     grove::Change change;
     for (const auto& [robot, errand] : given) {
@@ -190,10 +191,10 @@ class Loop {
     const grove::Options any{.omega = std::numeric_limits<double>::infinity(),
                              .time_limit = kPatientSeconds};
     if (!session_.replan(any).plan)
-      throw std::runtime_error("no plan in a minute, though there was one before");
+      throw std::runtime_error("no plan within a minute, although there was one before");
   }
 
-  // One step of all robots. A task that has been visited is no part of the instance any more.
+  // Advances all robots by one step. A visited task is no longer part of the instance.
   void step() {
     session_.advance(1);
     const grove::Instance left = session_.instance();
@@ -202,25 +203,25 @@ class Loop {
     std::erase_if(arrived_, [&](const auto& errand) {
       if (open.contains(errand.first)) return false;
       ++report_.done;
-      report_.done_by_the_end_of_arrivals += now_ + 1 <= asked_.steps ? 1 : 0;
+      report_.done_by_the_end_of_arrivals += now_ + 1 <= arguments_.steps ? 1 : 0;
       report_.waited += now_ + 1 - errand.second;
       report_.last = now_ + 1;
       return true;
     });
   }
 
-  const Asked asked_;
+  const Arguments arguments_;
   const std::vector<Errand> errands_;
   std::size_t next_ = 0;
   Assignment assignment_;
-  std::size_t at_once_ = 1'000'000;  // errands given in one decision, at most
+  std::size_t at_once_ = 1'000'000;  // max errands per decision
   grove::Session session_;
   int now_ = 0;
-  std::map<std::string, int> arrived_;  // when, of the tasks that robots have
+  std::map<std::string, int> arrived_;  // arrival times of the tasks that robots have
   Report report_;
 };
 
-void print(const Asked& asked, Report report) {
+void print(const Arguments& arguments, Report report) {
   std::ranges::sort(report.seconds);
   const auto at = [&](double part) {
     if (report.seconds.empty()) return 0.0;
@@ -228,7 +229,7 @@ void print(const Asked& asked, Report report) {
     return 1000 * report.seconds[static_cast<std::size_t>(part * last)];
   };
   std::printf("%d of %d errands done, %d of them within %d steps, the last at %d\n", report.done,
-              asked.tasks, report.done_by_the_end_of_arrivals, asked.steps, report.last);
+              arguments.tasks, report.done_by_the_end_of_arrivals, arguments.steps, report.last);
   std::printf("from arrival to visit: %.1f steps on average\n",
               static_cast<double>(report.waited) / std::max(1, report.done));
   std::printf("%d decisions, %d without a plan in time; median %.1f ms, 95 %% %.1f, worst %.1f\n",
@@ -246,8 +247,8 @@ int run(const std::vector<std::string>& words) try {
     std::fputs(kUsage, stdout);
     return 0;
   }
-  const Asked asked = asked_by(words);
-  print(asked, Loop(read_grid(asked.map), asked).run());
+  const Arguments arguments = parse_arguments(words);
+  print(arguments, Loop(read_grid(arguments.map), arguments).run());
   return 0;
 } catch (const BadUsage& error) {
   std::fprintf(stderr, "grove-lifelong: error: %s (see 'grove-lifelong --help')\n", error.what());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What the library throws: these, and std::bad_alloc.
+/// Exceptions of the library. It also throws std::bad_alloc.
 #pragma once
 
 #include <stdexcept>
@@ -10,35 +10,35 @@
 
 namespace grove {
 
-/// Everything below; by itself: a part of the search turned out to be broken. what() is one line,
-/// fit for a person.
+/// Base class of the exceptions below. Thrown itself, it reports an internal error of the search.
+/// what() is one line of text for people.
 class GROVE_API Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;   ///< Of its text.
-  Error(const Error&) = default;             ///< A copy.
-  Error& operator=(const Error&) = default;  ///< Makes it a copy.
+  using std::runtime_error::runtime_error;   ///< From the text of what().
+  Error(const Error&) = default;             ///< Copy constructor.
+  Error& operator=(const Error&) = default;  ///< Copy assignment.
   ~Error() override;
 };
 
-/// A file, or the text of one, that cannot be used: what() is "FILE: PLACE: what is wrong and what
-/// was expected".
+/// A file, or the text of a file, is invalid or cannot be read or written. what() is "FILE: PLACE:
+/// what is wrong; expected WHAT".
 class GROVE_API InputError : public Error {
  public:
-  using Error::Error;                                  ///< Of its text.
-  InputError(const InputError&) = default;             ///< A copy.
-  InputError& operator=(const InputError&) = default;  ///< Makes it a copy.
+  using Error::Error;                                  ///< From the text of what().
+  InputError(const InputError&) = default;             ///< Copy constructor.
+  InputError& operator=(const InputError&) = default;  ///< Copy assignment.
   ~InputError() override;
 };
 
-/// A world, instance, plan or option that is against a rule.
+/// An argument (world, instance, plan, change or option) is invalid.
 class GROVE_API InvalidArgument : public Error {
  public:
-  /// what() is both: "/omega: expected a number from 0".
+  /// what() is "FIELD: MESSAGE", for example "/omega: expected a number from 0".
   InvalidArgument(std::string field, const std::string& message);
-  InvalidArgument(const InvalidArgument&) = default;             ///< A copy.
-  InvalidArgument& operator=(const InvalidArgument&) = default;  ///< Makes it a copy.
+  InvalidArgument(const InvalidArgument&) = default;             ///< Copy constructor.
+  InvalidArgument& operator=(const InvalidArgument&) = default;  ///< Copy assignment.
   ~InvalidArgument() override;
-  /// What is wrong, as a JSON path: "/agents/2/goal", "/omega"; empty where it is the whole.
+  /// JSON Pointer to the invalid value: "/agents/2/goal", "/omega"; empty: the whole argument.
   const std::string& field() const noexcept { return field_; }
 
  private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What the shared library shows.
+/// Symbol visibility of the shared library.
 #pragma once
 
-/// Marks what users of the library may call.
+/// Marks a symbol of the public API.
 #if defined(_WIN32) || defined(__CYGWIN__)
 #define GROVE_API
 #else

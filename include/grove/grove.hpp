@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Grove's front door: everything that users of the library need, and all that is kept stable.
+/// The public API of Grove: this header includes all of it. Only this API is kept stable.
 ///
 ///     #include <grove/grove.hpp>
 ///
@@ -14,10 +14,13 @@
 ///           .duration = 3}});
 ///     const grove::Solution solution = grove::solve(instance, {.omega = 0.1, .time_limit = 10});
 ///
-/// Units: cells or metres for places, steps for time, seconds for clocks, bytes for memory. Values
-/// are copied; World, Instance and what they share live as long as somebody holds them. Functions
-/// may be called from any thread, several at a time; of objects that are not immutable, one thread
-/// at a time uses each. Nothing here prints, exits or asks; what is thrown is in error.hpp.
+/// Units: cells or metres for places, time steps for plans, seconds for clocks, bytes for memory.
+/// Ownership: values are copied. Copies of a World or an Instance share their data, which lives as
+/// long as the last copy.
+/// Threads: functions are thread-safe. An object that is not immutable may be used by one thread at
+/// a time.
+/// Errors: functions throw the exceptions of error.hpp. No function prints, ends the process or
+/// asks for input.
 #pragma once
 
 #include "grove/error.hpp"
@@ -28,5 +31,5 @@
 #include "grove/version.hpp"
 #include "grove/world.hpp"
 
-/// Grove's library. Names in grove::detail are not for users.
+/// The library. Names in grove::detail are internal.
 namespace grove {}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A CTS-MAPF instance: robots, the places each has to visit in an order that the solver chooses,
-/// and where they rest.
+/// CTS-MAPF instances: robots, the tasks that each of them must visit in an order that the solver
+/// chooses, and destinations.
 #pragma once
 
 #include <cstddef>
@@ -18,51 +18,51 @@
 
 namespace grove {
 
-/// What a robot has begun to work on before it starts.
+/// A task that a robot is executing at time 0.
 struct WorkBegun {
-  std::string task = {};  ///< Its id: a task of the robot where it starts.
-  int done = 0;           ///< So many steps of it are done: from 0 to its duration - 1.
+  std::string task = {};  ///< Id of a task of this robot, at the place where the robot starts.
+  int done = 0;           ///< Steps that are done, from 0 to the duration of the task - 1.
 };
 
 /// A robot.
 struct Agent {
-  std::string id = {};  ///< Not empty; no other agent has it.
-  Pose start = {};      ///< Where it is at time 0; no other agent starts at this place.
-  /// Where it ends, and no other agent. None: on its last task; without tasks wherever it wants, so
-  /// it gives way.
+  std::string id = {};  ///< Unique among agents; not empty.
+  Pose start = {};      ///< Pose at time 0. No two agents start at the same place.
+  /// Destination; no two agents have the same. std::nullopt: the agent ends on the task that it
+  /// visits last; without tasks it may end anywhere, so it can make way for others.
   std::optional<Place> goal = std::nullopt;
-  /// Steps of a quarter turn of a robot that moves only where it looks; 0: it moves freely. On
-  /// grids.
+  /// Time steps of a quarter turn, for a robot that moves only in the direction of its heading; 0:
+  /// it moves in any direction. Above 0 only on grids.
   int turn_steps = 0;
-  std::optional<Heading> goal_heading = std::nullopt;  ///< In which it has to rest; none: any.
-  std::optional<WorkBegun> working = std::nullopt;     ///< It starts at work.
+  std::optional<Heading> goal_heading = std::nullopt;  ///< Heading at rest; std::nullopt: any.
+  std::optional<WorkBegun> working = std::nullopt;     ///< Task in execution at time 0.
 };
 
-/// A place that each of some robots has to visit.
+/// A place that each of the given robots must visit.
 struct Task {
-  std::string id = {};                   ///< Not empty; no other task has it.
-  Place place = {};                      ///< A cell or a vertex; tasks may share one.
-  std::vector<std::string> agents = {};  ///< Ids: each of them has to visit it. One at least.
-  int duration = 0;                      ///< Steps of work there; 0: it is visited in passing.
+  std::string id = {};                   ///< Unique among tasks; not empty.
+  Place place = {};                      ///< A cell or a vertex. Tasks may share a place.
+  std::vector<std::string> agents = {};  ///< Ids of the agents that must visit it; at least one.
+  int duration = 0;                      ///< Time steps of execution; 0: a visit is enough.
 };
 
-/// What holds for all robots.
+/// Rules for all robots.
 struct Rules {
-  /// May a robot enter a place in the step in which another leaves it?
+  /// Whether a robot may enter a place in the time step in which another robot leaves it.
   bool following = true;
 };
 
-/// A valid instance; immutable, cheap to copy, for any number of threads. Copies share what it
-/// holds.
+/// A valid instance. Immutable: any thread may use it. Copies are cheap, because they share the
+/// data.
 class GROVE_API Instance {
  public:
-  /// Throws InvalidArgument: field() is "/agents/<i>/..." or "/tasks/<i>/...".
+  /// Throws InvalidArgument with field() "/agents/<i>/..." or "/tasks/<i>/...".
   Instance(World world, std::vector<Agent> agents, std::vector<Task> tasks, Rules rules = {});
 
-  World world() const;                       ///< What they move on.
-  const std::vector<Agent>& agents() const;  ///< As they were given; lives as long as this.
-  const std::vector<Task>& tasks() const;    ///< As they were given; lives as long as this.
-  Rules rules() const;                       ///< As they were given.
+  World world() const;                       ///< Grid or roadmap.
+  const std::vector<Agent>& agents() const;  ///< In the order given; valid as long as this object.
+  const std::vector<Task>& tasks() const;    ///< In the order given; valid as long as this object.
+  Rules rules() const;                       ///< Rules for all robots.
 
  private:
   friend struct Access;
@@ -71,40 +71,41 @@ class GROVE_API Instance {
   std::shared_ptr<const Data> data_;
 };
 
-/// What an untrusted file may name, and how much memory it may take; see read_instance().
+/// Restrictions for untrusted files; see read_instance().
 struct Trust {
-  /// Refuses a file that names a map or roadmap outside of its own folder: by an absolute name, by
+  /// Refuses a file that names a map or roadmap outside its own directory, by an absolute path, by
   /// `..` or by a symbolic link.
   bool confine = false;
-  /// Bytes that the map and the states of the robots on it may take; more is refused before it is
-  /// taken. None: as much as there is.
+  /// Limit in bytes on the map and the states of the robots on it. A file that needs more is
+  /// refused before the memory is allocated. std::nullopt: no limit.
   std::optional<std::size_t> memory_limit = std::nullopt;
 };
 
-/// Reads a `*.cts.json` file and the map or roadmap that it names. Appends remarks, a line each, to
-/// `warnings`, if there is one. Throws InputError.
+/// Reads a `*.cts.json` file and the map or roadmap that it names. Appends warnings, one line each,
+/// to `warnings` unless it is nullptr. Throws InputError.
 GROVE_API Instance read_instance(const std::filesystem::path& path,
                                  std::vector<std::string>* warnings = nullptr);
-/// The same within bounds, for untrusted files.
+/// The same with restrictions, for untrusted files.
 GROVE_API Instance read_instance(const std::filesystem::path& path, const Trust& trust,
                                  std::vector<std::string>* warnings = nullptr);
-/// The same of the text of such a file; the map is relative to `folder`.
+/// The same for the text of such a file. The path of the map is relative to `folder`.
 GROVE_API Instance parse_instance(std::string_view text, const std::filesystem::path& folder = ".",
                                   std::vector<std::string>* warnings = nullptr);
-/// The same within bounds, for untrusted texts.
+/// The same with restrictions, for untrusted texts.
 GROVE_API Instance parse_instance(std::string_view text, const std::filesystem::path& folder,
                                   const Trust& trust, std::vector<std::string>* warnings = nullptr);
-/// What such a file says of agents and tasks, `{"agents": [...], "tasks": [...]}`, in this world.
-/// Throws InputError.
+/// Reads the agents and tasks of such a file, `{"agents": [...], "tasks": [...]}`, for the given
+/// world. Throws InputError.
 GROVE_API Instance parse_instance(std::string_view text, const World& world, Rules rules = {});
-/// Its agents and tasks as parse_instance() reads them in its world.
+/// Returns the agents and tasks as the text that parse_instance() reads with the same world.
 GROVE_API std::string instance_text(const Instance& instance);
-/// Classical MAPF: the first `agents` rows of a Moving AI scenario, as agents a0, a1, ... Throws
-/// InputError.
+/// Returns the classical MAPF instance of the first `agents` rows of a Moving AI scenario, as
+/// agents a0, a1, ... Throws InputError.
 GROVE_API Instance read_scenario(const std::filesystem::path& scenario,
                                  const std::filesystem::path& map, int agents);
-/// Writes `*.cts.json` and, beside it, its map or roadmap (`STEM.map`, `STEM.roadmap.json`), each
-/// whole or not at all. Rules are not written: they are no part of files. Throws InputError.
+/// Writes a `*.cts.json` file and, in the same directory, its map or roadmap (`STEM.map`,
+/// `STEM.roadmap.json`). Each file is written completely or not at all. Rules are not written,
+/// because they are not part of instance files. Throws InputError.
 GROVE_API void write_instance(const std::filesystem::path& path, const Instance& instance);
 
 }  // namespace grove

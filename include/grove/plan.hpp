@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What a solve ends with: a status, perhaps a plan, always a bound; and whether that is true.
+/// Plans, solutions (status, plan, lower bound), and the checker.
 #pragma once
 
 #include <cstdint>
@@ -16,35 +16,35 @@
 
 namespace grove {
 
-/// A robot at work on a task.
+/// Execution of a task by a robot.
 struct Work {
-  std::string task = {};  ///< Its id.
-  int begin = 0;          ///< The step at which it begins; below 0 if the robot starts at work.
-  int end = 0;            ///< The step at which it is done.
+  std::string task = {};  ///< Id of the task.
+  int begin = 0;          ///< Time at which it begins; negative if it began before time 0.
+  int end = 0;            ///< Time at which it is complete.
 };
 
-/// What one robot does.
+/// Plan of one robot.
 struct AgentPlan {
-  std::string id = {};                  ///< The agent's.
-  int cost = 0;                         ///< The step from which on it rests, with everything done.
-  std::vector<Pose> path = {};          ///< At times 0, 1, ..., cost; it stays in the last one.
-  std::vector<std::string> tasks = {};  ///< Ids, in the order in which they are completed.
-  std::vector<Work> work = {};          ///< On tasks with a duration.
+  std::string id = {};                  ///< Id of the agent.
+  int cost = 0;                         ///< Finish time: it rests from then on, all tasks done.
+  std::vector<Pose> path = {};          ///< Poses at times 0, ..., cost; it stays in the last one.
+  std::vector<std::string> tasks = {};  ///< Ids of its tasks in order of completion.
+  std::vector<Work> work = {};          ///< Execution of its tasks with a duration.
 };
 
-/// What all robots do.
+/// Plan of all robots.
 struct Plan {
-  std::int64_t cost = 0;               ///< The sum of the robots', in steps.
-  std::vector<AgentPlan> agents = {};  ///< In the instance's order.
+  std::int64_t cost = 0;               ///< Sum of the robots' costs, in time steps.
+  std::vector<AgentPlan> agents = {};  ///< In the order of the instance.
 
-  /// Where robot `agent`, counted from 0, is at `time` >= 0; it rests where its path, which must
-  /// not be empty, ends. Throws std::out_of_range for a robot that there is not.
+  /// Returns the pose of robot number `agent`, from 0, at `time` >= 0. After the end of its path,
+  /// which must not be empty, it rests there. Throws std::out_of_range if there is no such robot.
   const Pose& pose(std::size_t agent, int time) const {
     const std::vector<Pose>& path = agents.at(agent).path;
     const auto t = static_cast<std::size_t>(time);
     return t < path.size() ? path[t] : path.back();
   }
-  /// The step from which on everybody rests.
+  /// Time from which all robots rest.
   int makespan() const {
     int most = 0;
     for (const AgentPlan& agent : agents) most = agent.cost > most ? agent.cost : most;
@@ -52,70 +52,73 @@ struct Plan {
   }
 };
 
-/// What a solve has proven.
+/// What a run has proven.
 enum class Status : std::uint8_t {
-  optimal,     ///< A plan, and none costs less.
-  bounded,     ///< A plan that costs at most 1 + omega times the lower bound.
-  feasible,    ///< A plan that may cost more than that.
-  infeasible,  ///< Proven: there is no plan.
-  unknown,     ///< No plan when a limit struck.
+  optimal,     ///< The plan has minimum cost.
+  bounded,     ///< The plan costs at most 1 + omega times the lower bound.
+  feasible,    ///< The plan is valid; it may cost more than that.
+  infeasible,  ///< There is no plan.
+  unknown,     ///< A limit was reached before there was a plan.
 };
 
-/// "optimal", "bounded" and so on, as plan files have it.
+/// Returns "optimal", "bounded", ...: the text of plan files.
 GROVE_API std::string_view to_string(Status status);
 
-/// What a solve ends with.
+/// Result of a run.
 struct Solution {
-  Status status = Status::unknown;  ///< What is proven.
-  std::optional<Plan> plan = {};    ///< With optimal, bounded and feasible.
-  /// Proven: no plan costs less, whatever limit struck; meaningless where infeasible.
+  Status status = Status::unknown;  ///< What the run has proven.
+  std::optional<Plan> plan = {};    ///< If the status is optimal, bounded or feasible.
+  /// Proven: no plan costs less. Also valid after a limit was reached. Meaningless if infeasible.
   std::int64_t lower_bound = 0;
-  double omega = 0;  ///< That was asked for.
-  /// What the search did, by the names of the plan file's `stats`: "nodes_expanded".
+  double omega = 0;  ///< The requested tolerance.
+  /// Counters of the search, with the names of `stats` in plan files: "nodes_expanded".
   std::map<std::string, std::int64_t> counts = {};
-  std::map<std::string, double> measures = {};  ///< Likewise, real numbers: "wall_s".
-  /// Likewise, words: "stopped_by", the limit that struck; "reason", why there is no plan.
+  std::map<std::string, double> measures = {};  ///< The same, real numbers: "wall_s".
+  /// The same, texts: "stopped_by", the limit that ended the run; "reason", why there is no plan.
   std::map<std::string, std::string> texts = {};
-  /// False: everything claimed holds of plans in which no agent enters a place in the step in which
-  /// another leaves it (Rules::following).
+  /// False: plan and bound are for the rule that no agent enters a place in the time step in which
+  /// another agent leaves it (Rules::following).
   bool following = true;
 
-  /// (cost - lower bound) / lower bound: how much dearer than the best the plan is at most. None
-  /// without a plan, or with a bound of 0 below a plan that costs something.
+  /// Returns (cost - lower bound) / lower bound: the plan costs at most this part more than an
+  /// optimal plan. std::nullopt without a plan, or if the bound is 0 and the cost is not.
   GROVE_API std::optional<double> gap() const;
 };
 
-/// One thing that is wrong with a plan.
+/// An error in a plan.
 struct Violation {
-  std::string place = {};    ///< A JSON path of the plan file: "/agents/0/path/7".
-  std::string message = {};  ///< One line, fit for a person.
+  /// JSON Pointer (RFC 6901) into the plan file: "/agents/0/path/7".
+  std::string json_pointer = {};
+  std::string message = {};  ///< One line of text for people.
+  std::string place = {};    ///< \deprecated Equal to json_pointer; removed in 0.2.
 };
 
-/// Everything that is wrong with a plan, at most `limit`: worked out by a checker that shares
-/// nothing with the search. Empty: it is valid. Throws InvalidArgument for places and ids that do
-/// not exist.
+/// Returns the errors of a plan, at most `limit`; empty: the plan is valid. The checker recomputes
+/// everything from instance and plan; it shares with the search only the representation of worlds
+/// and poses. Throws InvalidArgument for places and ids that do not exist.
 GROVE_API std::vector<Violation> check(const Instance& instance, const Plan& plan,
                                        std::size_t limit = 20);
-/// With what is claimed of it: cost, bound and status.
+/// The same, with the claims of the solution: cost, bound and status.
 GROVE_API std::vector<Violation> check(const Instance& instance, const Solution& solution,
                                        std::size_t limit = 20);
 
-/// The plan in which robots walk these paths, in the instance's order: where each is at times 0, 1,
-/// ... Costs, and in which order tasks are done, are worked out; whether it is valid is not. Throws
-/// InvalidArgument for places that do not exist, and where robots turn or tasks take time, for
-/// there places do not say what a robot does.
+/// Returns the plan with the given paths, in the order of the instance: the places of each robot at
+/// times 0, 1, ... Computes costs and orders of tasks; does not check the plan. Throws
+/// InvalidArgument for places that do not exist, and for instances with turning robots or task
+/// durations, because there the places do not determine the actions.
 GROVE_API Plan plan_from_paths(const Instance& instance,
                                const std::vector<std::vector<Place>>& paths);
 
-/// Reads a plan file, of this instance; believes what it says: check() does not. Throws InputError.
+/// Reads a plan file of this instance. The claims of the file are not verified; use check(). Throws
+/// InputError.
 GROVE_API Solution read_plan(const std::filesystem::path& path, const Instance& instance);
-/// The same of the text of such a file.
+/// The same for the text of such a file.
 GROVE_API Solution parse_plan(std::string_view text, const Instance& instance);
-/// Writes a plan file, whole or not at all. Throws InputError if it cannot be written, and
-/// InvalidArgument for a plan that check() refuses.
+/// Writes a plan file, completely or not at all. Throws InputError if it cannot be written, and
+/// InvalidArgument if check() finds an error.
 GROVE_API void write_plan(const std::filesystem::path& path, const Instance& instance,
                           const Solution& solution);
-/// The text that write_plan() writes. Throws InvalidArgument for a plan that check() refuses.
+/// Returns the text that write_plan() writes. Throws InvalidArgument if check() finds an error.
 GROVE_API std::string plan_text(const Instance& instance, const Solution& solution);
 
 }  // namespace grove

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// An instance and its plan while time goes on and minds change.
+/// Re-planning: an instance and its plan during execution.
 #pragma once
 
 #include <memory>
@@ -13,63 +13,72 @@
 
 namespace grove {
 
-/// A robot that is where the plan had it some steps ago.
-struct Late {
-  std::string agent = {};  ///< Its id.
-  int steps = 0;           ///< So many steps ago, at least 0.
+/// Delay of a robot: it is where the plan had it `steps` time steps earlier.
+struct Delay {
+  std::string agent = {};  ///< Id of the robot.
+  int steps = 0;           ///< Time steps, >= 0.
 };
 
-/// What else is to be done, or no more, and what is closed.
+/// \deprecated Old name of Delay; removed in 0.2.
+using Late [[deprecated("use grove::Delay")]] = Delay;
+
+/// Changes of an instance.
 struct Change {
-  std::vector<Task> new_tasks = {};             ///< Of robots that there are.
-  std::vector<std::string> dropped_tasks = {};  ///< Ids of tasks that nobody has to visit now.
-  std::vector<Place> blocked = {};              ///< Cells, or vertices with all their roads.
+  std::vector<Task> new_tasks = {};             ///< For existing robots.
+  std::vector<std::string> dropped_tasks = {};  ///< Ids of tasks that no robot has to visit.
+  std::vector<Place> blocked = {};  ///< Cells to block, or vertices with all their roads.
 };
 
-/// Keeps the world, the distances in it and the plan from one solve to the next, which then takes
-/// milliseconds. One thread at a time may use it. It owns all it holds; a session that was moved
-/// from may be assigned to or destroyed, and nothing else.
+/// Keeps the world, its distances and the plan from one run to the next, so that re-planning takes
+/// milliseconds. One thread at a time. Owns its data. A session that was moved from may only be
+/// assigned to or destroyed.
 class GROVE_API Session {
  public:
-  /// Without a plan yet.
+  /// Creates a session without a plan.
   explicit Session(Instance instance);
-  /// With a valid plan of it. Throws InvalidArgument, "/plan", for one that is not.
+  /// Creates a session with a plan of the instance. Throws InvalidArgument with field() "/plan" if
+  /// the plan is not valid.
   Session(Instance instance, const Plan& plan);
   ~Session();
-  Session(Session&&) noexcept;             ///< Moves it.
-  Session& operator=(Session&&) noexcept;  ///< Moves it.
+  Session(Session&&) noexcept;             ///< Move constructor.
+  Session& operator=(Session&&) noexcept;  ///< Move assignment.
 
-  /// As it is now, time from 0. A robot without a destination that has visited everything is idle.
-  /// One with tasks left whose plan ends on a visited task has that place as its destination until
-  /// the next replan().
+  /// Returns the instance from now on; the current time is 0. A robot without a destination that
+  /// has visited all its tasks is idle. A robot with tasks left whose plan ends on a visited task
+  /// has that place as its destination until the next replan().
   Instance instance() const;
-  /// A valid plan of it; none before the first replan(), after a change that concerns it, and where
-  /// none was found.
+  /// Returns a valid plan of instance(); std::nullopt before the first replan(), after a change
+  /// that makes the plan invalid, and if no plan was found.
   std::optional<Plan> plan() const;
 
-  /// `steps` steps pass, by the plan, which must be there; at their end these robots are late, and
-  /// others perhaps for their sake. Beyond the end of the plan all robots stand where it ends.
-  /// Throws InvalidArgument, and nothing has changed: field() is "/late" if a robot is said to be
-  /// later than `steps`, is named twice, or cannot be where it is said to be.
-  void advance(int steps, const std::vector<Late>& late = {});
+  /// Advances the session by `steps` time steps along its plan.
+  /// Afterwards each robot in `late` is Delay::steps behind the plan, and its delay propagates to
+  /// the robots that must wait for it. After the end of the plan all robots rest. Replaces
+  /// instance() and plan() by what remains of them, with time counted from 0. \param steps  Time
+  /// steps, >= 0. \param late   Delays at the end of these steps, at most one entry per robot.
+  /// \throws InvalidArgument and leaves the session unchanged. field() is "" without a plan,
+  /// "/steps"
+  ///         if steps < 0, "/late/<i>" for an unknown robot or a negative delay, "/late" for a
+  ///         delay above `steps`, a robot that is named twice, or a delay that is impossible.
+  void advance(int steps, const std::vector<Delay>& late = {});
 
-  /// From now on it is so; the next replan() heeds it. Throws InvalidArgument, and nothing has
-  /// changed, where it cannot be: a robot is on what is to be closed, or has to go there, or it is
-  /// a wall; an id is taken, or there is none such. field() is "/new_tasks/<i>/...",
-  /// "/dropped_tasks/<i>" or
-  /// "/blocked/<i>".
+  /// Changes the instance; the next replan() takes it into account. Throws InvalidArgument and
+  /// leaves the session unchanged if the change is impossible: a robot is on a place to block or
+  /// must go there, the place is blocked already, an id is taken or unknown. field() is
+  /// "/new_tasks/<i>/...",
+  /// "/dropped_tasks/<i>" or "/blocked/<i>".
   void change(const Change& change);
 
-  /// The defaults of replan(), which are those of `grove replan`: the ones of Options, but a time
-  /// limit of 1 second, for robots are driving meanwhile.
+  /// Returns the default options of replan() and `grove replan`: those of Options, with a time
+  /// limit of 1 second, because the robots drive during the run.
   static Options default_options();
 
-  /// Solves what is left, from the old plan repaired. All keep to the old plan, or what is left of
-  /// it, for `commit` steps, at least 0. (Options::start is not looked at.) A robot without a
-  /// destination may end on any of its tasks that are left. If no plan is found that way, or none
-  /// as good as the old plan, which ended on a visited task, that place stays its destination, and
-  /// Solution::texts, "ends_of_old_plan", names the robot. Throws as solve() does,
-  /// and InvalidArgument, "/commit", where a path is closed before the committed steps end.
+  /// Solves the remaining instance, starting from the repaired old plan. All robots follow the old
+  /// plan for `commit` >= 0 time steps. Options::start is ignored. A robot without a destination
+  /// may end on any of its remaining tasks. If this gives no plan, or none as good as the old plan,
+  /// which ended on a visited task, that place stays its destination, and Solution::texts,
+  /// "ends_of_old_plan", names the robot. Throws like solve(), and InvalidArgument with field()
+  /// "/commit" if a path is blocked before the committed steps end.
   Solution replan(const Options& options = default_options(), int commit = 0);
 
  private:

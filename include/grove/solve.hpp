@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Finds a plan, and proves how good it is.
+/// Solving: options, progress and solve().
 #pragma once
 
 #include <cstddef>
@@ -15,57 +15,59 @@
 
 namespace grove {
 
-/// Where a run stands.
+/// Progress of a run.
 struct Progress {
-  double seconds = 0;                     ///< Since it began.
-  std::int64_t nodes_expanded = 0;        ///< Of constraint trees.
-  std::int64_t nodes_open = 0;            ///< Nodes that wait.
-  std::int64_t lower_bound = 0;           ///< Proven so far.
-  std::optional<std::int64_t> cost = {};  ///< Of the best plan so far.
+  double seconds = 0;                     ///< Since the run began.
+  std::int64_t nodes_expanded = 0;        ///< Constraint-tree nodes expanded.
+  std::int64_t nodes_open = 0;            ///< Constraint-tree nodes still open.
+  std::int64_t lower_bound = 0;           ///< Proven so far: no plan costs less.
+  std::optional<std::int64_t> cost = {};  ///< Cost of the best plan so far.
 };
 
-/// Threads for all cores that this process may use, at most 1024: the default of Options::threads.
+/// Returns the number of cores that this process may use, at most 1024: the default of
+/// Options::threads.
 GROVE_API int default_threads();
-/// 80 % of the memory of the machine, or of what a container or batch system grants, in bytes: the
-/// default of Options::memory_limit.
+/// Returns 80 % of the memory of the machine, or of the limit that a container or batch system
+/// sets, in bytes: the default of Options::memory_limit.
 GROVE_API std::size_t default_memory_limit();
 
-/// How solve() goes about it. The defaults are those of `grove solve`: a plan within 1 % of
-/// optimal, or the best plan of 180 seconds, on all cores.
+/// Options of solve(). The defaults are those of `grove solve`: a plan within 1 % of optimal, or
+/// the best plan after 180 seconds, on all cores.
 struct Options {
-  /// How far from optimal a plan may be: its cost is to be at most 1 + omega times the lower bound.
-  /// 0: optimal; infinity: any plan. In steps of 1e-9.
+  /// Relative tolerance: the run ends when the plan costs at most 1 + omega times the lower bound.
+  /// 0: optimal; infinity: any plan. Rounded to multiples of 1e-9.
   double omega = 0.01;
-  /// Seconds, from 0. When it is over the best plan so far comes back, with the bound proven so
-  /// far. None: no limit.
+  /// Seconds, >= 0. At the limit solve() returns the best plan and the bound so far. std::nullopt:
+  /// no limit.
   std::optional<double> time_limit = 180;
-  /// Bytes that the process may hold. Near it the search forgets what can be found again, then
-  /// gives up its worst nodes, whose bound still counts; if that does not help it ends like the
-  /// time limit. None: no limit.
+  /// Bytes of the process. Near the limit the search frees what it can recompute, then evicts its
+  /// worst nodes and keeps their bound; if this is not enough, the run ends as at the time limit.
+  /// std::nullopt: no limit.
   std::optional<std::size_t> memory_limit = default_memory_limit();
-  /// Ends the run like a limit; from any thread.
+  /// A stop request ends the run like a limit; from any thread.
   std::stop_token stop = {};
-  int threads = default_threads();  ///< That search: from 1 to 1024.
-  /// The same plan for any number of threads, limits aside.
+  int threads = default_threads();  ///< Search threads, from 1 to 1024.
+  /// True: the same plan for any number of threads, unless a limit ends the run.
   bool deterministic = false;
-  std::uint64_t seed = 0;  ///< Of what is left to chance; any will do.
-  /// "auto", or one of the published methods to compare with (`grove solve --help` lists them).
+  std::uint64_t seed = 0;  ///< Seed of all random choices; any value.
+  /// "auto", or a published method for comparison (`grove solve --help` lists them).
   std::string method = "auto";
-  /// A valid plan to begin with.
+  /// A valid plan to start from.
   std::optional<Plan> start = std::nullopt;
-  /// Told of every better plan. Called from threads of the run, one call at a time, on_progress
-  /// included; the search of that thread waits meanwhile. What it throws ends the run and comes out
-  /// of solve().
+  /// Called with each better plan, by threads of the run, one call at a time (including calls of
+  /// on_progress). The calling thread does not search during the call. An exception of the function
+  /// ends the run, and solve() throws it.
   std::function<void(const Plan&, const Progress&)> on_incumbent = {};
-  /// Told where the run stands, about every `progress_interval` seconds and at the end; called as
-  /// on_incumbent is.
+  /// Called about every `progress_interval` seconds and at the end, in the same way as
+  /// on_incumbent.
   std::function<void(const Progress&)> on_progress = {};
-  double progress_interval = 0.1;  ///< Seconds, from 0.
+  double progress_interval = 0.1;  ///< Seconds, >= 0.
 };
 
-/// Finds a plan, and proves how good it is; returns when that is done or a limit strikes. Any
-/// number of solves may go on at once, on one instance, too. Throws InvalidArgument for options
-/// that do not go together or with the instance, what a function of the options throws, and Error.
+/// Finds a plan and proves a lower bound on the cost of every plan. Returns when the tolerance or a
+/// limit is reached. Throws InvalidArgument for options that are invalid, contradict each other or
+/// do not suit the instance; exceptions of the functions in the options; and Error. Thread-safe:
+/// several runs may use the same instance at the same time.
 GROVE_API Solution solve(const Instance& instance, const Options& options = {});
 
 }  // namespace grove

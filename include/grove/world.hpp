@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What robots move on: a grid of cells, or vertices and roads; and how places are named.
+/// Worlds (grids of cells, or roadmaps of vertices and roads), places and poses.
 #pragma once
 
 #include <cstdint>
@@ -16,91 +16,92 @@
 
 namespace grove {
 
-/// A cell of a grid; (0, 0) is the top left one.
+/// A cell of a grid; (0, 0) is at the top left.
 struct Cell {
   int x = 0;  ///< Column, from 0.
   int y = 0;  ///< Row, from 0; grows downwards.
-  /// The same cell?
+  /// True for the same cell.
   friend bool operator==(const Cell&, const Cell&) = default;
 };
 
 /// A vertex of a roadmap.
 struct Vertex {
-  std::string id = {};  ///< Its id.
-  /// The same vertex?
+  std::string id = {};  ///< Id of the vertex.
+  /// True for the same vertex.
   friend bool operator==(const Vertex&, const Vertex&) = default;
 };
 
-/// A place on the road that the roadmap gives from one vertex to another.
+/// A place on a road between two vertices.
 struct OnRoad {
-  std::string from = {};  ///< The id of the vertex that is counted from.
-  std::string to = {};    ///< The id of the other one.
-  int steps = 0;          ///< From `from`: 1 to the road's steps - 1.
-  /// Its position in the roadmap, from 0: needed where two roads join the same vertices.
+  std::string from = {};  ///< Id of the vertex from which the steps count.
+  std::string to = {};    ///< Id of the vertex at the other end.
+  int steps = 0;          ///< Time steps from `from`, from 1 to the length of the road - 1.
+  /// Index of the road in the roadmap, from 0; required if several roads join the two vertices.
   std::optional<int> edge = std::nullopt;
-  /// Named alike? (The same place may be named from either end.)
+  /// True for equal members. (The same place can be described from either end.)
   friend bool operator==(const OnRoad&, const OnRoad&) = default;
 };
 
-/// Where a robot or a task may be: a Cell on a grid; a Vertex or OnRoad on a roadmap.
+/// Place of a robot or a task: a Cell on a grid; a Vertex or an OnRoad on a roadmap.
 using Place = std::variant<Cell, Vertex, OnRoad>;
 
-/// As plan files have it: [3, 1], ["A"], ["A", "B", 2].
+/// Returns the text of plan files: [3, 1], ["A"], ["A", "B", 2].
 GROVE_API std::string to_string(const Place& place);
 
-/// Where a robot looks.
+/// Direction in which a turning robot faces.
 enum class Heading : std::uint8_t {
-  north,  ///< Up, where y is smaller.
-  east,   ///< To the right, where x is greater.
-  south,  ///< Down.
-  west,   ///< To the left.
+  north,  ///< Up: towards smaller y.
+  east,   ///< Right: towards greater x.
+  south,  ///< Down: towards greater y.
+  west,   ///< Left: towards smaller x.
 };
 
-/// Where a robot is, and where it looks if that matters.
+/// Place and, for robots that turn, heading of a robot.
 struct Pose {
-  Place place = {};                                  ///< Where it is.
-  std::optional<Heading> heading = std::nullopt;     ///< Of robots that turn; else none.
-  std::optional<Heading> turning_to = std::nullopt;  ///< Within a quarter turn: where to.
-  int turn_steps_done = 0;                           ///< So many steps of that are done.
-  /// The same place and heading?
+  Place place = {};                                  ///< Place.
+  std::optional<Heading> heading = std::nullopt;     ///< Only of robots that turn.
+  std::optional<Heading> turning_to = std::nullopt;  ///< During a quarter turn: the new heading.
+  int turn_steps_done = 0;  ///< Time steps of this quarter turn that are done.
+  /// True for the same place and heading.
   friend bool operator==(const Pose&, const Pose&) = default;
 };
 
-/// A vertex of a roadmap and where it lies.
+/// A vertex of a roadmap and its position.
 struct RoadmapVertex {
-  std::string id = {};  ///< Not empty; no other vertex has it.
-  double x = 0;         ///< Metres, to the right.
-  double y = 0;         ///< Metres, up.
+  std::string id = {};  ///< Unique among vertices; not empty.
+  double x = 0;         ///< Metres; grows to the right.
+  double y = 0;         ///< Metres; grows upwards.
 };
 
-/// A road.
+/// A road between two vertices.
 struct RoadmapEdge {
-  std::string from = {};  ///< The id of the vertex where it begins.
-  std::string to = {};    ///< The id of the one where it ends, another one.
-  int steps = 1;          ///< That it takes to drive, at least 1.
-  bool one_way = false;   ///< From `from` to `to` alone?
+  std::string from = {};  ///< Id of the first vertex.
+  std::string to = {};    ///< Id of the second vertex, different from the first.
+  int steps = 1;          ///< Time steps to drive along the road, at least 1.
+  bool one_way = false;   ///< True: only from `from` to `to`.
 };
 
-/// What robots move on. Immutable and cheap to copy: copies share it, and what was computed for it.
-/// Any number of threads may use one.
+/// A grid or a roadmap. Immutable: any thread may use it. Copies are cheap, because they share the
+/// data and everything that was computed for it.
 class GROVE_API World {
  public:
-  /// A grid; `passable`: width * height cells, row by row from the top. Throws InvalidArgument.
+  /// Returns a grid. `passable` has width * height entries, row by row from the top. Throws
+  /// InvalidArgument.
   static World grid(int width, int height, const std::vector<bool>& passable);
-  /// A grid as rows of one length, the top one first: dots and blanks are passable; '@', '#', 'T',
-  /// 'O' and 'W' are blocked. Throws InvalidArgument.
+  /// Returns a grid from rows of equal length, top row first. '.' and ' ' are passable; '@', '#',
+  /// 'T', 'O' and 'W' are blocked. Throws InvalidArgument.
   static World from_rows(const std::vector<std::string>& rows);
-  /// Vertices, one at least, and the roads between them. Throws InvalidArgument.
+  /// Returns a roadmap of at least one vertex. Throws InvalidArgument.
   static World roadmap(std::vector<RoadmapVertex> vertices, std::vector<RoadmapEdge> edges);
-  /// A Moving AI map (`*.map`), or a roadmap (`*.roadmap.json`). Throws InputError.
+  /// Reads a Moving AI map (`*.map`) or a roadmap (`*.roadmap.json`). Throws InputError.
   static World read(const std::filesystem::path& path);
 
-  bool is_grid() const;                         ///< Else it is a roadmap.
-  int width() const;                            ///< Of a grid, in cells; else 0.
-  int height() const;                           ///< Of a grid, in cells; else 0.
-  bool passable(Cell cell) const;               ///< False outside, and on roadmaps.
-  std::vector<RoadmapVertex> vertices() const;  ///< Of a roadmap; else none.
-  std::vector<RoadmapEdge> edges() const;       ///< Of a roadmap; else none.
+  bool is_grid() const;                         ///< False: a roadmap.
+  int width() const;                            ///< Cells; 0 for roadmaps.
+  int height() const;                           ///< Cells; 0 for roadmaps.
+  bool passable(Cell cell) const;               ///< False outside the grid, and for roadmaps.
+  std::vector<RoadmapVertex> vertices() const;  ///< Empty for grids.
+  std::vector<RoadmapEdge> edges() const;       ///< Empty for grids.
 
  private:
   friend struct Access;

@@ -18,7 +18,7 @@ constexpr int kLeader = 0;  // of the group
 // The text of the error, never empty.
 std::string error_text(const std::exception& error) {
   const std::string text = one_line(error.what());
-  return text.empty() ? "an unknown error" : text;
+  return text.empty() ? "unknown error" : text;
 }
 
 }  // namespace
@@ -153,13 +153,13 @@ std::optional<FarmMessage> FarmClient::receive_from_master() {
     master_->poll();
     return master_->take_own();
   }
-  const std::optional<ReceivedMessage> parcel = world_.receive();
-  return parcel ? std::optional(decode(parcel->bytes)) : std::nullopt;
+  const std::optional<ReceivedMessage> received = world_.receive();
+  return received ? std::optional(decode(received->bytes)) : std::nullopt;
 }
 
 std::optional<FarmMessage> FarmClient::receive_from_group() {
-  const std::optional<ReceivedMessage> parcel = group_.receive();
-  return parcel ? std::optional(decode(parcel->bytes)) : std::nullopt;
+  const std::optional<ReceivedMessage> received = group_.receive();
+  return received ? std::optional(decode(received->bytes)) : std::nullopt;
 }
 
 }  // namespace grove::detail::batch

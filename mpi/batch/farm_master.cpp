@@ -38,9 +38,9 @@ FarmMaster::FarmMaster(Transport& world, Grouping grouping, std::vector<Entry> e
 
 void FarmMaster::poll() {
   if (done()) return;
-  while (std::optional<ReceivedMessage> parcel = world_.receive()) {
-    FarmMessage message = decode(parcel->bytes);
-    std::visit([&](auto& content) { on(parcel->from, content); }, message);
+  while (std::optional<ReceivedMessage> received = world_.receive()) {
+    FarmMessage message = decode(received->bytes);
+    std::visit([&](auto& content) { on(received->from, content); }, message);
   }
   stop_if_interrupted();
   record();

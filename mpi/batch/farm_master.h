@@ -16,10 +16,20 @@
 #include "batch/result_table.h"
 #include "mpi/batch/batch_progress.h"
 #include "mpi/batch/farm_messages.h"
-#include "mpi/batch/grouping.h"
 #include "mpi/transport.h"
 
 namespace grove::detail::batch {
+
+// Partitions the ranks of the world into groups of `per_group` consecutive ranks; the last group
+// may be smaller. The first rank of each group is its leader. Both numbers are >= 1.
+struct Grouping {
+  int ranks = 1;
+  int per_group = 1;
+
+  int groups() const { return (ranks + per_group - 1) / per_group; }
+  int group_of(int rank) const { return rank / per_group; }
+  int rank_in_group(int rank) const { return rank % per_group; }
+};
 
 struct MasterOptions {
   Settings settings;  // of all runs

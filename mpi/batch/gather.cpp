@@ -14,7 +14,7 @@ using Texts = std::vector<std::string>;
 
 ReceivedMessage next(Transport& transport, const std::function<void()>& wait) {
   for (;;) {
-    if (std::optional<ReceivedMessage> parcel = transport.receive()) return std::move(*parcel);
+    if (std::optional<ReceivedMessage> received = transport.receive()) return std::move(*received);
     wait();
   }
 }
@@ -30,8 +30,8 @@ std::vector<std::string> gather(Transport& transport, const std::string& mine,
   Texts texts(static_cast<std::size_t>(transport.ranks()));
   texts[0] = mine;
   for (int left = transport.ranks() - 1; left > 0; --left) {
-    ReceivedMessage parcel = next(transport, wait);
-    texts[static_cast<std::size_t>(parcel.from)] = std::move(parcel.bytes);
+    ReceivedMessage received = next(transport, wait);
+    texts[static_cast<std::size_t>(received.from)] = std::move(received.bytes);
   }
   const std::string all = to_bytes(texts);
   for (int rank = 1; rank < transport.ranks(); ++rank) transport.send(rank, all);

@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "mpi/simulator/simulated_worker.h"
 
-#include "mpi/simulator/processor_time.h"
+#include <ctime>
 
 namespace grove::detail {
+
+MddCache::Set MddInterner::one_of(const MddCache::Set& set) {
+  const std::uint64_t hash = set->hash();
+  const auto [first, end] = sets_.equal_range(hash);
+  for (auto at = first; at != end; ++at)
+    if (auto other = at->second.lock(); other && *other == *set) return other;
+  if (sets_.size() >= many_) forget_unused();
+  sets_.emplace(hash, set);
+  return set;
+}
+
+void MddInterner::forget_unused() {
+  std::erase_if(sets_, [](const auto& entry) { return entry.second.expired(); });
+  many_ = 2 * sets_.size() + 1000;
+}
 
 void SimulatedWorker::begin(double now, Expander& expander) {
   turn_ = worker_.choose();
@@ -42,6 +57,12 @@ void SimulatedWorker::abandon(double now) {
   turn_->expansion = {};
   turn_->expansion.stopped = true;
   end();
+}
+
+double processor_time() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 }  // namespace grove::detail

@@ -22,12 +22,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "engine/techniques_of.h"
+#include "engine/solve.h"
 #include "mpi/polling.h"
 #include "mpi/rank_process.h"
 #include "mpi/simulated_network.h"
 #include "mpi/simulator/busy_profile.h"
-#include "mpi/simulator/processor_time.h"
+#include "mpi/simulator/simulated_worker.h"
 #include "mpi/simulator/timed_transport.h"
 
 namespace grove::detail {
@@ -50,7 +50,8 @@ struct Setting {
         options(without_primal(the_options)),
         limits(the_limits),
         machine(the_machine),
-        network(ranks, [this](int, int, std::size_t) { return talk.takes_s + machine.latency; }),
+        network(ranks,
+                [this](int, int, std::size_t) { return communication.takes_s + machine.latency; }),
         stops(problem.instance, problem.distances) {
     for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent) stops.of(agent);
   }
@@ -60,7 +61,7 @@ struct Setting {
   const Limits& limits;
   const Machine& machine;
   RunObserver observer;
-  Talk talk;
+  Talk communication;
   SimulatedNetwork network;
   AgentStopsCache stops;
   MddInterner sets;
@@ -68,7 +69,7 @@ struct Setting {
 
 struct SimulatedRank {
   SimulatedRank(Setting& setting, int rank)
-      : transport(setting.network, rank, setting.machine, setting.talk),
+      : transport(setting.network, rank, setting.machine, setting.communication),
         member(setting.problem, setting.options, limits, setting.observer, transport,
                setting.stops),
         worker(setting.problem, setting.options, setting.limits, member.rank().search(),
@@ -114,7 +115,7 @@ class Simulation {
       setting_.network.advance_to(event.time);
       now_ = event.time;
       if (event.who == Who::kTalker)
-        talk(event.rank);
+        communication(event.rank);
       else
         work(event.rank);
       stopped = setting_.limits.stop_requested();
@@ -155,11 +156,11 @@ class Simulation {
     foresee(time, rank, Who::kTalker);
   }
 
-  void talk(int rank) {
+  void communication(int rank) {
     SimulatedRank& r = at(rank);
     if (r.talk_due != now_) return;  // the rank has communicated already
     r.talk_due = kNotDue;
-    setting_.talk = {};
+    setting_.communication = {};
     const double before_s = processor_time();
     const bool heard = r.member.exchange_messages(now_);
     if (r.member.rank().ended() && !r.said_farewell) {
@@ -175,9 +176,10 @@ class Simulation {
   // Schedules the consequences of the communication that this rank began at `time`.
   void talked(int rank, double time) {
     SimulatedRank& r = at(rank);
-    r.talks_until = time + setting_.talk.takes_s;
-    r.talking_s += setting_.talk.takes_s;
-    for (const int to : setting_.talk.receivers) talk_from(setting_.network.next_arrival(to), to);
+    r.talks_until = time + setting_.communication.takes_s;
+    r.talking_s += setting_.communication.takes_s;
+    for (const int to : setting_.communication.receivers)
+      talk_from(setting_.network.next_arrival(to), to);
     if (const double next = setting_.network.next_arrival(rank); next < kNotDue)
       talk_from(next, rank);
     if (const double next = r.member.next_send_time(); next < kNotDue) talk_from(next, rank);

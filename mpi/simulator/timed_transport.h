@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mpi/simulated_network.h"
@@ -26,12 +27,20 @@ class TimedTransport : public Transport {
  public:
   // All arguments must outlive this. `talk` is the exchange in progress, of any rank. A message
   // that it sends leaves when the exchange has taken `talk.takes_s`.
-  TimedTransport(SimulatedNetwork& network, int rank, const Machine& machine, Talk& talk)
-      : network_(network), end_(network.at(rank)), machine_(machine), talk_(talk) {}
+  TimedTransport(SimulatedNetwork& network, int rank, const Machine& machine, Talk& communication)
+      : network_(network), end_(network.at(rank)), machine_(machine), talk_(communication) {}
 
   int rank() const override { return end_.rank(); }
   int ranks() const override { return end_.ranks(); }
-  std::optional<ReceivedMessage> receive() override;
+  std::optional<ReceivedMessage> receive() override {
+    const double arrival = network_.next_arrival(rank());
+    auto received = end_.receive();
+    if (!received) return std::nullopt;
+    waited_s_ += network_.now() + talk_.takes_s - arrival;
+    ++received_;
+    take_time_for(received->bytes.size());
+    return received;
+  }
 
   // Messages received so far.
   std::int64_t received() const { return received_; }
@@ -39,7 +48,11 @@ class TimedTransport : public Transport {
   double waited_s() const { return waited_s_; }
 
  private:
-  void do_send(int to, std::string bytes) override;
+  void do_send(int to, std::string bytes) override {
+    take_time_for(bytes.size());
+    talk_.receivers.push_back(to);
+    end_.send(to, std::move(bytes));
+  }
   void take_time_for(std::size_t bytes) {
     talk_.takes_s += machine_.message_cost + static_cast<double>(bytes) / machine_.bandwidth;
   }

@@ -6,7 +6,7 @@
 namespace grove::python {
 namespace {
 
-// Remarks of readers become warnings of Python.
+// Issues the warnings of a reader as Python warnings.
 template <class Read>
 Instance warned(Read&& read) {
   std::vector<std::string> warnings;
@@ -16,9 +16,9 @@ Instance warned(Read&& read) {
   return instance;
 }
 
-// Of what a file would say, as Python has it; numbers and arrays of numpy are lists.
+// Makes an instance from the content of a file as Python values, including NumPy values.
 Instance of_dict(const World& world, const py::dict& all, bool following) {
-  const py::object plain = py::module_::import("grove").attr("_plain");  // what json does not know
+  const py::object plain = py::module_::import("grove").attr("_plain");  // for NumPy values
   const auto text = py::module_::import("json")
                         .attr("dumps")(all, py::arg("default") = plain)
                         .cast<std::string>();
@@ -33,7 +33,7 @@ Instance made(const World& world, const py::object& agents, const py::object& ta
   return of_dict(world, all, following);
 }
 
-py::object told(const Instance& instance, const char* key) {
+py::object json_value(const Instance& instance, const char* key) {
   return py::module_::import("json").attr("loads")(instance_text(instance))[key];
 }
 
@@ -47,27 +47,26 @@ std::string instance_summary(const Instance& instance) {
 void add_instance(py::module_& module) {
   py::class_<Instance>(
       module, "Instance",
-      "Robots, the places each has to visit in an order that the solver chooses, and where they "
-      "rest. Never changes.\n\n"
-      "Instance(world, agents, tasks): dicts as in *.cts.json files: "
+      "Robots with starts and goals, and the tasks that they visit in any order. Immutable.\n\n"
+      "Instance(world, agents, tasks): agents and tasks are dicts as in *.cts.json files: "
       "{'id': 'red', 'start': (0, 0), 'goal': (3, 2)}, "
       "{'id': 'press', 'cell': (1, 2), 'agents': ['red'], 'duration': 3}.")
       .def(py::init(&made), py::arg("world"), py::arg("agents"), py::arg("tasks") = py::list(),
            py::kw_only(), py::arg("following") = true)
-      .def_property_readonly("world", &Instance::world, "What they move on.")
+      .def_property_readonly("world", &Instance::world, "The world that the robots move on.")
       .def_property_readonly(
-          "agents", [](const Instance& i) { return told(i, "agents"); },
-          "Dicts as in *.cts.json files.")
+          "agents", [](const Instance& i) { return json_value(i, "agents"); },
+          "Agents, as dicts in the format of *.cts.json files.")
       .def_property_readonly(
-          "tasks", [](const Instance& i) { return told(i, "tasks"); },
-          "Dicts as in *.cts.json files.")
+          "tasks", [](const Instance& i) { return json_value(i, "tasks"); },
+          "Tasks, as dicts in the format of *.cts.json files.")
       .def_property_readonly(
           "following", [](const Instance& i) { return i.rules().following; },
-          "May a robot enter a place in the step in which another leaves it?")
+          "Whether a robot may enter a place in the step in which another leaves it.")
       .def(
           "write",
           [](const Instance& i, const std::filesystem::path& path) { write_instance(path, i); },
-          py::arg("path"), "Writes *.cts.json and its map or roadmap beside it.")
+          py::arg("path"), "Writes *.cts.json, and its map or roadmap to the same directory.")
       .def("__repr__", &instance_summary);
   module.def("_instance_of_dict", &of_dict);
   module.def(
@@ -80,10 +79,11 @@ void add_instance(py::module_& module) {
       py::arg("path"), py::kw_only(), py::arg("confine") = false,
       py::arg("memory_limit") = py::none(),
       "Reads a *.cts.json file and the map or roadmap that it names.\n\n"
-      "For untrusted files: `confine` refuses one that names a map outside of its own folder, "
-      "and `memory_limit` one whose map and robots' states would take more bytes.");
+      "For untrusted files: with `confine` it refuses a map outside the file's directory; with "
+      "`memory_limit` it refuses an instance whose map and robot states would need more bytes.");
   module.def("read_scenario", &read_scenario, py::arg("scenario"), py::arg("map"),
-             py::arg("agents"), "Classical MAPF: the first `agents` rows of a Moving AI scenario.");
+             py::arg("agents"),
+             "Reads classical MAPF: the first `agents` rows of a Moving AI scenario.");
 }
 
 }  // namespace grove::python

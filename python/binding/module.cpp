@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove._grove: the front door for Python. What is nicer said in Python stands in
-// grove/__init__.py.
+// grove._grove: Python bindings of the public API. grove/__init__.py holds the parts that are
+// written in Python.
 #include <exception>
 
 #include "python/binding/values.h"
@@ -8,7 +8,7 @@
 namespace grove::python {
 namespace {
 
-// As classes of Python: what the library throws. Kept as long as the process lives.
+// Python classes of the exceptions of the library. Never freed.
 struct Errors {
   py::object base;
   py::object input;
@@ -37,14 +37,15 @@ void add_errors(py::module_& module) {
   const auto exception = py::reinterpret_borrow<py::object>(PyExc_Exception);
   const auto value_error = py::reinterpret_borrow<py::object>(PyExc_ValueError);
   errors = new Errors;
-  errors->base = error_class(
-      module, "Error", py::make_tuple(exception),
-      "What Grove raises: one of those below; by itself: a part of the search is broken.");
-  errors->input = error_class(module, "InputError", py::make_tuple(errors->base, value_error),
-                              "A file or text that cannot be used: where, and what was expected.");
+  errors->base =
+      error_class(module, "Error", py::make_tuple(exception),
+                  "Base class of the errors of Grove. Raised itself only for an internal error.");
+  errors->input =
+      error_class(module, "InputError", py::make_tuple(errors->base, value_error),
+                  "An invalid file or text; the message has the place and what was expected.");
   errors->argument = error_class(
       module, "InvalidArgument", py::make_tuple(errors->base, value_error),
-      "A world, instance, plan or option that is against a rule; field says which: '/omega'.");
+      "An invalid world, instance, plan or option; field is its place, such as '/omega'.");
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
@@ -61,7 +62,7 @@ void add_errors(py::module_& module) {
 }  // namespace
 
 PYBIND11_MODULE(_grove, module) {
-  // Classes are of the package, for who prints them.
+  // With this name, classes print as members of the package grove.
   module.attr("__name__") = "grove";
   module.attr("__version__") = GROVE_VERSION;
   add_errors(module);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pages and pictures, as `grove view` makes them.
+// Bindings for the pages and pictures of `grove view`.
 #include "tools/view/page.h"
 
 #include <vector>
@@ -13,7 +13,7 @@
 namespace grove::python {
 namespace {
 
-// The page of an instance and one or two solutions of it, with their names.
+// Returns the page of an instance and of at most two solutions with their names.
 std::string page(const Instance& instance, const std::string& title,
                  const std::vector<std::pair<std::string, OwnSolution>>& solutions) {
   return translated([&] {

@@ -13,7 +13,7 @@ namespace {
 
 using Point = std::pair<double, double>;
 
-// Metres, of places of a roadmap.
+// Positions of the places of a roadmap, in metres.
 class Metres {
  public:
   explicit Metres(const World& world) : edges_(world.edges()) {
@@ -123,9 +123,9 @@ OwnPlan from_paths(const Instance& instance, const py::object& given) {
   return {instance, std::make_shared<const Plan>(plan_from_paths(instance, paths))};
 }
 
-py::list told(const std::vector<Violation>& violations) {
+py::list violation_list(const std::vector<Violation>& violations) {
   py::list all;
-  for (const Violation& v : violations) all.append(py::make_tuple(v.place, v.message));
+  for (const Violation& v : violations) all.append(py::make_tuple(v.json_pointer, v.message));
   return all;
 }
 
@@ -148,14 +148,14 @@ std::optional<double> gap_of(const OwnSolution& solution) {
 }
 
 void add_agent_plan(py::module_& module) {
-  py::class_<AgentPlan>(module, "AgentPlan", "What one robot does.")
-      .def_readonly("id", &AgentPlan::id, "The agent's.")
+  py::class_<AgentPlan>(module, "AgentPlan", "Path, visits and work of one robot.")
+      .def_readonly("id", &AgentPlan::id, "Id of the agent.")
       .def_readonly("cost", &AgentPlan::cost,
-                    "The step from which on it rests, with everything done.")
+                    "Finish time in steps: from then on it rests, with all tasks done.")
       .def_property_readonly("path", &path_of, "Places at times 0, 1, ..., cost.")
-      .def_readonly("tasks", &AgentPlan::tasks, "Ids, in the order in which they are completed.")
+      .def_readonly("tasks", &AgentPlan::tasks, "Ids of its tasks, in order of completion.")
       .def_property_readonly("work", &work_of,
-                             "[(task, begin, end), ...] of tasks with a duration.")
+                             "[(task, begin, end), ...] for tasks with a duration, in steps.")
       .def("__repr__", [](const AgentPlan& agent) {
         return "<grove.AgentPlan: " + agent.id + ", cost " + std::to_string(agent.cost) + ">";
       });
@@ -166,73 +166,79 @@ void add_agent_plan(py::module_& module) {
 void add_plan(py::module_& module) {
   add_agent_plan(module);
   py::class_<OwnPlan>(module, "Plan",
-                      "A path for every robot of an instance.\n\n"
-                      "Plan(instance, paths): from anybody's paths, or an array of agents x times "
-                      "x 2; costs and the order of tasks are worked out.")
+                      "A path for every robot of an instance. Immutable.\n\n"
+                      "Plan(instance, paths): from lists of places, or an array of agents x times "
+                      "x 2; costs and orders of visits are computed.")
       .def(py::init(&from_paths), py::arg("instance"), py::arg("paths"))
       .def_property_readonly(
-          "instance", [](const OwnPlan& p) { return p.instance; }, "Whose plan it is.")
+          "instance", [](const OwnPlan& p) { return p.instance; }, "The instance of the plan.")
       .def_property_readonly(
-          "cost", [](const OwnPlan& p) { return p.plan->cost; }, "The sum of the robots'.")
+          "cost", [](const OwnPlan& p) { return p.plan->cost; }, "Sum of the costs of all agents.")
       .def_property_readonly(
           "makespan", [](const OwnPlan& p) { return p.plan->makespan(); },
-          "The step from which on everybody rests.")
+          "Step from which on all robots rest.")
       .def_property_readonly(
           "agents", [](const OwnPlan& p) { return p.plan->agents; },
-          "What each does, in the instance's order.")
+          "AgentPlans, in the order of the instance.")
       .def("positions", &positions,
-           "Where all are, agents x times x 2: cells (x, y) on a grid, metres on a roadmap.")
+           "Positions, agents x times x 2: cells (x, y) on a grid, metres on a roadmap.")
       .def("headings", &headings,
-           "Where all look, agents x times: 0 north, 1 east, 2 south, 3 west; -1 where that does "
-           "not matter.")
+           "Headings, agents x times: 0 north, 1 east, 2 south, 3 west; -1 for an agent without "
+           "headings.")
       .def("__repr__", [](const OwnPlan& p) {
         return "<grove.Plan: " + std::to_string(p.plan->agents.size()) + " agents, cost " +
                std::to_string(p.plan->cost) + ">";
       });
-  py::class_<OwnSolution>(module, "Solution",
-                          "What a solve ends with: a status, perhaps a plan, always a bound.\n\n"
-                          "Solution(plan): anybody's plan, of which nothing is claimed.")
+  py::class_<OwnSolution>(
+      module, "Solution",
+      "Result of a solve: status, lower bound and, if found, a plan. Immutable.\n\n"
+      "Solution(plan): a plan without claims.")
       .def(py::init(&unclaimed), py::arg("plan"))
       .def_property_readonly(
-          "instance", [](const OwnSolution& s) { return s.instance; }, "What was solved.")
+          "instance", [](const OwnSolution& s) { return s.instance; },
+          "The instance that was solved.")
       .def_property_readonly(
           "status", [](const OwnSolution& s) { return std::string(to_string(s.facts.status)); },
           "'optimal', 'bounded' (within omega), 'feasible', 'infeasible' or 'unknown'.")
-      .def_readonly("plan", &OwnSolution::plan, "None if there is none.")
+      .def_readonly("plan", &OwnSolution::plan, "The plan; None if none was found.")
       .def_property_readonly(
           "lower_bound", [](const OwnSolution& s) { return s.facts.lower_bound; },
-          "Proven: no plan costs less.")
+          "Proven lower bound: no plan costs less.")
       .def_property_readonly(
-          "omega", [](const OwnSolution& s) { return s.facts.omega; }, "That was asked for.")
+          "omega", [](const OwnSolution& s) { return s.facts.omega; },
+          "Relative tolerance of the solve.")
       .def_property_readonly(
           "following", [](const OwnSolution& s) { return s.facts.following; },
-          "False: all claims hold of plans in which no robot follows another closely.")
-      .def_property_readonly("gap", &gap_of,
-                             "How much dearer than the best the plan is at most: 0.02 is 2 %. None "
-                             "without a plan, or with a bound of 0.")
+          "False: bound and status hold for plans without following conflicts.")
+      .def_property_readonly(
+          "gap", &gap_of,
+          "(cost - lower_bound) / lower_bound; 0.02 is 2 %. None without a plan, "
+          "or if only the bound is 0.")
       .def_property_readonly(
           "counts", [](const OwnSolution& s) { return s.facts.counts; },
-          "What the search did, by the names of the plan file: nodes_expanded.")
+          "Integer statistics of the search, as in the plan file, such as nodes_expanded.")
       .def_property_readonly(
           "measures", [](const OwnSolution& s) { return s.facts.measures; },
-          "Likewise, real numbers: wall_s.")
+          "Real-valued statistics, such as wall_s.")
       .def_property_readonly(
           "texts", [](const OwnSolution& s) { return s.facts.texts; },
-          "Likewise, words: stopped_by, the limit that struck; reason, why there "
-          "is no plan.")
+          "Statistics that are texts, such as stopped_by, the limit that was reached, and reason, "
+          "why "
+          "there is no plan.")
       .def(
           "write",
           [](const OwnSolution& s, const std::filesystem::path& path) {
             write_plan(path, s.instance, s.whole());
           },
-          py::arg("path"), "Writes a plan file, if check() finds nothing wrong.")
+          py::arg("path"),
+          "Writes a plan file. Raises InvalidArgument if check() finds a violation.")
       .def("__repr__", &solution_summary);
   py::implicitly_convertible<OwnPlan, OwnSolution>();
   module.def("_check_plan", [](const OwnPlan& plan, std::size_t limit) {
-    return told(check(plan.instance, *plan.plan, limit));
+    return violation_list(check(plan.instance, *plan.plan, limit));
   });
   module.def("_check_solution", [](const OwnSolution& solution, std::size_t limit) {
-    return told(check(solution.instance, solution.whole(), limit));
+    return violation_list(check(solution.instance, solution.whole(), limit));
   });
   module.def(
       "read_plan",
@@ -240,7 +246,7 @@ void add_plan(py::module_& module) {
         return OwnSolution::of(instance, read_plan(path, instance));
       },
       py::arg("path"), py::arg("instance"),
-      "Reads a plan file of this instance; believes what it says: check() does not.");
+      "Reads a plan file of this instance without checking its claims; check() checks them.");
 }
 
 }  // namespace grove::python

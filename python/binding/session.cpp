@@ -6,7 +6,7 @@
 namespace grove::python {
 namespace {
 
-// Tasks are told as in files; what is read is another instance, with these alone.
+// Converts tasks in the format of files: parses an instance that has only these tasks.
 std::vector<Task> tasks_of(const Session& session, const py::object& tasks) {
   const Instance now = session.instance();
   const py::object module = py::module_::import("grove");
@@ -15,7 +15,7 @@ std::vector<Task> tasks_of(const Session& session, const py::object& tasks) {
   return module.attr("Instance")(now.world(), agents, tasks).cast<const Instance&>().tasks();
 }
 
-// The elements of a list, each as `expected`.
+// Returns the elements of a list. `expected`: description of an element, for error messages.
 template <class T>
 std::vector<T> values_of(const py::object& list, const std::string& field,
                          const std::string& expected) {
@@ -36,7 +36,7 @@ void change(Session& session, const py::object& new_tasks, const py::object& dro
 }
 
 void advance(Session& session, const py::object& steps, const py::dict& late) {
-  std::vector<Late> all;
+  std::vector<Delay> all;
   for (const auto& [agent, by] : late)
     all.push_back({value_of<std::string>(agent, "/late", "ids of agents"),
                    value_of<int>(by, "/late", "a whole number of steps for each agent")});

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kBetweenSignals{20};
 
-// A function of Python that threads of a search call, and let go of, without the interpreter lock.
+// Holds a Python function so that search threads, which do not hold the GIL, can release it.
 std::shared_ptr<py::object> shared(const py::object& function) {
   return {new py::object(function), [](py::object* held) {
             const py::gil_scoped_acquire lock;
@@ -31,20 +31,20 @@ T argument(const py::dict& arguments, const char* name, const char* expected) {
 }
 
 void set_callbacks(Options& options, const Instance& instance, const py::dict& arguments) {
-  if (const py::object tell = arguments["progress"]; !tell.is_none())
-    options.on_progress = [tell = shared(tell)](const Progress& progress) {
+  if (const py::object callback = arguments["progress"]; !callback.is_none())
+    options.on_progress = [callback = shared(callback)](const Progress& progress) {
       const py::gil_scoped_acquire lock;
-      (*tell)(progress);
+      (*callback)(progress);
     };
-  if (const py::object tell = arguments["incumbent"]; !tell.is_none())
-    options.on_incumbent = [tell = shared(tell), instance](const Plan& plan,
-                                                           const Progress& progress) {
+  if (const py::object callback = arguments["incumbent"]; !callback.is_none())
+    options.on_incumbent = [callback = shared(callback), instance](const Plan& plan,
+                                                                   const Progress& progress) {
       const py::gil_scoped_acquire lock;
-      (*tell)(OwnPlan{instance, std::make_shared<const Plan>(plan)}, progress);
+      (*callback)(OwnPlan{instance, std::make_shared<const Plan>(plan)}, progress);
     };
 }
 
-// A search that ends on another thread.
+// A search on another thread.
 class Aside {
  public:
   explicit Aside(const std::function<Solution()>& solve)
@@ -59,7 +59,7 @@ class Aside {
           ended_.notify_one();
         }) {}
 
-  // Whether it has ended by then.
+  // Waits for kBetweenSignals. Returns whether the search has ended.
   bool wait() {
     std::unique_lock lock(mutex_);
     return ended_.wait_for(lock, kBetweenSignals, [this] { return done_; });
@@ -110,7 +110,7 @@ Solution run_aside(Call& call, const std::function<Solution()>& solve) {
     return search->wait();
   };
   while (!ended()) {
-    if (interrupt) continue;  // it is about to end
+    if (interrupt) continue;  // the search is about to end
     try {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (!call.stop.is_none() && call.stop.attr("is_set")().cast<bool>())
@@ -127,26 +127,26 @@ Solution run_aside(Call& call, const std::function<Solution()>& solve) {
 }
 
 void add_solve(py::module_& module) {
-  py::class_<Progress>(module, "Progress", "Where a run stands.")
-      .def_readonly("seconds", &Progress::seconds, "Since it began.")
-      .def_readonly("nodes_expanded", &Progress::nodes_expanded, "Of constraint trees.")
-      .def_readonly("nodes_open", &Progress::nodes_open, "Nodes that wait.")
-      .def_readonly("lower_bound", &Progress::lower_bound, "Proven so far.")
-      .def_readonly("cost", &Progress::cost, "Of the best plan so far, or None.")
+  py::class_<Progress>(module, "Progress", "State of a run.")
+      .def_readonly("seconds", &Progress::seconds, "Seconds since the start.")
+      .def_readonly("nodes_expanded", &Progress::nodes_expanded, "Constraint-tree nodes expanded.")
+      .def_readonly("nodes_open", &Progress::nodes_open, "Constraint-tree nodes still open.")
+      .def_readonly("lower_bound", &Progress::lower_bound, "Lower bound proven so far.")
+      .def_readonly("cost", &Progress::cost, "Cost of the best plan so far, or None.")
       .def("__repr__", [](const Progress& p) {
         return "<grove.Progress: cost " + (p.cost ? std::to_string(*p.cost) : "-") +
                ", lower bound " + std::to_string(p.lower_bound) + ">";
       });
-  // The library's, for the signatures of Python's functions.
+  // Defaults of the library, for the signatures of the Python functions.
   const Options defaults;
   module.attr("_omega") = defaults.omega;
   module.attr("_time_limit") = *defaults.time_limit;
   module.attr("_replan_time_limit") = *Session::default_options().time_limit;
   module.def("default_threads", &default_threads,
-             "Threads for all cores that this process may use.");
+             "Returns the number of cores that this process may use.");
   module.def("default_memory_limit", &default_memory_limit,
-             "80 % of the memory of the machine, or of what a container or batch system grants, in "
-             "bytes.");
+             "Returns 80 % of the memory of the machine, or of the limit of the container or batch "
+             "system, in bytes.");
   module.def("_solve", [](const Instance& instance, const py::dict& arguments) {
     Call call(instance, arguments);
     return OwnSolution::of(instance,

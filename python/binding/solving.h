@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A long call of the library from Python: without the interpreter lock, ended by Ctrl-C.
+// Long calls of the library from Python: they release the GIL and end on Ctrl-C.
 #pragma once
 
 #include <functional>
@@ -8,16 +8,16 @@
 
 namespace grove::python {
 
-// `arguments`: of grove.solve(), each with a value.
+// Options of a call. `arguments`: all arguments of grove.solve().
 struct Call {
   explicit Call(const Instance& instance, const py::dict& arguments);
 
   Options options;
-  py::object stop;  // an event of Python's, or none
+  py::object stop;  // a threading.Event, or None
   std::stop_source source;
 };
 
-// What `solve` returns. It runs on a thread of its own, so that this one can hear signals.
+// Runs `solve` on another thread, so that this one can handle signals; returns its result.
 Solution run_aside(Call& call, const std::function<Solution()>& solve);
 
 }  // namespace grove::python

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What Python sees of the front door's values: places as tuples and words, plans and solutions with
-// the instance that they are of.
+// Conversions between values of the public API and of Python: places are tuples and texts; plans
+// and solutions hold their instance.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -20,7 +20,7 @@ namespace grove::python {
 
 namespace py = pybind11;
 
-// A plan and its instance; shared, for plans are large.
+// A plan and its instance. The plan is shared, because plans are large.
 struct OwnPlan {
   Instance instance;
   std::shared_ptr<const Plan> plan;
@@ -46,14 +46,14 @@ struct OwnSolution {
   }
 };
 
-// "north", ...; and -1 for none in arrays.
+// Returns "north", ....
 inline const char* name_of(Heading heading) {
   constexpr const char* kNames[] = {"north", "east", "south", "west"};
   return kNames[static_cast<int>(heading)];
 }
 
-// What was handed over, for messages: arrays by type and shape, all else as Python writes it, if
-// that is short.
+// Returns a description of a value for error messages: type and shape of an array, otherwise its
+// repr() or, if that is long, its type.
 inline std::string text_of_found(const py::handle& value) {
   constexpr std::size_t kLongest = 60;
   if (py::hasattr(value, "dtype") && py::hasattr(value, "shape"))
@@ -64,20 +64,20 @@ inline std::string text_of_found(const py::handle& value) {
   return "a " + std::string(py::str(py::type::of(value).attr("__name__")));
 }
 
-// Throws InvalidArgument, which names the argument and what is expected, in place of pybind's
-// words.
+// Converts a value. Throws InvalidArgument with `field` and `expected` instead of the message of
+// pybind11.
 template <class T>
 T value_of(const py::handle& value, const std::string& field, const std::string& expected) {
   try {
     return value.cast<T>();
   } catch (const py::cast_error&) {
-  } catch (const py::error_already_set& error) {  // of numpy, which converts arrays
+  } catch (const py::error_already_set& error) {  // from NumPy, which converts arrays
     if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) throw;
   }
   throw InvalidArgument(field, "found " + text_of_found(value) + "; expected " + expected);
 }
 
-// The elements of a list, an array or another iterable.
+// Returns the elements of a list, an array or another iterable.
 inline std::vector<py::object> elements_of(const py::handle& value, const std::string& field,
                                            const std::string& expected) {
   if (!py::isinstance<py::iterable>(value) || py::isinstance<py::str>(value))

@@ -11,7 +11,7 @@ namespace {
 
 using Bools = py::array_t<bool, py::array::c_style>;
 
-// Lines of one text, or a list of them.
+// Makes a grid from the lines of one text, or from a list of texts.
 World from_rows(const py::object& rows) {
   if (!py::isinstance<py::str>(rows))
     return World::from_rows(value_of<std::vector<std::string>>(
@@ -100,23 +100,22 @@ std::string world_summary(const World& world) {
 void add_world(py::module_& module) {
   py::class_<World>(
       module, "World",
-      "What robots move on: cells of a grid, or vertices and roads. Never changes.\n\n"
-      "World(rows): of '.' (passable) and '@' or '#' (blocked), one text or a list.")
+      "The map: cells of a grid, or vertices and roads. Immutable.\n\n"
+      "World(rows): rows of '.' (passable) and '@' or '#' (blocked), as one text or a list.")
       .def(py::init(&from_rows), py::arg("rows"))
       .def_static("grid", &grid, py::arg("passable"),
-                  "From an array of two dimensions, rows and columns: true where one can go.")
+                  "Makes a grid from a two-dimensional array of rows and columns; true: passable.")
       .def_static("roadmap", &roadmap, py::arg("vertices"), py::arg("roads"),
-                  "{'A': (x, y), ...} in metres and [('A', 'B', steps), ('B', 'C', steps, True), "
-                  "...]; True: one way.")
+                  "Makes a roadmap from {'A': (x, y), ...} in metres and [('A', 'B', steps), "
+                  "('B', 'C', steps, True), ...]; True: one way.")
       .def_static("read", &World::read, py::arg("path"),
-                  "A Moving AI map (*.map), or a roadmap (*.roadmap.json).")
-      .def_property_readonly("is_grid", &World::is_grid, "Else it is a roadmap.")
-      .def_property_readonly("width", &World::width, "In cells; 0 of a roadmap.")
-      .def_property_readonly("height", &World::height, "In cells; 0 of a roadmap.")
-      .def_property_readonly("passable", &passable,
-                             "An array of rows and columns, true where one can go.")
-      .def_property_readonly("vertices", &vertices, "{'A': (x, y), ...}, in metres.")
-      .def_property_readonly("roads", &roads, "[(from, to, steps, one_way), ...].")
+                  "Reads a Moving AI map (*.map), or a roadmap (*.roadmap.json).")
+      .def_property_readonly("is_grid", &World::is_grid, "True for a grid, False for a roadmap.")
+      .def_property_readonly("width", &World::width, "Number of columns; 0 for a roadmap.")
+      .def_property_readonly("height", &World::height, "Number of rows; 0 for a roadmap.")
+      .def_property_readonly("passable", &passable, "Array of rows and columns; true: passable.")
+      .def_property_readonly("vertices", &vertices, "Vertices, as {'A': (x, y), ...}, in metres.")
+      .def_property_readonly("roads", &roads, "Roads, as [(from, to, steps, one_way), ...].")
       .def("__repr__", &world_summary);
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Plans for many robots, without collisions, with a proven bound on how far from the best they are.
+"""Plans collision-free paths for many robots, with a proven bound on the distance from the optimum.
 
 >>> import grove
 >>> world = grove.World('''
@@ -14,11 +14,11 @@
 >>> solution = grove.solve(instance, threads=1)
 >>> solution
 <grove.Solution: optimal, cost 14, lower bound 14>
->>> solution.plan.positions()[0, :4].tolist()       # of red: x and y at times 0, 1, 2, 3
+>>> solution.plan.positions()[0, :4].tolist()       # agent red: (x, y) at times 0, 1, 2, 3
 [[0, 0], [1, 0], [2, 0], [3, 0]]
 
-Steps are the unit of time of plans, seconds that of clocks. What is wrong raises grove.Error:
-InputError for files, InvalidArgument for values. See docs/python.md.
+Times in plans are in steps, run times in seconds. Errors are subclasses of grove.Error: InputError for files,
+InvalidArgument for values. See docs/python.md.
 """
 
 from __future__ import annotations
@@ -55,10 +55,10 @@ __all__ = [
 
 
 def _plain(value):
-    """What json does not know: arrays and numbers of numpy."""
+    """Converts NumPy arrays and scalars to plain Python values for json."""
     if hasattr(value, "tolist"):
         return value.tolist()
-    raise TypeError(f"{value!r} is a {type(value).__name__}; expected numbers, words, lists or dicts")
+    raise TypeError(f"{value!r} is a {type(value).__name__}; expected numbers, texts, lists or dicts")
 
 
 def _invalid(field, value, expected):
@@ -70,7 +70,7 @@ def _invalid(field, value, expected):
 
 
 def _rows(field, value, expected):
-    """The elements of a list or an array."""
+    """Returns the elements of a list or an array. Raises InvalidArgument."""
     if isinstance(value, (str, bytes, dict)) or not hasattr(value, "__iter__"):
         raise _invalid(field, value, expected)
     try:
@@ -80,7 +80,7 @@ def _rows(field, value, expected):
 
 
 def _cells(field, value):
-    """Cells (x, y) as tuples of int, from a list or an array of them."""
+    """Returns the cells of a list or an array as tuples (x, y) of int. Raises InvalidArgument."""
     rows = _rows(field, value, "a list or an array of cells (x, y)")
     cells = []
     for i, row in enumerate(rows):
@@ -94,13 +94,14 @@ def _cells(field, value):
     return cells
 
 
-# --- instances ---
+# --- Instances ---
 
 def instance_from_dict(data, folder=".", *, following=True):
-    """An instance from the dict of a *.cts.json file.
+    """Makes an instance from a dict in the format of a *.cts.json file.
 
-    Its map is a World, a list of rows, or the name of a file, relative to `folder`; "roadmap" is a
-    World or such a name.
+    data: "map" is a World, a list of rows, or a file name; "roadmap" is a World or a file name.
+    folder: directory of these files.
+    following: whether a robot may enter a place in the step in which another leaves it.
     """
     rest = {key: value for key, value in data.items() if key not in ("map", "roadmap")}
     worlds = [data[key] for key in ("map", "roadmap") if key in data]
@@ -115,11 +116,13 @@ def instance_from_dict(data, folder=".", *, following=True):
 
 
 def instance_from_arrays(world, starts, goals=None, tasks=None, *, following=True):
-    """An instance on a grid from arrays of cells (x, y).
+    """Makes an instance on a grid from arrays of cells (x, y).
 
-    `starts` and `goals`: a row for each agent; goals may be left out: an agent ends on its last
-    task. `tasks`: for each agent the cells that it has to visit. Agents are called a0, a1, ..., and
-    tasks t0, t1, ...; a cell that several agents visit is one task of them all.
+    starts, goals: one row per agent. Without goals an agent ends on its last task.
+    tasks: for each agent, the cells that it has to visit. A cell of several agents is one task of all of them.
+    following: whether a robot may enter a place in the step in which another leaves it.
+
+    The agents get the ids a0, a1, ..., the tasks t0, t1, ....
 
     >>> instance_from_arrays(World("....\\n...."), starts=[(0, 0), (3, 0)], tasks=[[(3, 1)], [(0, 1)]])
     <grove.Instance: 2 agents, 2 tasks>
@@ -147,24 +150,27 @@ def instance_from_arrays(world, starts, goals=None, tasks=None, *, following=Tru
     return Instance(world, agents, all_tasks, following=following)
 
 
-# --- solving ---
+# --- Solving ---
 
 def solve(instance, *, omega=_grove._omega, time_limit=_grove._time_limit, memory_limit="auto",
           threads="auto", deterministic=False, seed=0, method="auto", start=None, progress=None,
           incumbent=None, progress_interval=0.1, stop=None):
-    """Finds a plan, and proves how good it is.
+    """Finds a plan and proves a lower bound on the cost of every plan.
 
-    omega: how far from the best a plan may be: at most 1 + omega times the lower bound; 0: the best.
-    time_limit: seconds, then the best plan so far comes back; None: no limit.
+    omega: relative tolerance: the search ends when its plan costs at most 1 + omega times the lower bound; 0: optimal.
+    time_limit: seconds; None: no limit. At a limit the best plan so far is returned.
     memory_limit: bytes of this process; "auto": default_memory_limit(); None: no limit.
-    threads: that search; "auto": default_threads().
-    deterministic, seed: the same plan for any number of threads, if deterministic.
-    method: "auto", or a published method to compare with (`grove solve --help` lists them).
-    start: a valid plan to begin with.
+    threads: number of search threads; "auto": default_threads().
+    deterministic: the same plan for any number of threads, limits excepted.
+    seed: seed of all random choices.
+    method: "auto", or a published method for comparison (`grove solve --help` lists them).
+    start: a valid plan to start from.
     progress: called with a Progress every `progress_interval` seconds.
-    incumbent: called with every better plan, and a Progress. What either raises ends the solve.
-    stop: a threading.Event that ends it like a limit when it is set. Ctrl-C raises
-    KeyboardInterrupt. Other threads of Python go on.
+    incumbent: called with each better plan and a Progress.
+    stop: a threading.Event; setting it ends the solve like a limit.
+
+    Returns a Solution. Raises InvalidArgument for options that are invalid or do not suit the instance. An exception
+    of a callback ends the solve and propagates; Ctrl-C raises KeyboardInterrupt. Other Python threads keep running.
     """
     return _grove._solve(instance, {
         "omega": omega, "time_limit": time_limit, "memory_limit": memory_limit, "threads": threads,
@@ -174,9 +180,10 @@ def solve(instance, *, omega=_grove._omega, time_limit=_grove._time_limit, memor
 
 
 def check(plan, limit=20):
-    """Everything that is wrong with a Plan, or with a Solution and what it claims: (place, message).
+    """Checks a Plan, or a Solution and its claims; returns the violations as (place, message).
 
-    The checker has its own code for paths, visits, costs and conflicts. Empty: the plan is valid.
+    An empty list means that the plan is valid. At most `limit` violations are returned. The checker has its own code
+    for paths, visits, costs and conflicts.
 
     >>> world = World("...")
     >>> swapping = instance_from_arrays(world, [(0, 0), (1, 0)], goals=[(1, 0), (0, 0)])
@@ -189,33 +196,38 @@ def check(plan, limit=20):
 
 
 class Session:
-    """A plan while time goes on and minds change. Session(plan), or Session(instance)."""
+    """A plan that is updated when time passes, robots are late, or the instance changes.
+
+    Session(plan) starts from a Plan, Session(instance) without one.
+    """
 
     def __init__(self, plan):
         self._session = _grove._Session(plan)
 
     @property
     def instance(self):
-        """As it is now, time from 0."""
+        """The current instance, with times counted from 0."""
         return self._session.instance()
 
     @property
     def plan(self):
-        """A valid plan of it; None before the first replan, and where none was found."""
+        """A valid plan of the current instance; None before the first replan(), or if none was found."""
         return self._session.plan()
 
     def advance(self, steps, late=None):
-        """So many steps pass; `late`, {"red": 2}: who is where the plan had it so many steps ago."""
+        """Advances the session by `steps` steps. late, as {"red": 2}: agents that are behind the plan, in steps."""
         self._session.advance(steps, dict(late or {}))
 
     def change(self, new_tasks=(), dropped_tasks=(), blocked=()):
-        """What else is to be done, what no more (ids), and what is closed (cells, vertices)."""
+        """Adds tasks, drops tasks by id, and blocks places: cells, or vertices with all their roads."""
         self._session.change(list(new_tasks), list(dropped_tasks), list(blocked))
 
     def replan(self, *, commit=0, omega=_grove._omega, time_limit=_grove._replan_time_limit,
                memory_limit="auto", threads="auto", deterministic=False, seed=0, method="auto",
                progress=None, incumbent=None, progress_interval=0.1, stop=None):
-        """Solves what is left, from the old plan repaired, to which all keep for `commit` steps.
+        """Solves the current instance, starting from the repaired old plan; returns a Solution.
+
+        commit: number of steps for which all robots keep to the old plan.
 
         The other arguments are those of solve().
         """
@@ -226,10 +238,10 @@ class Session:
             "progress_interval": progress_interval, "stop": stop})
 
 
-# --- looking at plans ---
+# --- Displaying plans ---
 
 def visits(plan):
-    """What is done when: (agent, task, begin, end), in steps; end is begin where it takes no time."""
+    """Lists all visits as (agent, task, begin, end), in steps; end is begin for a task without duration."""
     cells = {task["id"]: task["cell"] for task in plan.instance.tasks}
     cells = {task: cell if isinstance(cell, str) else tuple(cell) for task, cell in cells.items()}
     rows = []
@@ -247,7 +259,7 @@ def visits(plan):
 
 
 def data_frame(plan):
-    """A pandas.DataFrame of a plan: a row for each agent and time, with x and y."""
+    """Returns a pandas.DataFrame with a row for each agent and time: agent, time, x, y, and heading if agents turn."""
     import pandas
 
     positions = plan.positions()
@@ -266,10 +278,10 @@ def data_frame(plan):
 
 
 class View:
-    """A page that plays plans: shown by notebooks, or written to a file by save().
+    """An HTML page that plays plans. Notebooks show it; save() writes it to a file.
 
-    html: its text.
-    height: in pixels, within a notebook.
+    html: the text of the page.
+    height: height in a notebook, pixels.
     """
 
     def __init__(self, html, height):
@@ -277,7 +289,7 @@ class View:
         self.height = height
 
     def save(self, path):
-        """Writes the page, whole or not at all: one file that needs nothing beside it."""
+        """Writes the page atomically, as one file that needs no other files."""
         _grove._write_file(path, self.html.encode())
 
     def _repr_html_(self):
@@ -289,16 +301,16 @@ class View:
 
 
 def view(*plans, title="plan", height=600):
-    """A page that plays a Plan or Solution, or two of one instance side by side.
+    """Returns a View that plays a Plan or Solution, or two of one instance side by side.
 
-    The last value of a notebook's cell, it is shown there. An Instance is shown as it starts.
+    An Instance is shown at its start. A notebook shows the View if it is the last value of a cell.
     """
     if not 1 <= len(plans) <= 2:
         raise InvalidArgument(f"{len(plans)} plans; expected one or two")
     wrong = [plan for plan in plans[isinstance(plans[0], Instance):] if not isinstance(plan, (Plan, Solution))]
     if wrong or (isinstance(plans[0], Instance) and len(plans) > 1):
         raise InvalidArgument(f"found {', '.join(type(plan).__name__ for plan in plans)}; expected one or two "
-                              "of Plan and Solution, or an Instance alone")
+                              "of Plan and Solution, or a single Instance")
     if isinstance(plans[0], Instance):
         return View(_grove._page(plans[0], title, []), height)
     solutions = [(f"plan {i + 1}" if len(plans) > 1 else title, plan) for i, plan in enumerate(plans)]
@@ -306,7 +318,13 @@ def view(*plans, title="plan", height=600):
 
 
 def picture(plan, path, *, at=(0,), width=800, speed=4.0):
-    """Writes a picture: .svg and .png of the moments `at`, .gif of all, `speed` steps a second."""
+    """Writes a picture of a Plan, Solution or Instance.
+
+    path: *.svg, *.png or *.gif.
+    at: times shown by .svg and .png, in steps. A .gif shows all times.
+    width: pixels.
+    speed: of a .gif, steps per second.
+    """
     kind = _os.path.splitext(_os.fspath(path))[1][1:].lower()
     if kind not in ("svg", "png", "gif"):
         raise InvalidArgument(f"{path}: expected a name that ends in .svg, .png or .gif")

@@ -40,13 +40,13 @@ struct Access {
     return instance.data_->instance;
   }
   // Returns the public instance that a user would have made.
-  static Instance told(detail::Instance instance);
+  static Instance to_public(detail::Instance instance);
 };
 
 // --- places; `field`: JSON Pointer for InvalidArgument ---
 
 detail::Place place_of(const detail::Map& map, const Place& place, const std::string& field);
-Place told_place(const detail::Map& map, detail::Place place);
+Place public_place(const detail::Map& map, detail::Place place);
 // For an agent with this motion.
 detail::Pose pose_of(const detail::Map& map, detail::Motion motion, const Pose& pose,
                      const std::string& field);
@@ -58,7 +58,7 @@ detail::Plan plan_of(const detail::Instance& instance, const Plan& plan);
 // Throws InvalidArgument with `field` and the reason if the plan is invalid.
 detail::Plan valid_plan_of(const detail::Instance& instance, const Plan& plan,
                            const std::string& field);
-Plan told_plan(const detail::Instance& instance, const detail::Plan& plan);
+Plan public_plan(const detail::Instance& instance, const detail::Plan& plan);
 detail::Solution solution_of(const detail::Instance& instance, const Solution& solution);
 Solution told_solution(const detail::Instance& instance, const detail::Solution& solution);
 

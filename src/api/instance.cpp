@@ -16,7 +16,7 @@ namespace {
 detail::Heading heading_of(Heading heading) {
   return static_cast<detail::Heading>(heading);
 }
-Heading told_heading(detail::Heading heading) {
+Heading public_heading(detail::Heading heading) {
   return static_cast<Heading>(heading);
 }
 
@@ -64,20 +64,20 @@ Agent told_agent(const detail::Instance& instance, detail::AgentIndex index) {
   Agent agent{.id = spec.id,
               .start = told_pose(map, spec.motion, spec.start),
               .turn_steps = spec.motion.turn_steps};
-  if (spec.goal) agent.goal = told_place(map, *spec.goal);
-  if (spec.goal_heading) agent.goal_heading = told_heading(*spec.goal_heading);
+  if (spec.goal) agent.goal = public_place(map, *spec.goal);
+  if (spec.goal_heading) agent.goal_heading = public_heading(*spec.goal_heading);
   if (spec.working) agent.working = WorkBegun{spec.working->task, spec.working->done};
   return agent;
 }
 
 Task told_task(const detail::Instance& instance, const detail::Task& task) {
-  Task told{.id = task.id,
-            .place = told_place(instance.map(), task.cell),
-            .agents = {},
-            .duration = task.duration};
+  Task to_public{.id = task.id,
+                 .place = public_place(instance.map(), task.cell),
+                 .agents = {},
+                 .duration = task.duration};
   for (const detail::AgentIndex agent : task.agents)
-    told.agents.push_back(instance.agent(agent).id);
-  return told;
+    to_public.agents.push_back(instance.agent(agent).id);
+  return to_public;
 }
 
 detail::InputRules rules_of(const Trust& trust) {
@@ -89,12 +89,12 @@ detail::InputRules rules_of(const Trust& trust) {
 Instance loaded(detail::LoadedInstance read, std::vector<std::string>* warnings) {
   if (warnings != nullptr)
     warnings->insert(warnings->end(), read.warnings.begin(), read.warnings.end());
-  return Access::told(std::move(read.instance));
+  return Access::to_public(std::move(read.instance));
 }
 
 }  // namespace
 
-Instance Access::told(detail::Instance instance) {
+Instance Access::to_public(detail::Instance instance) {
   std::vector<Agent> agents;
   for (detail::AgentIndex i = 0; i < instance.agent_count(); ++i)
     agents.push_back(told_agent(instance, i));
@@ -129,32 +129,32 @@ detail::Pose pose_of(const detail::Map& map, detail::Motion motion, const Pose& 
   detail::Pose made{.place = place_of(map, pose.place, field)};
   if (motion.turn_steps == 0) {
     if (pose.heading || pose.turning_to || pose.turn_steps_done != 0)
-      throw InvalidArgument(field, "has a heading; expected none of a robot without turn_steps");
+      throw InvalidArgument(field, "found a heading; expected none for a robot without turn_steps");
     return made;
   }
   if (!pose.heading)
-    throw InvalidArgument(field, "has no heading; expected one of a robot with turn_steps");
+    throw InvalidArgument(field, "found no heading; expected one for a robot with turn_steps");
   made.heading = made.to = heading_of(*pose.heading);
   if (!pose.turning_to) return made;
   made.to = heading_of(*pose.turning_to);
   made.steps = pose.turn_steps_done;
   const bool is_next =
       made.to == detail::right_of(made.heading) || made.to == detail::left_of(made.heading);
-  if (!is_next) throw InvalidArgument(field, "turns to what is not a quarter turn away");
+  if (!is_next) throw InvalidArgument(field, "found a turn that is not a quarter turn");
   if (made.steps < 1 || made.steps >= motion.turn_steps)
-    throw InvalidArgument(field, fmt::format("{} steps of a turn done; expected from 1 to {}",
+    throw InvalidArgument(field, fmt::format("found {} steps of a turn; expected from 1 to {}",
                                              made.steps, motion.turn_steps - 1));
   return made;
 }
 
 Pose told_pose(const detail::Map& map, detail::Motion motion, const detail::Pose& pose) {
-  Pose told{.place = told_place(map, pose.place)};
-  if (motion.turn_steps == 0) return told;
-  told.heading = told_heading(pose.heading);
-  if (pose.steps == 0) return told;
-  told.turning_to = told_heading(pose.to);
-  told.turn_steps_done = pose.steps;
-  return told;
+  Pose to_public{.place = public_place(map, pose.place)};
+  if (motion.turn_steps == 0) return to_public;
+  to_public.heading = public_heading(pose.heading);
+  if (pose.steps == 0) return to_public;
+  to_public.turning_to = public_heading(pose.to);
+  to_public.turn_steps_done = pose.steps;
+  return to_public;
 }
 
 Instance read_instance(const std::filesystem::path& path, std::vector<std::string>* warnings) {
@@ -183,7 +183,7 @@ Instance parse_instance(std::string_view text, const World& world, Rules rules) 
   return translated([&] {
     detail::InstanceBuilder builder(Access::map(world));
     if (!rules.following) builder.forbid_following();
-    return Access::told(detail::parse_instance_on(std::move(builder), text, "the instance"));
+    return Access::to_public(detail::parse_instance_on(std::move(builder), text, "the instance"));
   });
 }
 

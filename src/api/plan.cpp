@@ -30,9 +30,10 @@ std::unordered_map<std::string, detail::TaskIndex> tasks_by_id(const detail::Ins
   return tasks;
 }
 
-std::vector<Violation> told(const std::vector<detail::Violation>& violations) {
+std::vector<Violation> to_public(const std::vector<detail::Violation>& violations) {
   std::vector<Violation> all;
-  for (const detail::Violation& v : violations) all.push_back({v.place, v.message});
+  for (const detail::Violation& v : violations)
+    all.push_back({v.json_pointer, v.message, v.json_pointer});
   return all;
 }
 
@@ -91,15 +92,16 @@ detail::Plan valid_plan_of(const detail::Instance& instance, const Plan& plan,
   solution.plan = plan_of(instance, plan);
   solution.status = detail::status_of(plan.cost, 0, solution.omega);
   const auto wrong = detail::check(instance, solution, 1);
-  if (!wrong.empty()) throw InvalidArgument(field + wrong.front().place, wrong.front().message);
+  if (!wrong.empty())
+    throw InvalidArgument(field + wrong.front().json_pointer, wrong.front().message);
   return *std::move(solution.plan);
 }
 
-Plan told_plan(const detail::Instance& instance, const detail::Plan& plan) {
-  Plan told{.cost = plan.cost, .agents = {}};
+Plan public_plan(const detail::Instance& instance, const detail::Plan& plan) {
+  Plan to_public{.cost = plan.cost, .agents = {}};
   for (detail::AgentIndex i = 0; i < static_cast<int>(plan.agents.size()); ++i) {
     const detail::AgentPlan& own = plan.agents[i];
-    AgentPlan& agent = told.agents.emplace_back();
+    AgentPlan& agent = to_public.agents.emplace_back();
     agent.id = instance.agent(i).id;
     agent.cost = own.cost;
     for (const detail::State state : own.path)
@@ -109,7 +111,7 @@ Plan told_plan(const detail::Instance& instance, const detail::Plan& plan) {
     for (const detail::WorkTime& work : own.work)
       agent.work.push_back({instance.task(work.task).id, work.begin, work.end});
   }
-  return told;
+  return to_public;
 }
 
 detail::Solution solution_of(const detail::Instance& instance, const Solution& solution) {
@@ -126,17 +128,17 @@ detail::Solution solution_of(const detail::Instance& instance, const Solution& s
 }
 
 Solution told_solution(const detail::Instance& instance, const detail::Solution& solution) {
-  Solution told;
-  told.status = static_cast<Status>(solution.status);
-  if (solution.plan) told.plan = told_plan(instance, *solution.plan);
-  told.lower_bound = solution.lower_bound;
-  told.omega = solution.omega.is_infinite() ? std::numeric_limits<double>::infinity()
-                                            : solution.omega.value();
-  told.following = instance.may_follow() && solution.may_follow;
-  told.counts = solution.stats.counts;
-  told.measures = solution.stats.measures;
-  told.texts = solution.stats.texts;
-  return told;
+  Solution to_public;
+  to_public.status = static_cast<Status>(solution.status);
+  if (solution.plan) to_public.plan = public_plan(instance, *solution.plan);
+  to_public.lower_bound = solution.lower_bound;
+  to_public.omega = solution.omega.is_infinite() ? std::numeric_limits<double>::infinity()
+                                                 : solution.omega.value();
+  to_public.following = instance.may_follow() && solution.may_follow;
+  to_public.counts = solution.stats.counts;
+  to_public.measures = solution.stats.measures;
+  to_public.texts = solution.stats.texts;
+  return to_public;
 }
 
 std::vector<Violation> check(const Instance& instance, const Plan& plan, std::size_t limit) {
@@ -148,14 +150,15 @@ std::vector<Violation> check(const Instance& instance, const Solution& solution,
                              std::size_t limit) {
   return translated([&] {
     const detail::Instance& inner = Access::instance(instance);
-    return told(detail::check(inner, solution_of(inner, solution), limit));
+    return to_public(detail::check(inner, solution_of(inner, solution), limit));
   });
 }
 
 Plan plan_from_paths(const Instance& instance, const std::vector<std::vector<Place>>& paths) {
   const detail::Instance& inner = Access::instance(instance);
   if (!detail::paths_are_places(inner))
-    throw InvalidArgument("/agents", "robots turn, or tasks take time; expected neither");
+    throw InvalidArgument("/agents",
+                          "found robots that turn or tasks that take time; expected neither");
   if (static_cast<int>(paths.size()) != inner.agent_count())
     throw InvalidArgument("/agents",
                           fmt::format("{} paths; expected {}", paths.size(), inner.agent_count()));
@@ -167,7 +170,7 @@ Plan plan_from_paths(const Instance& instance, const std::vector<std::vector<Pla
                              fmt::format("/agents/{}/path/{}", made.size() - 1, own.size())));
   }
   return translated(
-      [&] { return told_plan(inner, detail::plan_of_paths(inner, std::move(made))); });
+      [&] { return public_plan(inner, detail::plan_of_paths(inner, std::move(made))); });
 }
 
 Solution read_plan(const std::filesystem::path& path, const Instance& instance) {
@@ -193,7 +196,7 @@ auto refusing_invalid_plans(Act&& act) {
     try {
       return act();
     } catch (const detail::InvalidPlan& error) {
-      throw InvalidArgument(error.violation().place, error.violation().message);
+      throw InvalidArgument(error.violation().json_pointer, error.violation().message);
     }
   });
 }

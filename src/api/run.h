@@ -46,7 +46,7 @@ class Run {
     std::exception_ptr failure;  // thrown by a function of the user
 
    private:
-    Progress told(const detail::Progress& progress) const;
+    Progress to_public(const detail::Progress& progress) const;
     template <class Tell>
     void tell(Tell&& tell);
 

@@ -41,30 +41,30 @@ Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 
 Instance Session::instance() const {
-  return Access::told(impl_->session.instance());
+  return Access::to_public(impl_->session.instance());
 }
 
 std::optional<Plan> Session::plan() const {
   const detail::Session& session = impl_->session;
   if (!session.plan()) return std::nullopt;
-  return told_plan(session.instance(), *session.plan());
+  return public_plan(session.instance(), *session.plan());
 }
 
-void Session::advance(int steps, const std::vector<Late>& late) {
+void Session::advance(int steps, const std::vector<Delay>& late) {
   detail::Session& session = impl_->session;
-  if (!session.plan()) throw InvalidArgument("", "there is no plan to advance by");
+  if (!session.plan()) throw InvalidArgument("", "there is no plan; expected one to advance along");
   if (steps < 0)
     throw InvalidArgument("/steps", fmt::format("found {}; expected at least 0", steps));
-  std::vector<detail::Late> those;
+  std::vector<detail::Delay> those;
   for (std::size_t i = 0; i < late.size(); ++i) {
     const std::string field = fmt::format("/late/{}", i);
     those.push_back({agent_of(session.instance(), late[i].agent, field), late[i].steps});
-    if (late[i].steps < 0) throw InvalidArgument(field, "expected steps, at least 0");
+    if (late[i].steps < 0) throw InvalidArgument(field, "expected at least 0 steps");
   }
   translated([&] {
     try {
       session.advance(steps, those);
-    } catch (const detail::ImpossibleLateness& error) {
+    } catch (const detail::InfeasibleDelay& error) {
       throw InvalidArgument("/late", error.what());
     }
   });
@@ -104,7 +104,7 @@ Solution Session::replan(const Options& options, int commit) {
       return session.solve(search, limits, &observer, commit);
     } catch (const detail::Session::NotCommitted& error) {
       throw InvalidArgument("/commit",
-                            fmt::format("{} can keep to it for {} steps only",
+                            fmt::format("'{}' can follow the old plan only for {} steps",
                                         session.instance().agent(error.agent).id, error.steps));
     }
   };

@@ -29,9 +29,9 @@ void require_numbers(const Options& options) {
     throw InvalidArgument(
         "/threads", fmt::format("found {}; expected from 1 to {}", options.threads, kMostThreads));
   if (options.time_limit && !(*options.time_limit >= 0))
-    throw InvalidArgument("/time_limit", "expected seconds, at least 0");
+    throw InvalidArgument("/time_limit", "expected at least 0 seconds");
   if (!(options.progress_interval >= 0))
-    throw InvalidArgument("/progress_interval", "expected seconds, at least 0");
+    throw InvalidArgument("/progress_interval", "expected at least 0 seconds");
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ void Run::add_facts(detail::Solution& solution) const {
   solution.stats.measures["wall_s"] = std::chrono::duration<double>(Clock::now() - begin_).count();
 }
 
-Progress Run::Observer::told(const detail::Progress& progress) const {
+Progress Run::Observer::to_public(const detail::Progress& progress) const {
   return {.seconds = std::chrono::duration<double>(Clock::now() - begin_).count(),
           .nodes_expanded = progress.nodes_expanded,
           .nodes_open = progress.nodes_open,
@@ -103,7 +103,7 @@ void Run::Observer::tell(Tell&& tell) {
 void Run::Observer::on_incumbent(const detail::Plan& plan, detail::PlanSource /*source*/,
                                  const detail::Progress& progress) {
   if (options_.on_incumbent)
-    tell([&] { options_.on_incumbent(told_plan(instance_, plan), told(progress)); });
+    tell([&] { options_.on_incumbent(public_plan(instance_, plan), to_public(progress)); });
 }
 
 void Run::Observer::on_event(detail::RunEvent event, const detail::Progress& progress) {
@@ -112,7 +112,7 @@ void Run::Observer::on_event(detail::RunEvent event, const detail::Progress& pro
   if (event != detail::RunEvent::kEnd && now < next_) return;
   next_ = now + std::chrono::duration_cast<Clock::duration>(
                     std::chrono::duration<double>(std::min(options_.progress_interval, 1e9)));
-  tell([&] { options_.on_progress(told(progress)); });
+  tell([&] { options_.on_progress(to_public(progress)); });
 }
 
 Solution solve(const Instance& instance, const Options& options) {

@@ -46,9 +46,9 @@ int road_of(const detail::Roadmap& roadmap, const OnRoad& place, const std::stri
                                            vertex_of(roadmap, place.to, field));
   if (place.edge && std::ranges::find(roads, *place.edge) != roads.end()) return *place.edge;
   if (place.edge || roads.size() != 1)
-    throw InvalidArgument(field,
-                          fmt::format("{} roads join {} and {}; expected one, or which by its edge",
-                                      roads.size(), place.from, place.to));
+    throw InvalidArgument(
+        field, fmt::format("{} roads join {} and {}; expected an edge number that selects one",
+                           roads.size(), place.from, place.to));
   return roads.front();
 }
 
@@ -82,9 +82,9 @@ World World::from_rows(const std::vector<std::string>& rows) {
   std::vector<bool> passable;
   for (std::size_t y = 0; y < rows.size(); ++y) {
     if (rows[y].size() != width)
-      throw InvalidArgument(
-          fmt::format("/{}", y),
-          fmt::format("{} characters; expected {}, as in the first row", rows[y].size(), width));
+      throw InvalidArgument(fmt::format("/{}", y),
+                            fmt::format("found {} characters; expected {}, as in the first row",
+                                        rows[y].size(), width));
     for (const char c : rows[y]) {
       passable.push_back(kPassable.find(c) != std::string_view::npos);
       if (!passable.back() && kBlocked.find(c) == std::string_view::npos)
@@ -145,26 +145,26 @@ bool World::passable(Cell cell) const {
 }
 
 std::vector<RoadmapVertex> World::vertices() const {
-  std::vector<RoadmapVertex> told;
+  std::vector<RoadmapVertex> to_public;
   if (const detail::Roadmap* roadmap = roadmap_of(*this))
-    for (const detail::Vertex& v : roadmap->vertices()) told.push_back({v.id, v.at.x, v.at.y});
-  return told;
+    for (const detail::Vertex& v : roadmap->vertices()) to_public.push_back({v.id, v.at.x, v.at.y});
+  return to_public;
 }
 
 std::vector<RoadmapEdge> World::edges() const {
-  std::vector<RoadmapEdge> told;
+  std::vector<RoadmapEdge> to_public;
   if (const detail::Roadmap* roadmap = roadmap_of(*this))
     for (const detail::Road& road : roadmap->roads())
-      told.push_back({roadmap->vertices()[road.from].id, roadmap->vertices()[road.to].id,
-                      road.steps, road.one_way});
-  return told;
+      to_public.push_back({roadmap->vertices()[road.from].id, roadmap->vertices()[road.to].id,
+                           road.steps, road.one_way});
+  return to_public;
 }
 
 detail::Place place_of(const detail::Map& map, const Place& place, const std::string& field) {
   const auto* roadmap = std::get_if<detail::Roadmap>(&map);
   if (const auto* cell = std::get_if<Cell>(&place)) {
     if (roadmap != nullptr)
-      throw InvalidArgument(field, "a cell; expected a vertex of the roadmap");
+      throw InvalidArgument(field, "found a cell; expected a vertex of the roadmap");
     const auto& grid = std::get<detail::Grid>(map);
     if (!grid.contains({cell->x, cell->y}))
       throw InvalidArgument(field, fmt::format("cell {} is outside the map of {} x {}",
@@ -172,13 +172,13 @@ detail::Place place_of(const detail::Map& map, const Place& place, const std::st
     return grid.cell({cell->x, cell->y});
   }
   if (roadmap == nullptr)
-    throw InvalidArgument(field, "a place on a roadmap; expected a cell of the grid");
+    throw InvalidArgument(field, "found a place on a roadmap; expected a cell of the grid");
   if (const auto* vertex = std::get_if<Vertex>(&place))
     return roadmap->place_of_vertex(vertex_of(*roadmap, vertex->id, field));
   return on_road(*roadmap, std::get<OnRoad>(place), field);
 }
 
-Place told_place(const detail::Map& map, detail::Place place) {
+Place public_place(const detail::Map& map, detail::Place place) {
   if (const auto* grid = std::get_if<detail::Grid>(&map)) {
     const detail::Position p = grid->position(place);
     return Cell{p.x, p.y};

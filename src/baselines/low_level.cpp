@@ -23,7 +23,7 @@ std::unique_ptr<AgentPlanner> make_agent_planner(LowLevel low_level, const World
       return std::make_unique<VisitingOrderSearch>(world,
                                                    std::make_unique<TimeIntervalForest>(world));
   }
-  throw std::invalid_argument("no low level");
+  throw std::invalid_argument("unknown low level");
 }
 
 }  // namespace grove::detail

@@ -16,11 +16,11 @@ inline constexpr std::int64_t kExpansionsPerPoll = 512;
 
 // Returns a time from which on the constraints are constant: a cell or move is then either
 // forbidden at this and every later time, or never again.
-inline Time settled_from(std::span<const Constraint> constraints) {
-  Time settled = 0;
+inline Time static_from(std::span<const Constraint> constraints) {
+  Time memory_returned = 0;
   for (const Constraint& c : constraints)
-    settled = std::max(settled, c.end < kNever ? c.end + 1 : c.begin);
-  return settled;
+    memory_returned = std::max(memory_returned, c.end < kNever ? c.end + 1 : c.begin);
+  return memory_returned;
 }
 
 // Returns the slot of `cell` at `time`, -1 if the cell is forbidden then. Only with vertex and edge

@@ -22,7 +22,7 @@ void SpaceTimeLegs::begin(const AgentStops& stops, const SafeIntervals& interval
                           std::span<const Constraint> constraints) {
   stops_ = &stops;
   intervals_ = &intervals;
-  settled_ = settled_from(constraints);
+  static_from_ = static_from(constraints);
 }
 
 Time SpaceTimeLegs::arrival(Cell from, Time time, Target target, const Limits& limits) {
@@ -46,8 +46,8 @@ void SpaceTimeLegs::append(Cell from, Time time, Target target, Path& path) {
 // reached.
 std::int32_t SpaceTimeLegs::find(Cell from, Time time, Target target, const Limits& limits) {
   forget();
-  first_ = std::min(time, settled_);
-  const auto rows = static_cast<std::size_t>(settled_ - first_) + 1;
+  first_ = std::min(time, static_from_);
+  const auto rows = static_cast<std::size_t>(static_from_ - first_) + 1;
   const std::size_t needed = rows * static_cast<std::size_t>(world_.place_count());
   if (needed > kMostLabels) throw std::bad_alloc();
   if (labels_.size() < needed) labels_.resize(needed);

@@ -33,7 +33,7 @@ class SpaceTimeLegs : public Legs {
   void forget();
   Time distance(Cell cell, int goal) const;
   std::int32_t id_of(Cell cell, Time time) const {
-    return (std::min(time, settled_) - first_) * world_.place_count() + cell;
+    return (std::min(time, static_from_) - first_) * world_.place_count() + cell;
   }
   Cell cell_of(std::int32_t id) const { return id % world_.place_count(); }
 
@@ -44,7 +44,7 @@ class SpaceTimeLegs : public Legs {
   // Set by begin().
   const AgentStops* stops_ = nullptr;
   const SafeIntervals* intervals_ = nullptr;
-  Time settled_ = 0;
+  Time static_from_ = 0;
 
   // Of the leg in progress.
   Time first_ = 0;             // time of the first row

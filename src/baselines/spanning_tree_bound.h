@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planning/sequence_stages.h"
-#include "sequencing/sequence_dag.h"
+#include "sequencing/stop_set_index.h"
 
 namespace grove::detail {
 

@@ -42,7 +42,7 @@ void VisitedSetSearch::prepare(const AgentStops& stops, std::span<const Constrai
   stops_ = &stops;
   bound_ = bounds_[agent].get();
   intervals_.assign(constraints);
-  settled_ = settled_from(constraints);
+  static_from_ = static_from(constraints);
   sets_ = {};
   index_ = {};
   labels_.clear();
@@ -71,8 +71,8 @@ void VisitedSetSearch::reach(Cell cell, Time time, StopSet left, std::int32_t pa
   if (const int stop = stops_->stop_at(cell); stop != AgentStops::kNoStop)
     left &= ~(StopSet{1} << stop);
   const std::uint64_t set = sets_.insert(left, static_cast<std::uint32_t>(labels_.size()));
-  const auto row = static_cast<std::uint64_t>(std::min(time, settled_));
-  const auto rows = static_cast<std::uint64_t>(settled_) + 1;
+  const auto row = static_cast<std::uint64_t>(std::min(time, static_from_));
+  const auto rows = static_cast<std::uint64_t>(static_from_) + 1;
   const std::uint64_t key = (set * rows + row) * static_cast<std::uint64_t>(world_.place_count()) +
                             static_cast<std::uint64_t>(cell);
   const auto next = static_cast<std::uint32_t>(labels_.size());

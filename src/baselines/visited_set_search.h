@@ -9,7 +9,7 @@
 #include "baselines/spanning_tree_bound.h"
 #include "planning/bucket_queue.h"
 #include "planning/safe_intervals.h"
-#include "sequencing/sequence_dag.h"
+#include "sequencing/stop_set_index.h"
 
 namespace grove::detail {
 
@@ -48,7 +48,7 @@ class VisitedSetSearch : public BaselineSearch {
   // Of the call in progress.
   const AgentStops* stops_ = nullptr;
   SpanningTreeBound* bound_ = nullptr;
-  Time settled_ = 0;
+  Time static_from_ = 0;
   StopSetIndex sets_;   // numbers of the sets found
   StopSetIndex index_;  // (number of the set, time, cell) as one key: into labels_
   std::vector<Label> labels_;

@@ -10,7 +10,7 @@
 #include "baselines/spanning_tree_bound.h"
 #include "planning/bucket_queue.h"
 #include "planning/safe_intervals.h"
-#include "sequencing/sequence_dag.h"
+#include "sequencing/stop_set_index.h"
 
 namespace grove::detail {
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// An instance of a batch: its id and where its files are.
+// An instance of a batch: its id, where its files are, and its digest.
 #pragma once
 
 #include <string>
 
 #include "io/instance_file.h"
+#include "model/instance.h"
 
 namespace grove::detail::batch {
 
@@ -24,5 +25,11 @@ struct Entry {
 
 // Reads the instance of `entry`. Throws InputError.
 LoadedInstance load(const Entry& entry);
+
+// Detects whether an instance has changed since it was solved: 64 bits, as hexadecimal digits, a
+// hash of fingerprint() and of the ids of agents and tasks, which plans refer to. It does not
+// depend on the location and layout of the files. It detects changes but not deliberate collisions
+// (FNV-1a).
+std::string instance_digest(const Instance& instance);
 
 }  // namespace grove::detail::batch

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "batch/instance_digest.h"
+#include "batch/entry.h"
 #include "io/input_error.h"
 
 namespace grove::detail::batch {
@@ -46,13 +46,14 @@ std::string id_of(const fs::path& path, const fs::path& folder, int agents) {
 
 void EntryCollector::add(Entry entry, const std::string& place) {
   if (one_line(entry.id) != entry.id || entry.id.empty())
-    throw InputError(source_.string(), place,
-                     "the path cannot name files; expected printable UTF-8, at most 400 bytes");
+    throw InputError(
+        source_.string(), place,
+        "the path is not suitable as a file name; expected printable UTF-8, at most 400 bytes");
   std::error_code error;
   const fs::path file = fs::weakly_canonical(entry.path, error);
   require_new(files_, fmt::format("{} {}", file.string(), entry.agents), place,
               "is the same instance as");
-  require_new(ids_, entry.id, place, fmt::format("names its files '{}', as does", entry.id));
+  require_new(ids_, entry.id, place, fmt::format("has the file name '{}', as has", entry.id));
   entry.rules = rules_;
   entry.digest = digest_of(entry);
   entries_.push_back(std::move(entry));
@@ -62,9 +63,9 @@ void EntryCollector::require_new(Places& places, const std::string& key, const s
                                  const std::string& what) const {
   const auto [first, is_new] = places.try_emplace(key, place);
   if (is_new) return;
-  throw InputError(source_.string(), place,
-                   fmt::format("{} {}; expected each instance once, under a name of its own", what,
-                               first->second));
+  throw InputError(
+      source_.string(), place,
+      fmt::format("{} {}; expected distinct instances with distinct names", what, first->second));
 }
 
 }  // namespace grove::detail::batch

@@ -48,7 +48,7 @@ std::vector<Entry> read_folder(const fs::path& folder, const InputRules& rules) 
   }
   if (paths.empty())
     throw InputError(folder.string(), "",
-                     "holds no instance; expected *.cts.json files in it or below");
+                     "has no instance; expected *.cts.json files in it or below");
   std::ranges::sort(paths);
   EntryCollector collector(folder, rules);
   for (const fs::path& path : paths)
@@ -72,7 +72,7 @@ class ManifestReader {
     }
     std::vector<Entry> entries = collector_.take();
     if (entries.empty())
-      throw InputError(path_.string(), "", "lists no instance; expected one path per line");
+      throw InputError(path_.string(), "", "has no instance; expected one path per line");
     return entries;
   }
 
@@ -118,7 +118,7 @@ class ManifestReader {
     const fs::path path = folder_ / fs::path(name);
     std::error_code error;
     if (name.empty() || !fs::exists(path, error) || fs::is_directory(path, error))
-      fail(fmt::format("there is no file {}; expected the path of one, relative to the manifest",
+      fail(fmt::format("there is no file {}; expected a path relative to the manifest",
                        path.string()));
     return path.string();
   }
@@ -143,7 +143,7 @@ std::vector<Entry> read_manifest(const fs::path& manifest_or_folder, const Input
   for (const std::string_view suffix : {".json", ".scen", ".map"})
     if (manifest_or_folder.string().ends_with(suffix))
       throw InputError(manifest_or_folder.string(), "",
-                       "is no manifest; expected a folder, or a text file with the path of an "
+                       "is not a manifest; expected a folder, or a text file with the path of an "
                        "instance on each line");
   return ManifestReader(manifest_or_folder, rules).read();
 }

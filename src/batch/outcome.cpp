@@ -44,7 +44,7 @@ std::string mistake(const Instance& instance, const Solution& solution) {
   }
   const auto violations = check(instance, solution, 1);
   if (violations.empty()) return "";
-  return fmt::format("the plan is wrong: {}: {}", violations[0].place,
+  return fmt::format("the plan is wrong: {}: {}", violations[0].json_pointer,
                      one_line(violations[0].message));
 }
 

@@ -21,11 +21,11 @@ struct TracePoint {
 };
 
 // Statuses in addition to those of a plan file, which were proven and re-checked.
-inline constexpr const char* kError = "error";      // the run failed; it will be repeated
-inline constexpr const char* kWrongPlan = "wrong";  // other solvers: the plan is invalid
-inline constexpr const char* kClaimed = "claimed";  // other solvers: a cost without a plan
-inline constexpr const char* kUnsuitable =
-    "unsuitable";  // the method does not support this instance
+inline constexpr const char* kError = "error";          // the run failed; it will be repeated
+inline constexpr const char* kInvalidPlan = "invalid";  // other solvers: the plan is invalid
+inline constexpr const char* kClaimed = "claimed";      // other solvers: a cost without a plan
+inline constexpr const char* kUnsupported =
+    "unsupported";  // the method does not support this instance
 
 struct Outcome {
   std::string status = kError;  // as in a plan file, or one of the above

@@ -1,17 +1,38 @@
 // SPDX-License-Identifier: MIT
 #include "batch/result_table.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "io/atomic_file.h"
 #include "io/input_error.h"
 #include "io/text_file.h"
 
 namespace grove::detail::batch {
+
+std::vector<std::string_view> whole_lines(std::string_view text) {
+  return split_lines(text.substr(0, text.rfind('\n') + 1));
+}
+
+LineFile::LineFile(std::filesystem::path path)
+    : path_(std::move(path)), file_(path_, O_WRONLY | O_APPEND | O_CREAT) {
+  if (!file_.is_open()) fail_to_write(path_);
+}
+
+void LineFile::append(std::string_view lines) {
+  if (!write_all(file_.get(), lines)) fail_to_write(path_);
+}
+
+void LineFile::flush() {
+  if (::fsync(file_.get()) != 0) fail_to_write(path_);
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -41,7 +62,7 @@ std::string differences(const Run& there, const Run& here, TableOf table) {
   compare("time limit", a.time_limit_s, b.time_limit_s);
   compare("memory limit", limit_text(a.memory_limit_gb), limit_text(b.memory_limit_gb));
   if (table == TableOf::kMethods && there.digest != here.digest)
-    texts.push_back("the instance or its map has changed since");
+    texts.push_back("the instance or its map has changed");
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
@@ -64,8 +85,8 @@ void ResultTable::read() {
       rows_.push_back(parse_json_line(line));
     } catch (const std::invalid_argument& error) {
       throw InputError(file().string(), fmt::format("line {}", number),
-                       fmt::format("expected a row as this version writes them, another folder, or "
-                                   "the line deleted to run it again ({})",
+                       fmt::format("expected a row of this version; use another folder, or delete "
+                                   "the line to repeat the run ({})",
                                    error.what()));
     }
   }
@@ -86,8 +107,8 @@ void ResultTable::require_same(const Row& row, const Run& run) const {
   const std::string found = differences(row.run, run, what_);
   if (found.empty()) return;
   throw InputError(file().string(), "",
-                   fmt::format("holds a row of another run of {} on {} ({}); expected the same, "
-                               "another folder, or that row deleted",
+                   fmt::format("has a row of another run of {} on {} ({}); expected the same run; "
+                               "use another folder, or delete the row",
                                row.run.settings.method, row.run.instance, found));
 }
 

@@ -133,8 +133,15 @@ InstanceFacts facts_of(const nlohmann::json& json) {
           .problem = text_member(json, "problem")};
 }
 
+// Tables of before 0.1 have other words for two statuses.
+std::string current_status(const std::string& status) {
+  if (status == "wrong") return kInvalidPlan;
+  if (status == "unsuitable") return kUnsupported;
+  return status;
+}
+
 Outcome outcome_of(const nlohmann::json& json) {
-  Outcome outcome{.status = json.at("status").get<std::string>(),
+  Outcome outcome{.status = current_status(json.at("status").get<std::string>()),
                   .solved = json.at("solved").get<bool>(),
                   .cost = optional_member<Cost>(json, "cost"),
                   .lower_bound = optional_member<Cost>(json, "lower_bound"),
@@ -155,8 +162,8 @@ Outcome outcome_of(const nlohmann::json& json) {
                   .verify_s = later_member<double>(json, "verify_s"),
                   .proof_bytes = later_member<std::int64_t>(json, "proof_bytes"),
                   .anytime = later_member<bool>(json, "anytime").value_or(false)};
-  constexpr std::array<std::string_view, 4> kWithoutResult{kError, kWrongPlan, kClaimed,
-                                                           kUnsuitable};
+  constexpr std::array<std::string_view, 4> kWithoutResult{kError, kInvalidPlan, kClaimed,
+                                                           kUnsupported};
   const bool has_result = std::ranges::find(kWithoutResult, outcome.status) == kWithoutResult.end();
   if (has_result && !parse_status(outcome.status))
     throw std::invalid_argument(fmt::format("status '{}'", outcome.status));

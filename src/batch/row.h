@@ -10,8 +10,8 @@
 //     solved                         the run ended by itself, before any limit, with a re-checked
 //                                    plan; anytime: it had a plan in time
 //     status                         as in the plan file; or "error": it crashed, or Grove's plan
-//                                    is invalid; or "unsuitable": the method does not support the
-//                                    instance; other solvers: "feasible", "wrong" (the plan is
+//                                    is invalid; or "unsupported": the method does not support the
+//                                    instance; other solvers: "feasible", "invalid" (the plan is
 //                                    invalid) or "claimed" (a cost without a plan)
 //     cost                           of the plan that was re-checked
 //     lower_bound, gap               proven by Grove; (cost - lower bound) / lower bound
@@ -29,7 +29,8 @@
 //     memory_limit_gb                missing: limited by the machine
 //     plan_file                      relative to the table's folder; missing: no plan was kept
 //     instance_digest                detects whether an instance has changed
-//     counts                         other counters: "bypasses=2 joint_pairs=77", named as in the
+//     counts                         other counters: "bypasses=2 joint_mdd_nodes=77", named as in
+//     the
 //                                    plan file, without zeros
 //     solver                         adapter of another solver; missing: Grove
 //     claimed_cost, claimed_lower_bound, claimed_s     claims of another solver: plan and time

@@ -71,8 +71,8 @@ fs::path map_of(const fs::path& scenario, const Found& found,
   const auto count = std::distance(first, last);
   if (count == 1) return first->second;
   throw InputError(scenario.string(), fmt::format("line {}", rows.front().line),
-                   fmt::format("{} map{} {} there; expected it beside the scenario, or once in the "
-                               "folder of the scenarios or below",
+                   fmt::format("{} map{} {} there; expected one beside the scenario, or exactly "
+                               "one in the folder of the scenarios or below",
                                count == 0 ? "there is no" : fmt::format("there are {}", count),
                                count == 0 ? "" : "s", name));
 }
@@ -104,15 +104,16 @@ SweptScenarios read_scenarios(const fs::path& place, const ScenarioSweep& sweep,
     return !matches(path.stem().string(), sweep.scenarios);
   });
   if (found.scenarios.empty())
-    throw InputError(place.string(), "",
-                     fmt::format("holds no scenario '{}.scen'; expected some", sweep.scenarios));
+    throw InputError(
+        place.string(), "",
+        fmt::format("has no scenario '{}.scen'; expected at least one", sweep.scenarios));
   std::ranges::stable_sort(found.scenarios, {}, natural);
   std::error_code error;
   EntryCollector collector(place, rules);
   SweptScenarios swept;
   for (const fs::path& scenario : found.scenarios) {
     const auto rows = read_scenario(scenario);
-    if (rows.empty()) throw InputError(scenario.string(), "", "has no rows; expected agents");
+    if (rows.empty()) throw InputError(scenario.string(), "", "has no rows; expected at least one");
     const std::string map = map_of(scenario, found, rows).string();
     for (const int agents : sweep.agents) {
       if (agents > static_cast<int>(rows.size())) {

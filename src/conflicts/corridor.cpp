@@ -43,15 +43,15 @@ struct Traversal {
   Place last;    // the inner place before `end`
 };
 
-bool is_inner(const Corridors& corridors, int chain, Place place) {
-  return corridors.corridor_of(place) == chain;
+bool is_inner(const Corridors& corridors, int corridor, Place place) {
+  return corridors.corridor_of(place) == corridor;
 }
 
 // The traversal of corridor `chain` during which the path is inside at `time`.
-std::optional<Traversal> traversal_at(const World& world, const Corridors& corridors, int chain,
+std::optional<Traversal> traversal_at(const World& world, const Corridors& corridors, int corridor,
                                       const Path& path, Time time) {
   const auto place = [&](Time t) { return world.place(path[t]); };
-  const auto inside = [&](Time t) { return is_inner(corridors, chain, place(t)); };
+  const auto inside = [&](Time t) { return is_inner(corridors, corridor, place(t)); };
   const auto length = static_cast<Time>(path.size());
   if (time < 0 || time >= length || !inside(time)) return std::nullopt;
   Time entry = time;  // the first time inside
@@ -60,7 +60,7 @@ std::optional<Traversal> traversal_at(const World& world, const Corridors& corri
   while (arrival < length && inside(arrival)) ++arrival;
   if (entry == 0 || arrival == length) return std::nullopt;
 
-  const auto places = corridors.places(chain);
+  const auto places = corridors.places(corridor);
   const auto at_front = [&](Place end, Place inner) {
     return end == places.front() && inner == places[1];
   };
@@ -71,20 +71,20 @@ std::optional<Traversal> traversal_at(const World& world, const Corridors& corri
 }
 
 // The traversal that contains `time`, or ends or begins then.
-std::optional<Traversal> traversal_near(const World& world, const Corridors& corridors, int chain,
-                                        const Path& path, Time time) {
+std::optional<Traversal> traversal_near(const World& world, const Corridors& corridors,
+                                        int corridor, const Path& path, Time time) {
   for (const Time t : {time, time - 1, time + 1})
-    if (const auto traversal = traversal_at(world, corridors, chain, path, t)) return traversal;
+    if (const auto traversal = traversal_at(world, corridors, corridor, path, t)) return traversal;
   return std::nullopt;
 }
 
 std::optional<Split> split_on(const Conflict& conflict, std::span<const Path> paths,
-                              const World& world, const Corridors& corridors, int chain) {
-  const auto a = traversal_near(world, corridors, chain, paths[conflict.first], conflict.time);
+                              const World& world, const Corridors& corridors, int corridor) {
+  const auto a = traversal_near(world, corridors, corridor, paths[conflict.first], conflict.time);
   if (!a) return std::nullopt;
-  const auto b = traversal_near(world, corridors, chain, paths[conflict.second], conflict.time);
+  const auto b = traversal_near(world, corridors, corridor, paths[conflict.second], conflict.time);
   if (!b || a->forward == b->forward) return std::nullopt;
-  const auto moves = static_cast<Time>(corridors.places(chain).size()) - 1;
+  const auto moves = static_cast<Time>(corridors.places(corridor).size()) - 1;
   const Time a_last = b->arrival + moves;
   const Time b_last = a->arrival + moves;
   if (a->arrival > a_last || b->arrival > b_last) return std::nullopt;
@@ -105,9 +105,9 @@ std::optional<Split> corridor_split(const Conflict& conflict, std::span<const Pa
       place_at(world, paths[conflict.first], std::max(0, conflict.time - 1)),
       place_at(world, paths[conflict.second], std::max(0, conflict.time - 1))};
   for (Place place : places) {
-    const int chain = corridors.corridor_of(place);
-    if (chain == Corridors::kNoCorridor) continue;
-    if (const auto split = split_on(conflict, paths, world, corridors, chain)) return split;
+    const int corridor = corridors.corridor_of(place);
+    if (corridor == Corridors::kNoCorridor) continue;
+    if (const auto split = split_on(conflict, paths, world, corridors, corridor)) return split;
   }
   return std::nullopt;
 }

@@ -29,10 +29,10 @@ std::optional<Split> target_split(const Conflict& conflict, std::span<const Path
                            : rests(conflict.second) ? conflict.second
                                                     : -1;
   if (agent < 0) return std::nullopt;
-  const auto demand = [&](ConstraintKind kind) {
+  const auto constraint = [&](ConstraintKind kind) {
     return AgentConstraint{agent, {conflict.cell, kNoPlace, 0, conflict.time, kind}};
   };
-  return Split{demand(ConstraintKind::kNoRestBy), demand(ConstraintKind::kRestBy)};
+  return Split{constraint(ConstraintKind::kNoRestBy), constraint(ConstraintKind::kRestBy)};
 }
 
 }  // namespace grove::detail

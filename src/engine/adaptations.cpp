@@ -24,7 +24,7 @@
 #include <utility>
 
 #include "engine/destinations.h"
-#include "engine/stop_text.h"
+#include "model/limits.h"
 
 namespace grove::detail {
 namespace {
@@ -155,7 +155,8 @@ Solution stopped(const SolveOptions& options, const Limits& limits) {
 
 void say_of_destinations_alone(Stats& stats) {
   stats.texts.erase("reason");
-  stats.texts["remark"] = "no plan ends on the tasks chosen; others may";
+  stats.texts["remark"] =
+      "no plan ends on the chosen tasks; plans that end on other tasks may exist";
 }
 
 Solution choose_and_solve(const Instance& instance, const SolveOptions& options,
@@ -168,7 +169,7 @@ Solution choose_and_solve(const Instance& instance, const SolveOptions& options,
     throw std::logic_error("internal error: agents that can rest have nowhere to do so");
 
   told.note(
-      "One task of each agent without a goal is made its goal; the lower bound is for all plans.");
+      "One task of each agent without a goal becomes its goal; the lower bound is for all plans.");
   StageOfB stage(told, instance, *destinations);
   Solution solution = solve(with_destinations(instance, *destinations), options, limits, &stage);
   if (solution.plan)
@@ -180,8 +181,8 @@ Solution choose_and_solve(const Instance& instance, const SolveOptions& options,
   solution.status = status_of(cost, solution.lower_bound, options.omega);
   if (solution.status == Status::kFeasible && !was_stopped(solution))
     solution.stats.texts["remark"] = fmt::format(
-        "within omega of {}, a lower bound for plans that end on the tasks chosen, though not of "
-        "that for all plans",
+        "within omega of {}, the lower bound for plans that end on the chosen tasks, but not of "
+        "the bound for all plans",
         own_bound);
   return solution;
 }
@@ -251,8 +252,8 @@ Solution solve_with_destinations_first(const Instance& instance, const SolveOpti
   Told told(observer);
   const Limits part(limits, kShareOfFirst * limits.seconds_left());
   Solution solution = solve_b(instance, options, part, observer, told);
-  const bool is_settled = is_within_omega(solution) || solution.status == Status::kInfeasible;
-  if (!is_settled && !limits.stop_requested()) {
+  const bool is_final = is_within_omega(solution) || solution.status == Status::kInfeasible;
+  if (!is_final && !limits.stop_requested()) {
     SolveOptions from_there = options;
     from_there.start = solution.plan;
     solution = both(solution, solve_a(instance, from_there, limits, told));

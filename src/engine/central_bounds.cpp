@@ -26,18 +26,18 @@ namespace grove::detail {
 
 std::optional<Plan> CentralBounds::plan_below(Cost cost) const {
   if (cutoff() >= cost) return std::nullopt;
-  return gate_.incumbent();
+  return global_bounds_.incumbent();
 }
 
 void CentralBounds::post(Plan plan, PlanSource source) {
   const std::lock_guard lock(posting_);
   const Cost cost = plan.cost;
-  const Cost before = gate_.incumbent_cost().value_or(cost);
-  if (!gate_.post(std::move(plan))) return;
+  const Cost before = global_bounds_.incumbent_cost().value_or(cost);
+  if (!global_bounds_.post(std::move(plan))) return;
   count(source, before - cost);
-  announcements_.incumbent(*gate_.incumbent(), source);
+  run_events_.incumbent(*global_bounds_.incumbent(), source);
   nodes_.prune(cost);
-  announcements_.event(RunEvent::kIncumbent);
+  run_events_.event(RunEvent::kIncumbent);
 }
 
 void CentralBounds::count(PlanSource source, Cost gain) {
@@ -49,17 +49,17 @@ void CentralBounds::count(PlanSource source, Cost gain) {
 
 void CentralBounds::nodes_changed() {
   const Cost trees = trees_from_;  // before the nodes' bound: see (a)
-  gate_.update(nodes_.bound(), trees);
-  announcements_.bound(gate_.lower_bound());
+  global_bounds_.update(nodes_.bound(), trees);
+  run_events_.bound(global_bounds_.lower_bound());
 }
 
 void CentralBounds::prove(Cost bound, BoundSource by) {
-  announcements_.bound_beside(by, [&] {
-    gate_.update(bound, bound);
-    return gate_.lower_bound();
+  run_events_.bound_beside(by, [&] {
+    global_bounds_.update(bound, bound);
+    return global_bounds_.lower_bound();
   });
-  if (bound >= kInfiniteCost && gate_.proven_infeasible() && !ended_beside_.exchange(true))
-    announcements_.infeasible(kNoJointPlan);
+  if (bound >= kInfiniteCost && global_bounds_.proven_infeasible() && !ended_beside_.exchange(true))
+    run_events_.infeasible(kNoJointPlan);
 }
 
 void CentralBounds::add_counts(Stats& stats) const {
@@ -72,8 +72,8 @@ void CentralBounds::add_counts(Stats& stats) const {
 }
 
 void CentralBounds::resume_at(Cost lower_bound) {
-  gate_.update(lower_bound, lower_bound);
-  announcements_.bound_is_known(lower_bound);
+  global_bounds_.update(lower_bound, lower_bound);
+  run_events_.bound_is_known(lower_bound);
 }
 
 }  // namespace grove::detail

@@ -22,19 +22,19 @@ class CentralBounds : public SharedBounds {
  public:
   // All must outlive this. `trees_from`: lower bound on all trees of the run.
   CentralBounds(const Instance& instance, Omega omega, const Limits& limits, LiveNodes& nodes,
-                RunEvents& announcements, Cost trees_from)
+                RunEvents& run_events, Cost trees_from)
       : limits_(limits),
         nodes_(nodes),
-        announcements_(announcements),
-        gate_(instance, omega),
+        run_events_(run_events),
+        global_bounds_(instance, omega),
         trees_from_(trees_from) {}
 
   bool over() const override {
-    return gate_.finished() || out_of_nodes_ || limits_.stop_requested();
+    return global_bounds_.finished() || out_of_nodes_ || limits_.stop_requested();
   }
-  Cost cutoff() const override { return gate_.incumbent_cost().value_or(kInfiniteCost); }
+  Cost cutoff() const override { return global_bounds_.incumbent_cost().value_or(kInfiniteCost); }
   std::optional<Plan> plan_below(Cost cost) const override;
-  Cost lower_bound() const override { return gate_.lower_bound(); }
+  Cost lower_bound() const override { return global_bounds_.lower_bound(); }
   void post(Plan plan, PlanSource source) override;
   void prove(Cost bound, BoundSource by) override;
   void nodes_changed() override;
@@ -42,11 +42,11 @@ class CentralBounds : public SharedBounds {
   void add_counts(Stats& stats) const;
 
   // For decisions that GlobalBounds makes.
-  const GlobalBounds& gate() const { return gate_; }
+  const GlobalBounds& global_bounds() const { return global_bounds_; }
   // True if infeasibility was proven outside the tree search, for the reason kNoJointPlan.
   bool has_no_joint_plan() const { return ended_beside_; }
   static constexpr std::string_view kNoJointPlan =
-      "everything was searched that the agents can come to together";
+      "the search visited all joint states that the agents can reach";
   // Takes over the lower bound of an earlier run.
   void resume_at(Cost lower_bound);
   // Sets the lower bound on all trees not yet instantiated; kInfiniteCost: there is none. Call
@@ -61,8 +61,8 @@ class CentralBounds : public SharedBounds {
 
   const Limits& limits_;
   LiveNodes& nodes_;
-  RunEvents& announcements_;
-  GlobalBounds gate_;
+  RunEvents& run_events_;
+  GlobalBounds global_bounds_;
   std::atomic<Cost> trees_from_;
   std::atomic<bool> out_of_nodes_{false};
   std::atomic<bool> ended_beside_{false};

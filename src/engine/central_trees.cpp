@@ -16,23 +16,23 @@ constexpr Cost kNoTree = -1;
 }  // namespace
 
 CentralTrees::CentralTrees(const SolveOptions& options, Forest& forest, LiveNodes& nodes,
-                           CentralBounds& ledger, RunEvents& announcements)
+                           CentralBounds& shared_bounds, RunEvents& run_events)
     : options_(options),
       forest_(forest),
       nodes_(nodes),
-      ledger_(ledger),
-      announcements_(announcements),
+      shared_bounds_(shared_bounds),
+      run_events_(run_events),
       last_cost_(kNoTree) {}
 
 void CentralTrees::resume_with(const NodePtr& root) {
   instantiate(root);
   ++count_;
-  ledger_.expect_trees_from(forest_.next_bound());
+  shared_bounds_.expect_trees_from(forest_.next_bound());
 }
 
 void CentralTrees::begin() {
   const std::lock_guard lock(growing_);
-  if (roots_.empty() && !ledger_.over()) grow();
+  if (roots_.empty() && !shared_bounds_.over()) grow();
 }
 
 std::vector<TreeRecord> CentralTrees::records(std::int64_t count) const {
@@ -48,7 +48,7 @@ void CentralTrees::add_counts(Stats& stats) const {
   stats.counts["restarts"] += restarts_;
   stats.counts["roots_generated"] += count_;
   stats.counts["trees_prepared"] += prepared_count_;
-  stats.counts["trees_prepared_in_vain"] += prepared_ ? 1 : 0;
+  stats.counts["trees_prepared_unused"] += prepared_ ? 1 : 0;
   stats.counts["rtsp_calls"] += forest_.rtsp_calls();
 }
 
@@ -64,19 +64,19 @@ void CentralTrees::refill_nodes() {
   if (is_due())
     grow();
   else if (!restart())
-    ledger_.end();
+    shared_bounds_.end();
 }
 
 // True if a tree is left and Algorithm 4 requires it now.
 bool CentralTrees::is_due() const {
   const Cost last = last_cost_;
-  return ledger_.trees_from() < kInfiniteCost &&
-         ledger_.gate().needs_new_tree(nodes_.bound(),
-                                       last == kNoTree ? std::nullopt : std::optional(last));
+  return shared_bounds_.trees_from() < kInfiniteCost &&
+         shared_bounds_.global_bounds().needs_new_tree(
+             nodes_.bound(), last == kNoTree ? std::nullopt : std::optional(last));
 }
 
 void CentralTrees::instantiate(const NodePtr& root) {
-  announcements_.root(root);
+  run_events_.root(root);
   if (options_.proof != nullptr) log_proof(*root);
   roots_.push_back(root);
   last_cost_ = root->cost();
@@ -94,21 +94,21 @@ void CentralTrees::grow() {
   const bool has_root = prepared_ != nullptr;
   if (has_root) {
     instantiate(prepared_);
-    if (!ledger_.gate().prunes(prepared_->bound())) nodes_.push(prepared_);
+    if (!shared_bounds_.global_bounds().prunes(prepared_->bound())) nodes_.push(prepared_);
     ++count_;
   }
-  ledger_.expect_trees_from(forest_.next_bound());
+  shared_bounds_.expect_trees_from(forest_.next_bound());
   prepared_ = nullptr;
   preparing_ = false;
-  ledger_.nodes_changed();
-  if (has_root) announcements_.event(RunEvent::kTree);
+  shared_bounds_.nodes_changed();
+  if (has_root) run_events_.event(RunEvent::kTree);
 }
 
 // Only the trees of policy kFixed are prepared: making one solves sequencing problems and plans a
 // path for each agent.
 bool CentralTrees::claim_preparation() {
   const bool wanted = options_.policy == Policy::kFixed && !options_.omega.is_infinite() &&
-                      ledger_.trees_from() < kInfiniteCost && !ledger_.over();
+                      shared_bounds_.trees_from() < kInfiniteCost && !shared_bounds_.over();
   return wanted && !preparing_.exchange(true);
 }
 
@@ -116,7 +116,7 @@ bool CentralTrees::claim_preparation() {
 void CentralTrees::prepare_tree() {
   const std::unique_lock lock(growing_, std::try_to_lock);
   if (lock && (prepared_ || (prepared_ = forest_.next_root()))) {
-    ledger_.expect_trees_from(std::min(prepared_->bound(), forest_.next_bound()));
+    shared_bounds_.expect_trees_from(std::min(prepared_->bound(), forest_.next_bound()));
     ++prepared_count_;
   } else {
     preparing_ = false;
@@ -129,17 +129,17 @@ void CentralTrees::prepare_tree() {
 bool CentralTrees::restart() {
   const Cost proven = nodes_.evicted_bound();
   if (proven == kInfiniteCost || options_.omega.is_infinite()) return false;
-  if (ledger_.trees_from() < proven) {
+  if (shared_bounds_.trees_from() < proven) {
     grow();
     return true;
   }
-  if (proven <= begun_anew_at_) return false;
-  begun_anew_at_ = proven;
+  if (proven <= restarted_at_) return false;
+  restarted_at_ = proven;
   ++restarts_;
   std::vector<NodePtr> roots;
   for (const NodePtr& root : roots_) {
-    announcements_.root(root);
-    if (!ledger_.gate().prunes(root->bound())) roots.push_back(root);
+    run_events_.root(root);
+    if (!shared_bounds_.global_bounds().prunes(root->bound())) roots.push_back(root);
   }
   nodes_.restart(roots, proven);
   return true;

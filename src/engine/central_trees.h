@@ -10,8 +10,8 @@
 #include "engine/central_bounds.h"
 #include "engine/live_nodes.h"
 #include "engine/run_events.h"
+#include "engine/shared_search.h"
 #include "engine/solve.h"
-#include "engine/tree_source.h"
 #include "search/forest.h"
 #include "search/tree_record.h"
 
@@ -22,8 +22,8 @@ namespace grove::detail {
 class CentralTrees : public TreeSource {
  public:
   // All must outlive this.
-  CentralTrees(const SolveOptions& options, Forest& forest, LiveNodes& nodes, CentralBounds& ledger,
-               RunEvents& announcements);
+  CentralTrees(const SolveOptions& options, Forest& forest, LiveNodes& nodes,
+               CentralBounds& shared_bounds, RunEvents& run_events);
 
   // Call first, on one thread. resume_with(): adds one tree of an earlier run, after the forest has
   // made the same tree and before its nodes are pushed. begin(): then instantiates the first tree
@@ -53,13 +53,13 @@ class CentralTrees : public TreeSource {
   const SolveOptions& options_;
   Forest& forest_;  // under growing_
   LiveNodes& nodes_;
-  CentralBounds& ledger_;
-  RunEvents& announcements_;
+  CentralBounds& shared_bounds_;
+  RunEvents& run_events_;
 
   mutable std::mutex growing_;  // guards the forest and what follows
   std::vector<NodePtr> roots_;  // by the number of the tree
   NodePtr prepared_;            // root of the next tree if prepared, else null
-  Cost begun_anew_at_ = -1;     // evicted_bound() at the last restart; -1: none
+  Cost restarted_at_ = -1;      // evicted_bound() at the last restart; -1: none
   std::int64_t restarts_ = 0;
 
   std::atomic<Cost> last_cost_;  // of the tree instantiated last

@@ -202,7 +202,8 @@ class CheckpointReader::Blocks {
     const std::uint64_t length = number_in(std::string_view(head).substr(4));
     // Check the length first: no checksum covers it yet.
     if (length > left() || left() - length < kChecksumBytes)
-      refuse(fmt::format("announces {} bytes more; expected at most the {} left", length, left()));
+      refuse(fmt::format("has a block of {} bytes; expected at most {}, the bytes left", length,
+                         left()));
     block.content = read(length);
     checksum_ = checksum(checksum(checksum_, head), block.content);
     if (const std::uint64_t found = number_in(read(kChecksumBytes)); found != checksum_)
@@ -234,7 +235,8 @@ class CheckpointReader::Blocks {
   void read_opening() {
     const std::string magic = read(std::min<std::uint64_t>(kMagic.size(), left()));
     if (magic != kMagic)
-      refuse_file(fmt::format("is no checkpoint: begins with '{}'; expected '{}'", magic, kMagic));
+      refuse_file(
+          fmt::format("is not a checkpoint: begins with '{}'; expected '{}'", magic, kMagic));
     const std::uint64_t version = number_in(read(4));
     if (version != kVersion)
       refuse_file(fmt::format("is a checkpoint of format version {}; expected version {}", version,
@@ -247,7 +249,7 @@ class CheckpointReader::Blocks {
     std::string bytes(size, '\0');
     const std::size_t read = std::fread(bytes.data(), 1, bytes.size(), file_.get());
     if (std::ferror(file_.get()) != 0) fail_to_read(path_);
-    if (read != size) refuse("became shorter while it was read");
+    if (read != size) refuse("became shorter during reading");
     offset_ += size;
     return bytes;
   }
@@ -270,7 +272,7 @@ CheckpointReader::~CheckpointReader() = default;
 
 void CheckpointReader::read_header(std::uint64_t fingerprint, Policy policy) {
   const Blocks::Block block = blocks_->next();
-  if (block.kind != kHead) blocks_->refuse("begins with no head");
+  if (block.kind != kHead) blocks_->refuse("has no head");
   auto head = blocks_->value<Head>(block.content);
   if (head.fingerprint != fingerprint)
     blocks_->refuse_file(
@@ -295,11 +297,11 @@ void CheckpointReader::read_header(std::uint64_t fingerprint, Policy policy) {
 void CheckpointReader::read_trees(std::uint64_t count) {
   while (header_.trees.size() < count) {
     const Blocks::Block block = blocks_->next();
-    if (block.kind != kTrees) blocks_->refuse("lacks trees");
+    if (block.kind != kTrees) blocks_->refuse("has too few trees");
     for (TreeRecord& tree : blocks_->value<std::vector<TreeRecord>>(block.content))
       header_.trees.push_back(std::move(tree));
   }
-  if (header_.trees.size() != count) blocks_->refuse("has more trees than it announces");
+  if (header_.trees.size() != count) blocks_->refuse("has more trees than its head states");
 }
 
 std::optional<NodeRecord> CheckpointReader::next() {
@@ -308,7 +310,7 @@ std::optional<NodeRecord> CheckpointReader::next() {
     if (block.kind == kEnd) {
       read_end(block.content);
     } else {
-      if (block.kind != kNodes) blocks_->refuse("holds a block of no known kind");
+      if (block.kind != kNodes) blocks_->refuse("has a block of unknown kind");
       nodes_ = blocks_->value<std::vector<NodeRecord>>(block.content);
       nodes_read_ += nodes_.size();
       next_ = 0;
@@ -316,7 +318,7 @@ std::optional<NodeRecord> CheckpointReader::next() {
   }
   if (next_ == nodes_.size()) return std::nullopt;
   NodeRecord& node = nodes_[next_++];
-  if (node.tree >= header_.trees.size()) blocks_->refuse("holds a node of no tree");
+  if (node.tree >= header_.trees.size()) blocks_->refuse("has a node without a tree");
   return std::move(node);
 }
 
@@ -325,7 +327,7 @@ void CheckpointReader::read_end(std::string_view content) {
   if (count != nodes_read_)
     blocks_->refuse(fmt::format("holds {} nodes; expected {}", nodes_read_, count));
   if (blocks_->left() != 0)
-    blocks_->refuse(fmt::format("is followed by {} bytes; expected none", blocks_->left()));
+    blocks_->refuse(fmt::format("has {} bytes after its end; expected none", blocks_->left()));
   ended_ = true;
 }
 

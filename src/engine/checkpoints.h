@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -34,7 +35,15 @@ class CheckpointTimer {
       : checkpoints_(checkpoints), limits_(limits), last_(limits.now()) {}
 
   // Returns true if a checkpoint is due, and then restarts the interval.
-  bool due();
+  bool due() {
+    if (checkpoints_.directory.empty()) return false;
+    const bool asked = checkpoints_.asked && checkpoints_.asked->exchange(false);
+    const Limits::Clock::time_point now = limits_.now();
+    if (!asked && std::chrono::duration<double>(now - last_).count() < checkpoints_.interval_s)
+      return false;
+    last_ = now;
+    return true;
+  }
 
  private:
   const Checkpoints& checkpoints_;  // both owned by the caller

@@ -3,8 +3,8 @@
 // close most small instances. An instance that is still open then and has few joint states is often
 // one where all agents are in each other's way. There the joint search ends soon, and the tree
 // search perhaps never. It is not known in advance which of the two ends first, so they share the
-// work; joint search may do most_joint units per unit of other work. When it exceeds its memory or
-// has ended, the tree gets all work.
+// work; joint search may do joint_max_share units per unit of other work. When it exceeds its
+// memory or has ended, the tree gets all work.
 #include "engine/joint_scheduler.h"
 
 #include <algorithm>
@@ -12,6 +12,8 @@
 
 namespace grove::detail {
 namespace {
+
+constexpr double kMaxLog2States = 44;  // for instances with at most 2^44 joint states
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;
 
@@ -28,13 +30,13 @@ JointScheduler::JointScheduler(const Instance& instance, const Tuning& tuning, b
       over_(!wanted || instance.agent_count() > EpeaStar::kMostAgents) {}
 
 bool JointScheduler::due() const {
-  if (over_ || others_ < tuning_.joint_begins_work) return false;
-  const auto allowed = tuning_.most_joint * static_cast<double>(others_);
+  if (over_ || others_ < tuning_.joint_start_work) return false;
+  const auto allowed = tuning_.joint_max_share * static_cast<double>(others_);
   return !search_ || static_cast<double>(search_->work()) <= allowed;
 }
 
 Cost JointScheduler::step(Cost cutoff, const Limits& limits) {
-  if (!search_) search_ = EpeaStar::make(instance_, tuning_.joint_bits, most_bytes(limits));
+  if (!search_) search_ = EpeaStar::make(instance_, kMaxLog2States, most_bytes(limits));
   over_ = search_ == nullptr;
   if (over_) return 0;
   auto outcome = EpeaStar::Outcome::kWorking;

@@ -3,10 +3,10 @@
 //
 // The tree begins, because an instance that the tree closes at once needs no other bound. A plan
 // comes next: without an incumbent the bound begins ten times later. With fewer than
-// lagrangian_agents agents the tree gives the better bound, so the Lagrangian bound is not tried.
-// Otherwise it gets its share of the work until it ends: when it promises less than is proven
-// already, or when nothing can be gained any more. A worker that has nothing else to do continues
-// with it in any case.
+// lagrangian_min_agents agents the tree gives the better bound, so the Lagrangian bound is not
+// tried. Otherwise it gets its share of the work until it ends: when it promises less than is
+// proven already, or when nothing can be gained any more. A worker that has nothing else to do
+// continues with it in any case.
 //
 // With several ranks, rank 0 owns the bound, and the other ranks price agents for it. They do so
 // before all other work, because the bound cannot continue without the prices. All ranks have about
@@ -21,8 +21,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::int64_t kPatienceWithoutPlan =
-    10;                          // factor on lagrangian_begins_work without a plan
+constexpr std::int64_t kPatienceWithoutPlan = 10;  // factor on lagrangian_start_work without a plan
 constexpr double kMostHere = 4;  // Lagrangian work per unit of other work, on rank 0
 
 }  // namespace
@@ -32,17 +31,17 @@ void LagrangianScheduler::open(const Instance& instance, const AgentStopsCache& 
   instance_ = &instance;
   keeps_reasons_ = keeps_reasons;
   stops_.emplace(stops);
-  is_over_ = instance.agent_count() < tuning_.lagrangian_agents;
+  is_over_ = instance.agent_count() < tuning_.lagrangian_min_agents;
 }
 
 bool LagrangianScheduler::due(bool has_plan) const {
   if (helps_) return true;
   if (is_over_) return false;
   const std::int64_t others = others_;
-  const std::int64_t begin = tuning_.lagrangian_begins_work * (has_plan ? 1 : kPatienceWithoutPlan);
+  const std::int64_t begin = tuning_.lagrangian_start_work * (has_plan ? 1 : kPatienceWithoutPlan);
   if (others < begin) return false;
   const double here = static_cast<double>(others);
-  return static_cast<double>(own_) <= tuning_.most_lagrangian * here * ranks_ &&
+  return static_cast<double>(own_) <= tuning_.lagrangian_max_share * here * ranks_ &&
          (ranks_ == 1 || static_cast<double>(own_here_) <= kMostHere * here);
 }
 
@@ -72,9 +71,9 @@ LagrangianBound* LagrangianScheduler::bound() const {
   return bound_.get();
 }
 
-std::shared_ptr<const DualSolution> LagrangianScheduler::price_list() const {
+std::shared_ptr<const DualSolution> LagrangianScheduler::dual_solution() const {
   const LagrangianBound* const bound = this->bound();
-  return bound == nullptr ? nullptr : bound->price_list();
+  return bound == nullptr ? nullptr : bound->dual_solution();
 }
 
 bool LagrangianScheduler::has_jobs() const {

@@ -48,7 +48,7 @@ class LagrangianScheduler {
   void log_proof(ProofLog& proof) const;
   // Returns the dual solution for the primal search, or nullptr if there is none yet or another
   // rank owns the bound.
-  std::shared_ptr<const DualSolution> price_list() const;
+  std::shared_ptr<const DualSolution> dual_solution() const;
 
   // Call on rank 0 before the search: `ranks` ranks share it.
   void set_ranks(int ranks) {
@@ -60,7 +60,7 @@ class LagrangianScheduler {
   // Takes the reply of `rank`. Returns the proven lower bound: no plan costs less. Throws
   // std::invalid_argument if `rank` cannot have a request.
   Cost accept(int rank, PricingReply answer);
-  std::int64_t prices_of_ranks() const { return prices_of_ranks_; }
+  std::int64_t remote_pricings() const { return prices_of_ranks_; }
 
   // Call on a rank other than 0: takes a pricing request, which precedes all other work. Throws as
   // RemotePricing::accept().

@@ -42,10 +42,10 @@ void LocalCheckpoints::write() {
   } catch (const InputError& error) {  // the previous one remains; the run continues
     report.failure = error.what();
   } catch (const std::bad_alloc&) {
-    report.failure = "there is no memory left to write it";
+    report.failure = "not enough memory to write it";
   }
   report.seconds = std::chrono::duration<double>(limits_.now() - begin).count();
-  run_.announcements().checkpoint(report);
+  run_.run_events().checkpoint(report);
 }
 
 bool restore(CheckpointReader& checkpoint, const Instance& instance, RunState& run,

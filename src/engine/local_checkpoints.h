@@ -6,7 +6,7 @@
 
 #include "engine/checkpoint.h"
 #include "engine/checkpoints.h"
-#include "engine/local_nodes.h"
+#include "engine/live_nodes.h"
 #include "engine/run_state.h"
 
 namespace grove::detail {

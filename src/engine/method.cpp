@@ -68,16 +68,17 @@ SolveOptions options_of(Method method, SolveOptions options) {
   options.low_level = row_of(method).low_level;
   const bool is_other = options.low_level != LowLevel::kOwn;
   if (is_other && options.policy == Policy::kFixed)
-    refuse(method, "has one tree for all sequences; expected policy free, or none");
+    refuse(method, "has one tree for all sequences; expected policy free, or no policy");
   if (method == Method::kSCbs) {
     if (options.policy == Policy::kFree)
-      refuse(method, "searches the tree of one joint sequence; expected policy fixed, or none");
+      refuse(method,
+             "searches the tree of one joint sequence; expected policy fixed, or no policy");
     options.policy = Policy::kFixed;
     options.omega = Omega::infinite();
   }
   const bool keeps_state = !options.checkpoints.directory.empty() || options.resume != nullptr;
   if (keeps_state && (is_other || is_composed(method)))
-    refuse(method, "keeps no checkpoints; expected none to be asked for");
+    refuse(method, "does not support checkpoints; expected no checkpoint folder");
   return options;
 }
 
@@ -87,32 +88,26 @@ void require_published_problem(Method method, const Instance& instance) {
   const auto& agents = instance.agents();
   if (instance.motion_world())
     refuse(method,
-           "is for agents that turn freely and tasks that take no time, and here some do not; "
-           "expected another method");
-  if (!instance.world().is_plain())
-    refuse(method,
-           "goes every way in both directions, and here some roads are one way; expected another "
+           "supports only agents that turn freely and tasks without a duration; expected another "
            "method");
+  if (!instance.world().is_plain())
+    refuse(method, "supports only two-way roads; expected another method");
   if (std::ranges::any_of(agents, &Agent::is_idle))
-    refuse(method,
-           "is for agents with something to do, and here some have neither a goal nor a task; "
-           "expected another method");
+    refuse(method, "supports only agents with a goal or a task; expected another method");
   if (std::ranges::any_of(agents, [](const Agent& a) { return a.stops.size() < a.tasks.size(); }))
-    refuse(method,
-           "is for tasks on different cells, and here an agent has several on one; expected "
-           "another method");
+    refuse(method, "supports at most one task of an agent on a cell; expected another method");
 }
 
 void require_fit(Method method, const Instance& instance, const SolveOptions& options) {
   const auto ends_at_a_goal = [](const Agent& agent) { return agent.goal.has_value(); };
   if (is_adaptation(method) && std::ranges::all_of(instance.agents(), ends_at_a_goal))
     refuse(method,
-           "is for agents without a goal (MG-MAPF), and here every agent has one; expected another "
-           "method: CTS-CBS itself is auto with policy fixed");
+           "requires an agent without a goal (MG-MAPF); expected another method (CTS-CBS itself is "
+           "auto with policy fixed)");
   const bool is_published = options.low_level != LowLevel::kOwn || is_adaptation(method);
   if (is_published) require_published_problem(method, instance);
   if (options.start && is_composed(method))
-    refuse(method, "finds its own first plan; expected no plan to start from");
+    refuse(method, "finds its own first plan; expected no start plan");
 }
 
 Solution solve_by(Method method, bool anytime, const Instance& instance,

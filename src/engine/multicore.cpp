@@ -120,12 +120,12 @@ struct Unit {
 // fewer, threads would wait for each other.
 std::vector<Unit> choose_round(std::span<const std::unique_ptr<Worker>> workers) {
   std::vector<Unit> units;
-  std::vector<bool> goes_on(workers.size(), true);
+  std::vector<bool> continues(workers.size(), true);
   for (int i = 0; i < kMostTurnsInARound; ++i)
     for (std::size_t w = 0; w < workers.size(); ++w) {
-      if (!goes_on[w]) continue;
+      if (!continues[w]) continue;
       auto turn = workers[w]->choose();
-      goes_on[w] = turn && turn->job == Worker::WorkItem::Job::kExpand;
+      continues[w] = turn && turn->job == Worker::WorkItem::Job::kExpand;
       if (turn) units.push_back({workers[w].get(), std::move(*turn)});
     }
   // Primal items take longest.
@@ -162,9 +162,9 @@ void run_parallel(std::span<const std::unique_ptr<Worker>> workers, SharedSearch
     const Limits& limits;
     ~AllowWork() { limits.clear_cancel(); }
   } const at_last{limits};
-  WorkerPool crew(shared, limits, between_turns);
+  WorkerPool pool(shared, limits, between_turns);
   ThreadTeam(static_cast<int>(workers.size())).run([&](int thread) {
-    crew.work(*workers[static_cast<std::size_t>(thread)]);
+    pool.work(*workers[static_cast<std::size_t>(thread)]);
   });
 }
 

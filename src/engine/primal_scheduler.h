@@ -10,7 +10,7 @@ namespace grove::detail {
 
 struct TreeOutlook {
   bool is_behind = false;     // more is proven outside the tree search than by it
-  bool gap_is_large = false;  // the gap exceeds far_plan
+  bool gap_is_large = false;  // the gap exceeds large_gap
 };
 
 // Counts work, not seconds, so that a run is repeatable. The rule is at the head of the .cpp. One
@@ -21,7 +21,7 @@ class PrimalScheduler {
 
   // Adds `work` units of tree work, in the units of PrimalSearch::work().
   void add_tree_work(std::int64_t work, TreeOutlook outlook = {});
-  // True once the tree has done tree_begins_work.
+  // True once the tree has done enough work (kPrimalStartWork).
   bool may_begin() const;
   // True if the next work item is the primal search's.
   bool due(const PrimalSearch& primal) const;

@@ -4,11 +4,11 @@
 
 #include <functional>
 #include <mutex>
+#include <span>
 #include <string_view>
 #include <utility>
 
 #include "engine/run_observer.h"
-#include "engine/work_observer.h"
 
 namespace grove::detail {
 

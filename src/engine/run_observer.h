@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Interface to observe a run: for the log, the progress line and tests.
+// Interfaces to observe a run, for the log, the progress line and tests, and its expansions.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
-#include "engine/bound_source.h"
 #include "engine/checkpoints.h"
 #include "engine/run_statistics.h"
+#include "engine/shared_bounds.h"
 #include "model/plan.h"
 #include "primal/plan_source.h"
 #include "search/expander.h"
@@ -105,6 +106,22 @@ class ForwardingObserver : public RunObserver {
 
  private:
   RunObserver& next_;
+};
+
+// Events of node expansion. Base class that does nothing. Thread-safe.
+class WorkObserver {
+ public:
+  WorkObserver() = default;
+  WorkObserver(const WorkObserver&) = delete;
+  WorkObserver& operator=(const WorkObserver&) = delete;
+  virtual ~WorkObserver() = default;
+
+  // `worker` expanded a node, with this result.
+  virtual void expanded(const NodePtr& /*node*/, const Expansion& /*expansion*/, int /*worker*/) {}
+  // These nodes were evicted.
+  virtual void evicted(std::span<const NodePtr> /*nodes*/) {}
+  // A work item was completed.
+  virtual void worked() {}
 };
 
 }  // namespace grove::detail

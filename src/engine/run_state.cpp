@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <string>
 
-#include "engine/stop_text.h"
 #include "io/input_error.h"
 #include "model/fingerprint.h"
+#include "model/limits.h"
 #include "search/sequence_forest.h"
 #include "search/single_tree.h"
 
@@ -38,14 +38,14 @@ RunState::RunState(const Problem& problem, const SolveOptions& options, const Li
       stops_(problem.instance, problem.distances),
       forest_(make_forest(problem, stops_, pool, options, limits)),
       restored_trees_(problem, stops_, pool),
-      announcements_(observer, [this] { return progress(); }),
-      ledger_(problem.instance, options.omega, limits, nodes, announcements_,
-              forest_->next_bound()),
-      trees_(options, *forest_, nodes, ledger_, announcements_) {}
+      run_events_(observer, [this] { return progress(); }),
+      shared_bounds_(problem.instance, options.omega, limits, nodes, run_events_,
+                     forest_->next_bound()),
+      trees_(options, *forest_, nodes, shared_bounds_, run_events_) {}
 
 void RunState::begin() {
-  ledger_.nodes_changed();
-  if (options_.start) ledger_.post(*options_.start, PlanSource::kStart);
+  shared_bounds_.nodes_changed();
+  if (options_.start) shared_bounds_.post(*options_.start, PlanSource::kStart);
   trees_.begin();
 }
 
@@ -55,25 +55,24 @@ std::optional<std::vector<NodePtr>> RunState::restore(const CheckpointHeader& he
   resumed_ = true;
   before_.counters = header.counters;
   before_.seconds = header.seconds;
-  ledger_.resume_at(header.lower_bound);
-  if (header.incumbent) ledger_.post(*header.incumbent, PlanSource::kStart);
-  if (options_.start) ledger_.post(*options_.start, PlanSource::kStart);
+  shared_bounds_.resume_at(header.lower_bound);
+  if (header.incumbent) shared_bounds_.post(*header.incumbent, PlanSource::kStart);
+  if (options_.start) shared_bounds_.post(*options_.start, PlanSource::kStart);
   std::vector<NodePtr> roots;
   for (const TreeRecord& tree : header.trees) {
     const NodePtr same = forest_->next_root();
     if (!same && limits_.stop_requested()) return std::nullopt;
     roots.push_back(restored_trees_.add(tree, static_cast<std::uint32_t>(roots.size())));
     if (!same || !same_sequences(same->tree(), roots.back()->tree()))
-      throw InputError(
-          checkpoint_file(options_.checkpoints.directory).string(), "",
-          "its trees come in another order than they do here; expected the same --rtsp");
+      throw InputError(checkpoint_file(options_.checkpoints.directory).string(), "",
+                       "its trees have another order than in this run; expected the same --rtsp");
     trees_.resume_with(roots.back());
   }
   return roots;
 }
 
 void RunState::restored() {
-  ledger_.nodes_changed();
+  shared_bounds_.nodes_changed();
   trees_.begin();
 }
 
@@ -81,8 +80,8 @@ CheckpointHeader RunState::checkpoint_header(std::int64_t trees, Cost evicted_bo
   CheckpointHeader header;
   header.fingerprint = fingerprint(instance_);
   header.policy = options_.policy == Policy::kFixed ? Policy::kFixed : Policy::kFree;
-  header.incumbent = ledger_.gate().incumbent();
-  header.lower_bound = ledger_.lower_bound();
+  header.incumbent = shared_bounds_.global_bounds().incumbent();
+  header.lower_bound = shared_bounds_.lower_bound();
   header.evicted_bound = evicted_bound;
   header.trees_instantiated = trees;
   header.trees = trees_.records(trees);
@@ -99,30 +98,31 @@ std::int64_t RunState::nodes_before() const {
 
 Progress RunState::progress() const {
   const LiveNodes::Counts counts = nodes_.counts();
-  return {counts.expanded, counts.open, trees_.count(), ledger_.lower_bound(),
-          ledger_.gate().incumbent_cost()};
+  return {counts.expanded, counts.open, trees_.count(), shared_bounds_.lower_bound(),
+          shared_bounds_.global_bounds().incumbent_cost()};
 }
 
 Solution RunState::conclude() const {
-  const GlobalBounds& gate = ledger_.gate();
+  const GlobalBounds& global_bounds = shared_bounds_.global_bounds();
   Solution solution;
   solution.omega = options_.omega;
-  solution.plan = gate.incumbent();
-  solution.lower_bound = gate.lower_bound();
-  solution.status = status_of(gate.incumbent_cost(), solution.lower_bound, solution.omega);
-  if (gate.proven_infeasible()) {
+  solution.plan = global_bounds.incumbent();
+  solution.lower_bound = global_bounds.lower_bound();
+  solution.status = status_of(global_bounds.incumbent_cost(), solution.lower_bound, solution.omega);
+  if (global_bounds.proven_infeasible()) {
     solution.status = Status::kInfeasible;
     solution.lower_bound = 0;
-    if (ledger_.has_no_joint_plan()) solution.stats.texts["reason"] = CentralBounds::kNoJointPlan;
+    if (shared_bounds_.has_no_joint_plan())
+      solution.stats.texts["reason"] = CentralBounds::kNoJointPlan;
   }
   trees_.add_counts(solution.stats);
-  ledger_.add_counts(solution.stats);
+  shared_bounds_.add_counts(solution.stats);
   if (resumed_) {
     solution.stats.counts["nodes_expanded_before"] = nodes_before();
     solution.stats.measures["seconds_before"] = before_.seconds;
   }
   // A limit reached after the search had ended changed nothing.
-  if (!gate.finished()) {
+  if (!global_bounds.finished()) {
     const std::string stop = stop_text(limits_.reason());
     const bool evicted = nodes_.evicted_bound() < kInfiniteCost;
     solution.stats.texts["stopped_by"] = !stop.empty() ? stop

@@ -29,10 +29,10 @@ class RunState {
            RunObserver& observer, NodePool& pool, LiveNodes& nodes);
 
   // For the threads that expand nodes. Thread-safe.
-  CentralBounds& ledger() { return ledger_; }
-  const CentralBounds& ledger() const { return ledger_; }
+  CentralBounds& shared_bounds() { return shared_bounds_; }
+  const CentralBounds& shared_bounds() const { return shared_bounds_; }
   CentralTrees& trees() { return trees_; }
-  RunEvents& announcements() { return announcements_; }
+  RunEvents& run_events() { return run_events_; }
   // The agents' stops as cached while the first tree was made; initial cache of the workers.
   const AgentStopsCache& stops() const { return stops_; }
 
@@ -50,7 +50,7 @@ class RunState {
   CheckpointHeader checkpoint_header(std::int64_t trees, Cost evicted_bound);
   // Call after all workers have stopped. end() reports the end to the observer. conclude() returns
   // the solution with the counts of the trees.
-  void end() { announcements_.event(RunEvent::kEnd); }
+  void end() { run_events_.event(RunEvent::kEnd); }
   Solution conclude() const;
 
  private:
@@ -64,8 +64,8 @@ class RunState {
   AgentStopsCache stops_;  // used by the forest
   const std::unique_ptr<Forest> forest_;
   Trees restored_trees_;
-  RunEvents announcements_;
-  CentralBounds ledger_;
+  RunEvents run_events_;
+  CentralBounds shared_bounds_;
   CentralTrees trees_;
 
   const Limits::Clock::time_point started_ = limits_.now();

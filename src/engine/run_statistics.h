@@ -34,7 +34,7 @@ struct RankStatistics {
   std::optional<Cost> bound;  // nullopt: the rank holds no node
   std::int64_t memory = 0;    // bytes, of the process
   std::int64_t low_level_calls = 0;
-  std::int64_t prices_asked = 0;
+  std::int64_t branching_cost_queries = 0;
 };
 
 struct RunStatistics {
@@ -43,10 +43,20 @@ struct RunStatistics {
   int rank_count = 0;                   // 0: a single process
 };
 
-// Adds counts and bytes; copies the entries of `part.ranks`.
-void add(const RunStatistics& part, RunStatistics& sum);
-
 // Adds counts and bytes.
-void add(const ProcessStatistics& part, ProcessStatistics& sum);
+inline void add(const ProcessStatistics& part, ProcessStatistics& sum) {
+  for (const auto& [name, count] : part.counts) sum.counts[name] += count;
+  sum.memory.process += part.memory.process;
+  sum.memory.nodes += part.memory.nodes;
+  sum.memory.prices += part.memory.prices;
+  sum.memory.path_sets += part.memory.path_sets;
+  sum.memory.groups += part.memory.groups;
+}
+
+// Adds counts and bytes; copies the entries of `part.ranks`.
+inline void add(const RunStatistics& part, RunStatistics& sum) {
+  add(part.whole, sum.whole);
+  for (const auto& [rank, survey] : part.ranks) sum.ranks[rank] = survey;
+}
 
 }  // namespace grove::detail

@@ -85,10 +85,10 @@ class GuardedInput : public cereal::InputArchive<GuardedInput, cereal::AllowEmpt
     std::uint64_t number = 0;
     for (int shift = 0;; shift += 7) {
       const std::uint8_t byte = get();
-      require(shift < kLastShift || byte <= 1, "a number of too many bits");
+      require(shift < kLastShift || byte <= 1, "found a number with too many bits");
       number |= std::uint64_t{byte & 0x7Fu} << shift;
       if (byte >= 0x80) continue;
-      require(byte > 0 || shift == 0, "a number longer than need be");
+      require(byte > 0 || shift == 0, "found a number that is longer than necessary");
       return number;
     }
   }
@@ -135,7 +135,7 @@ void CEREAL_LOAD_FUNCTION_NAME(GuardedInput& in, T& value) {
     const std::uint64_t unfolded =
         std::is_signed_v<T> ? number >> 1 ^ (std::uint64_t{0} - (number & 1)) : number;
     value = static_cast<T>(unfolded);
-    in.require(static_cast<std::uint64_t>(value) == unfolded, "a number of too many bits");
+    in.require(static_cast<std::uint64_t>(value) == unfolded, "found a number with too many bits");
   }
 }
 
@@ -163,7 +163,7 @@ void CEREAL_SAVE_FUNCTION_NAME(BytesOutput& out, const cereal::SizeTag<T>& tag) 
 template <class T>
 void CEREAL_LOAD_FUNCTION_NAME(GuardedInput& in, cereal::SizeTag<T>& tag) {
   tag.size = in.get_number();
-  in.require(tag.size <= in.left(), "more items are announced than there are bytes left");
+  in.require(tag.size <= in.left(), "found a number of items above the number of bytes left");
 }
 
 // `size` is the size of all items in bytes.
@@ -185,7 +185,7 @@ void serialize(Archive& archive, Constraint& c) {
   archive(c.cell, c.from, c.begin, c.end, kind);
   const auto known = constraint_kind(kind);
   if (!known || is_about_sequence({.kind = *known}))
-    throw cereal::Exception("a constraint of no known kind");
+    throw cereal::Exception("unknown kind of constraint");
   c.kind = *known;
 }
 
@@ -251,7 +251,7 @@ T from_bytes(std::string_view bytes) try {
   GuardedInput in(bytes);
   T value;
   in(value);
-  in.require(in.left() == 0, "more bytes than belong to it");
+  in.require(in.left() == 0, "found more bytes than expected");
   return value;
 } catch (const cereal::Exception& error) {
   throw std::invalid_argument(error.what());

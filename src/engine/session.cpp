@@ -63,7 +63,7 @@ class WholePlans : public ForwardingObserver {
       solution.status = Status::kUnknown;
       solution.stats.texts["reason"] =
           "the committed steps leave no plan where agents without a destination end as in the old "
-          "plan; fewer committed steps may";
+          "plan; fewer committed steps may leave one";
     }
     return solution;
   }
@@ -207,13 +207,13 @@ class Session::Impl {
   const Instance& instance() const { return instance_; }
   const std::optional<Plan>& plan() const { return plan_; }
 
-  void advance(Time steps, std::span<const Late> late) {
+  void advance(Time steps, std::span<const Delay> late) {
     GROVE_ASSERT(plan_, "time goes on by a plan");
     const bool is_anyone_late =
-        std::ranges::any_of(late, [](const Late& l) { return l.steps != 0; });
+        std::ranges::any_of(late, [](const Delay& l) { return l.steps != 0; });
     const Plan driven =
         is_anyone_late
-            ? late_plan(instance_, *plan_, ActionDependencyGraph(instance_, *plan_), steps, late)
+            ? delayed_plan(instance_, *plan_, ActionDependencyGraph(instance_, *plan_), steps, late)
             : *plan_;
     Remainder rest =
         grove::detail::advance(instance_, driven, steps, Rests::kAnywhere, ends_with_plan_);
@@ -256,7 +256,7 @@ class Session::Impl {
     FirstSearch first(observer);
     Solution solution = search(free, affected, options, limits, first, commit);
     if (!solution.plan || (plan_ && plan_->cost < solution.plan->cost)) {
-      observer.on_note("no plan as good as the old one ends on tasks that are left");
+      observer.on_note("no plan as good as the old one ends on remaining tasks");
       Solution other = search(instance_, affected_, options, limits, observer, commit);
       if (other.plan) {
         other.stats.texts["ends_of_old_plan"] = names(ends_with_plan_);
@@ -348,7 +348,7 @@ const Instance& Session::instance() const {
 const std::optional<Plan>& Session::plan() const {
   return impl_->plan();
 }
-void Session::advance(Time steps, std::span<const Late> late) {
+void Session::advance(Time steps, std::span<const Delay> late) {
   impl_->advance(steps, late);
 }
 void Session::change(const InstanceChange& change) {

@@ -9,7 +9,7 @@
 
 #include "engine/solve.h"
 #include "execution/change.h"
-#include "execution/late.h"
+#include "execution/delay.h"
 
 namespace grove::detail {
 
@@ -33,9 +33,9 @@ class Session {
   // Advances by `steps` >= 0 steps along the plan, which must exist. Afterwards instance() and
   // plan() are what remains of them (execution/advance.h). At the end of these steps the robots in
   // `late` are late, and their delays propagate to the robots that wait for them
-  // (execution/late.h). Beyond the end of the plan each robot stays where its path ends. Throws
-  // ImpossibleLateness and leaves the session unchanged.
-  void advance(Time steps, std::span<const Late> late = {});
+  // (execution/delay.h). Beyond the end of the plan each robot stays where its path ends. Throws
+  // InfeasibleDelay and leaves the session unchanged.
+  void advance(Time steps, std::span<const Delay> late = {});
 
   // Adds or drops tasks and closes parts of the map. If the old plan does not fit any more, plan()
   // becomes nullopt, but the next solve starts from the old plan. Throws InstanceError

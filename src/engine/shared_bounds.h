@@ -1,14 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Interface to the global bounds, for the threads that expand nodes.
+// Interface to the global bounds, for the threads that expand nodes, and sources of bounds.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string_view>
 
-#include "engine/bound_source.h"
 #include "model/plan.h"
 #include "primal/plan_source.h"
 
 namespace grove::detail {
+
+// Source of a lower bound outside the tree search. The values are used in messages.
+enum class BoundSource : std::uint8_t {
+  kJointSearch,  // A* over joint states
+  kLagrangian,   // Lagrangian relaxation
+};
+inline constexpr BoundSource kLastProvenBy = BoundSource::kLagrangian;
+
+// Name in logs.
+constexpr std::string_view name_of(BoundSource by) {
+  return by == BoundSource::kJointSearch ? "joint" : "lagrangian";
+}
 
 // Incumbent and lower bound of a run, as far as this process has them. CentralBounds implements it
 // where the bounds are kept; in other processes an implementation stores what was last received.

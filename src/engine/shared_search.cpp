@@ -17,28 +17,94 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <limits>
 #include <utility>
 
-#include "engine/memory_budgets.h"
-#include "engine/techniques_of.h"
+#include "engine/solve.h"
+#include "model/limits.h"
 
 namespace grove::detail {
 namespace {
 
 constexpr std::size_t kMostKnown = std::size_t{1} << 29;  // bytes of cached results
 
+constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kLeast = 64 << 10;  // bytes; smaller budgets gain nothing
+
+// Bytes left below `limit`.
+std::size_t room(std::size_t limit) {
+  return limit - std::min(limit, resident_bytes());
+}
+
 }  // namespace
 
+// Memory budgets of a run: for nodes and for the expanders' caches, the memory that the search can
+// evict. One thread at a time.
+//
+// Problem: the memory limit is on the resident set, but the resident set is no usable control
+// variable. Memory that evicted nodes free is used for the next nodes and never returns to the
+// system, so a search that evicted until the resident set fell would evict everything.
+//
+// Solution: measure two things. The resident set decides when memory is short: when 7/8 of the room
+// at the start are used. The memory that the search can evict, by its own account, is then taken as
+// the amount that fits. From then on nodes may hold half of it and the expanders' caches three
+// eighths, because their arrays double as they grow. The resident set should now stay where it is.
+// If it still rises, because other parts grow or small blocks are fragmented, the next alarm is
+// half way to the limit, and the budgets are cut again. Each cut takes an eighth and halves the
+// room, so there are few cuts. If this does not suffice, the limit stops the run.
+class MemoryBudgets {
+ public:
+  // `limits` must outlive this. `most_for_nodes`: initial budget for nodes, in bytes.
+  MemoryBudgets(const Limits& limits, std::size_t most_for_nodes);
+
+  // True if the process is near its limit despite the current budgets.
+  bool is_short() const {  // last_resident() may be older than the last cut
+    return limits_.last_resident() > alarm_ && resident_bytes() > alarm_;
+  }
+  // Cuts the budgets, given the bytes held now. The caller then evicts down to both budgets,
+  // returns free memory to the system, and calls settled().
+  void cut(std::size_t nodes_hold, std::size_t expanders_hold);
+  void memory_returned();
+
+  // Budgets in bytes.
+  std::size_t for_nodes() const { return for_nodes_; }
+  std::size_t for_expanders() const { return for_expanders_; }
+
+ private:
+  const Limits& limits_;
+  std::size_t alarm_;
+  std::size_t for_nodes_;
+  std::size_t for_expanders_;
+};
+
+MemoryBudgets::MemoryBudgets(const Limits& limits, std::size_t most_for_nodes)
+    : limits_(limits), alarm_(kNoLimit), for_nodes_(most_for_nodes), for_expanders_(kNoLimit) {
+  if (const auto limit = limits.memory_limit()) alarm_ = *limit - room(*limit) / 8;
+}
+
+void MemoryBudgets::cut(std::size_t nodes_hold, std::size_t expanders_hold) {
+  const std::size_t held =
+      std::min(nodes_hold, for_nodes_) + std::min(expanders_hold, for_expanders_);
+  for_nodes_ = std::min(for_nodes_, std::max(kLeast, held / 2));
+  for_expanders_ = std::min(for_expanders_, std::max(kLeast, held / 8 * 3));
+}
+
+void MemoryBudgets::memory_returned() {
+  const std::size_t limit = *limits_.memory_limit();
+  alarm_ = std::max(alarm_, limit - room(limit) / 2);
+}
+
 SharedSearch::SharedSearch(const SolveOptions& options, const Limits& limits, LocalNodes& nodes,
-                           SharedBounds& ledger, TreeSource& trees, WorkObserver& observer)
+                           SharedBounds& shared_bounds, TreeSource& trees, WorkObserver& observer)
     : omega_(options.omega),
       uses_estimates_(techniques_of(options).has(Technique::kEstimates)),
       cost_per_conflict_(options.tuning.cost_per_conflict),
-      large_gap_(options.tuning.far_plan),
+      large_gap_(options.tuning.large_gap),
       nodes_(nodes),
       pool_(nodes.pool),
       frontier_(nodes.frontier),
-      ledger_(ledger),
+      shared_bounds_(shared_bounds),
       trees_(trees),
       observer_(observer),
       lagrangian_(options.tuning),
@@ -59,19 +125,20 @@ NodePtr SharedSearch::take() {
 NodePtr SharedSearch::take_open() {
   NodePtr node;
   if (plan_is_wanted())
-    node = frontier_.take_by_estimate(omega_, ledger_.lower_bound(), cost_per_conflict_);
+    node = frontier_.take_by_estimate(omega_, shared_bounds_.lower_bound(), cost_per_conflict_);
   return node ? node : frontier_.take();
 }
 
 bool SharedSearch::gap_is_large() const {
-  const Cost cost = ledger_.cutoff();
+  const Cost cost = shared_bounds_.cutoff();
   return cost<kInfiniteCost&& static_cast<double>(cost)>(1 + large_gap_) *
-         static_cast<double>(ledger_.lower_bound());
+         static_cast<double>(shared_bounds_.lower_bound());
 }
 
 // True if the next node is selected by its expected plan cost.
 bool SharedSearch::plan_is_wanted() {
-  if (omega_ == Omega() || ledger_.cutoff() < kInfiniteCost || !uses_estimates_) return false;
+  if (omega_ == Omega() || shared_bounds_.cutoff() < kInfiniteCost || !uses_estimates_)
+    return false;
   return ++estimates_turn_ % 2 != 0;
 }
 
@@ -96,11 +163,11 @@ void SharedSearch::finish(const NodePtr& node, Expansion expansion, int worker) 
   observer_.expanded(node, expansion, worker);
   for (const NodePtr& child : expansion.children) {
     ++nodes_generated_;
-    if (child->bound() < ledger_.cutoff()) frontier_.push(child);
+    if (child->bound() < shared_bounds_.cutoff()) frontier_.push(child);
   }
-  if (expansion.plan) ledger_.post(std::move(*expansion.plan), PlanSource::kTree);
-  frontier_.settle(node);
-  ledger_.nodes_changed();
+  if (expansion.plan) shared_bounds_.post(std::move(*expansion.plan), PlanSource::kTree);
+  frontier_.complete(node);
+  shared_bounds_.nodes_changed();
 }
 
 // Evicts the worst nodes. These include the nodes that need not be expanded any more because the
@@ -114,7 +181,7 @@ void SharedSearch::keep_within_memory() {
     shares_->cut(pool_.bytes(), known);
     evict_to(shares_->for_nodes());
     ::malloc_trim(0);
-    shares_->settled();
+    shares_->memory_returned();
   } else if (pool_.bytes() > shares_->for_nodes()) {
     evict_to(shares_->for_nodes() / 8 * 7);
   }
@@ -150,15 +217,15 @@ void SharedSearch::add_counts(Stats& stats) const {
   stats.counts["nodes_generated"] += nodes_generated_;
   stats.counts["nodes_evicted"] += nodes_evicted_;
   if (lagrangian_.rounds() > 0) stats.counts["lagrangian_rounds"] += lagrangian_.rounds();
-  if (lagrangian_.prices_of_ranks() > 0)
-    stats.counts["prices_of_ranks"] += lagrangian_.prices_of_ranks();
+  if (lagrangian_.remote_pricings() > 0)
+    stats.counts["remote_pricings"] += lagrangian_.remote_pricings();
 }
 
 MemoryUse SharedSearch::memory_use() const {
   const auto known = memory();
   return {.process = static_cast<std::int64_t>(resident_bytes()),
           .nodes = static_cast<std::int64_t>(pool_.bytes()),
-          .prices = static_cast<std::int64_t>(known->situations.bytes()),
+          .prices = static_cast<std::int64_t>(known->subproblems.bytes()),
           .path_sets = static_cast<std::int64_t>(known->path_sets.bytes()),
           .groups = static_cast<std::int64_t>(known->excesses.bytes())};
 }

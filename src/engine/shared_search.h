@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// State shared by the workers of a process.
+// State shared by the workers of a process, and the interface to the trees of the run.
 #pragma once
 
 #include <atomic>
@@ -9,16 +9,34 @@
 #include <mutex>
 
 #include "engine/lagrangian_scheduler.h"
-#include "engine/local_nodes.h"
+#include "engine/live_nodes.h"
+#include "engine/run_observer.h"
 #include "engine/run_statistics.h"
 #include "engine/shared_bounds.h"
 #include "engine/solve.h"
-#include "engine/tree_source.h"
-#include "engine/work_observer.h"
 #include "search/expander.h"
 #include "search/result_cache.h"
 
 namespace grove::detail {
+
+// Supplies trees when they are due. This base class never does, for processes that do not own the
+// trees; CentralTrees does. Thread-safe; no method waits.
+class TreeSource {
+ public:
+  TreeSource() = default;
+  TreeSource(const TreeSource&) = delete;
+  TreeSource& operator=(const TreeSource&) = delete;
+  virtual ~TreeSource() = default;
+
+  // Call before taking a node: instantiates the next tree if Algorithm 4 requires it.
+  virtual void instantiate_due_tree() {}
+  // Call if no node is live here: supplies nodes or finds that there are none.
+  virtual void refill_nodes() {}
+  // Returns true if the caller may prepare the next tree before Algorithm 4 requires it. The caller
+  // must then call prepare_tree(). One caller at a time gets true.
+  virtual bool claim_preparation() { return false; }
+  virtual void prepare_tree() {}
+};
 
 class MemoryBudgets;
 
@@ -29,14 +47,14 @@ class SharedSearch {
  public:
   // All must outlive this.
   SharedSearch(const SolveOptions& options, const Limits& limits, LocalNodes& nodes,
-               SharedBounds& ledger, TreeSource& trees, WorkObserver& observer);
+               SharedBounds& shared_bounds, TreeSource& trees, WorkObserver& observer);
   ~SharedSearch();
 
-  SharedBounds& ledger() { return ledger_; }
+  SharedBounds& shared_bounds() { return shared_bounds_; }
   TreeSource& trees() { return trees_; }
   WorkObserver& observer() { return observer_; }
   LagrangianScheduler& lagrangian() { return lagrangian_; }
-  bool over() const { return ledger_.over(); }
+  bool over() const { return shared_bounds_.over(); }
 
   // Takes a node to expand, or returns nullptr if there is none now. The caller must return the
   // node by finish().
@@ -55,9 +73,9 @@ class SharedSearch {
   }
 
   // True if more is proven outside the tree search than by its nodes.
-  bool tree_bound_is_dominated() const { return frontier_.bound() < ledger_.lower_bound(); }
+  bool tree_bound_is_dominated() const { return frontier_.bound() < shared_bounds_.lower_bound(); }
 
-  // True if the gap exceeds far_plan.
+  // True if the gap exceeds large_gap.
   bool gap_is_large() const;
 
   // Evicts nodes and cached results if memory is short.
@@ -84,7 +102,7 @@ class SharedSearch {
   LocalNodes& nodes_;
   NodePool& pool_;
   Frontier& frontier_;
-  SharedBounds& ledger_;
+  SharedBounds& shared_bounds_;
   TreeSource& trees_;
   WorkObserver& observer_;
   LagrangianScheduler lagrangian_;

@@ -6,14 +6,14 @@
 #include <string>
 
 #include "engine/checkpoint.h"
+#include "engine/live_nodes.h"
 #include "engine/local_checkpoints.h"
-#include "engine/local_nodes.h"
 #include "engine/multicore.h"
 #include "engine/run_observer.h"
 #include "engine/run_state.h"
 #include "engine/shared_search.h"
-#include "engine/stop_text.h"
 #include "engine/worker.h"
+#include "model/limits.h"
 #include "search/feasibility.h"
 #include "search/global_bounds.h"
 #include "search/proof_log.h"
@@ -65,15 +65,15 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
                 RunObserver& observer) {
   LocalNodes nodes;
   RunState run(problem, options, limits, observer, nodes.pool, nodes);
-  SharedSearch shared(options, limits, nodes, run.ledger(), run.trees(), run.announcements());
+  SharedSearch shared(options, limits, nodes, run.shared_bounds(), run.trees(), run.run_events());
   LocalCheckpoints checkpoints(options, limits, run, nodes);
   Stats stats;  // of destroyed workers
   std::optional<Workers> workers;
-  run.announcements().survey_by([&] {
+  run.run_events().survey_by([&] {
     Stats so_far = stats;
     if (workers) workers->add_counts(so_far);
     shared.add_counts(so_far);
-    run.ledger().add_counts(so_far);
+    run.shared_bounds().add_counts(so_far);
     return RunStatistics{{std::move(so_far.counts), shared.memory_use()}, {}};
   });
   bool begun = false;
@@ -113,15 +113,15 @@ Solution stopped_before_search(const Instance& instance, const SolveOptions& opt
                                const Limits& limits, RunObserver& observer) {
   Solution solution =
       without_search(options, Status::kUnknown, "stopped_by", stop_text(limits.reason()));
-  GlobalBounds gate(instance, options.omega);
+  GlobalBounds global_bounds(instance, options.omega);
   if (options.resume) {
     const CheckpointHeader& before = options.resume->header();
-    gate.update(before.lower_bound, before.lower_bound);
-    if (before.incumbent) gate.post(*before.incumbent);
+    global_bounds.update(before.lower_bound, before.lower_bound);
+    if (before.incumbent) global_bounds.post(*before.incumbent);
   }
-  if (options.start) gate.post(*options.start);
-  solution.lower_bound = gate.lower_bound();
-  solution.plan = gate.incumbent();
+  if (options.start) global_bounds.post(*options.start);
+  solution.lower_bound = global_bounds.lower_bound();
+  solution.plan = global_bounds.incumbent();
   if (!solution.plan) return solution;
   solution.status = status_of(solution.plan->cost, solution.lower_bound, options.omega);
   observer.on_incumbent(*solution.plan, PlanSource::kStart,

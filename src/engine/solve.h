@@ -59,6 +59,18 @@ struct SolveOptions {
   ProofLog* proof = nullptr;
 };
 
+// The paper's policy kFixed is for cross-checks, and the published low levels are for comparison:
+// both use plain CBS.
+inline Techniques techniques_of(const SolveOptions& options) {
+  const bool plain = options.policy == Policy::kFixed || options.low_level != LowLevel::kOwn;
+  return plain ? Techniques() : options.techniques;
+}
+
+inline SearchOptions search_options_of(const SolveOptions& options) {
+  return {techniques_of(options), options.seed,  options.audit,
+          options.tuning,         options.proof, options.deterministic};
+}
+
 // Solves `instance` to `options.omega`, or until a limit is reached. Always returns a proven lower
 // bound. `observer` (may be null) is called from any thread, one at a time. Throws what the
 // observer throws, what reading the checkpoint throws (InputError), and std::logic_error or

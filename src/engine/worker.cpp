@@ -8,17 +8,19 @@
 
 #include "engine/joint_scheduler.h"
 #include "engine/primal_scheduler.h"
-#include "engine/techniques_of.h"
+#include "engine/solve.h"
 #include "search/proof_log.h"
 
 namespace grove::detail {
 namespace {
 
+constexpr std::int64_t kRootWorkPerPair = 8;  // assumed work of the root per pair of agents
+
 constexpr double kGoldenRatio = 0.6180339887;  // its multiples spread evenly over [0, 1)
 
 // Name of the statistics counter for splits of this kind.
 std::string count_of_splits(ConstraintKind kind) {
-  std::string name = "splits_" + std::string(name_of(kind));
+  std::string name = "splits_" + std::string(split_name(kind));
   std::ranges::replace(name, '-', '_');
   return name;
 }
@@ -53,7 +55,7 @@ Worker::Worker(const Problem& problem, const SolveOptions& options, const Limits
           number == 0 && techniques_of(options).has(Technique::kJointSearch))) {
   // Expanding the root takes long if there are many pairs of agents.
   const std::int64_t agents = problem.instance.agent_count();
-  share_->add_tree_work(options.tuning.root_work_per_pair * agents * agents);
+  share_->add_tree_work(kRootWorkPerPair * agents * agents);
   if (number == 0 && techniques_of(options).has(Technique::kLagrangian))
     shared.lagrangian().open(problem.instance, stops, options.proof != nullptr);
 }
@@ -78,7 +80,7 @@ std::optional<Worker::WorkItem> Worker::choose() {
     }
     return turn;
   };
-  if (shared_.lagrangian().due(shared_.ledger().cutoff() < kInfiniteCost))
+  if (shared_.lagrangian().due(shared_.shared_bounds().cutoff() < kInfiniteCost))
     if (auto turn = lagrangian()) return turn;
   const bool has_primal = techniques_of(options_).has(Technique::kPrimal);
   if (has_primal && share_->may_begin() && share_->due(primal())) return one(Job::kPrimal);
@@ -100,10 +102,11 @@ PrimalSearch& Worker::primal() {
     primal_ = std::make_unique<PrimalSearch>(problem_, primal_stops_,
                                              options_.seed + static_cast<std::uint64_t>(number_),
                                              options_.techniques, options_.tuning);
-  if (const auto plan = shared_.ledger().plan_below(primal_->best_cost().value_or(kInfiniteCost)))
+  if (const auto plan =
+          shared_.shared_bounds().plan_below(primal_->best_cost().value_or(kInfiniteCost)))
     primal_->adopt(*plan);
-  if (techniques_of(options_).has(Technique::kPricedPlans))
-    primal_->use(shared_.lagrangian().price_list());
+  if (techniques_of(options_).has(Technique::kLagrangianLns))
+    primal_->use(shared_.lagrangian().dual_solution());
   return *primal_;
 }
 
@@ -134,14 +137,15 @@ void Worker::perform(WorkItem& turn, Expander& by) {
 
 void Worker::expand(WorkItem& turn, Expander& by) const {
   weigh(turn, by, [&] {
-    turn.expansion = by.expand(turn.node, shared_.ledger().cutoff(), limits_, turn.bounding_effort);
+    turn.expansion =
+        by.expand(turn.node, shared_.shared_bounds().cutoff(), limits_, turn.bounding_effort);
   });
 }
 
 void Worker::help(WorkItem& turn, Expander& by) {
   const double share = number_ * kGoldenRatio - std::floor(number_ * kGoldenRatio);
   weigh(turn, by, [&] {
-    if (!by.help(turn.node, shared_.ledger().cutoff(), share, limits_)) helped_ = turn.node;
+    if (!by.help(turn.node, shared_.shared_bounds().cutoff(), share, limits_)) helped_ = turn.node;
   });
 }
 
@@ -152,15 +156,15 @@ void Worker::step_primal(WorkItem& turn) {
 }
 
 void Worker::step_joint(WorkItem& turn) {
-  turn.proven = joint_->step(shared_.ledger().cutoff(), limits_);
+  turn.proven = joint_->step(shared_.shared_bounds().cutoff(), limits_);
   turn.plan = joint_->plan();
 }
 
 void Worker::step_lagrangian(WorkItem& turn) {
   if (!pricer_) pricer_.emplace(shared_.lagrangian().pricer(primal_stops_));
-  const SharedBounds& ledger = shared_.ledger();
-  shared_.lagrangian().perform(turn.lagrangian, *pricer_, ledger.cutoff(), ledger.lower_bound(),
-                               limits_);
+  const SharedBounds& shared_bounds = shared_.shared_bounds();
+  shared_.lagrangian().perform(turn.lagrangian, *pricer_, shared_bounds.cutoff(),
+                               shared_bounds.lower_bound(), limits_);
 }
 
 void Worker::publish(WorkItem& turn) {
@@ -170,18 +174,18 @@ void Worker::publish(WorkItem& turn) {
 void Worker::commit(WorkItem& turn) {
   count(turn);
   if (turn.job == WorkItem::Job::kPrimal) {
-    if (turn.plan) shared_.ledger().post(std::move(*turn.plan), primal_->source());
+    if (turn.plan) shared_.shared_bounds().post(std::move(*turn.plan), primal_->source());
     share_->add_primal_work(*primal_, turn.work);
     add_other_work(turn.work);
   } else if (turn.job == WorkItem::Job::kJoint) {
-    if (turn.plan) shared_.ledger().post(std::move(*turn.plan), PlanSource::kJointSearch);
-    if (options_.proof != nullptr && turn.proven > shared_.ledger().lower_bound())
+    if (turn.plan) shared_.shared_bounds().post(std::move(*turn.plan), PlanSource::kJointSearch);
+    if (options_.proof != nullptr && turn.proven > shared_.shared_bounds().lower_bound())
       options_.proof->joint(turn.proven);
-    shared_.ledger().prove(turn.proven, BoundSource::kJointSearch);
+    shared_.shared_bounds().prove(turn.proven, BoundSource::kJointSearch);
   } else if (turn.job == WorkItem::Job::kLagrangian) {
     const Cost proven = shared_.lagrangian().commit(std::move(turn.lagrangian));
-    if (proven > shared_.ledger().lower_bound())
-      shared_.ledger().prove(proven, BoundSource::kLagrangian);
+    if (proven > shared_.shared_bounds().lower_bound())
+      shared_.shared_bounds().prove(proven, BoundSource::kLagrangian);
   } else if (turn.job != WorkItem::Job::kPrepare) {
     turn.memory->trim();
     if (turn.job == WorkItem::Job::kExpand)
@@ -214,21 +218,21 @@ void Worker::add_counts(Stats& stats) const {
   counts["low_level_calls"] += tree.low_level_calls;
   counts["low_level_expanded"] += tree.low_level_expanded;
   counts["pair_expansions"] += tree.pair_expansions;
-  counts["joint_pairs"] += tree.joint_pairs;
+  counts["joint_mdd_nodes"] += tree.joint_mdd_nodes;
   if (tree.group_states > 0) counts["group_states"] += tree.group_states;
   for (std::uint8_t kind = 0; kind < kConstraintKinds; ++kind)
     if (tree.splits[kind] > 0) counts[count_of_splits(*constraint_kind(kind))] += tree.splits[kind];
   counts["bypasses"] += tree.bypasses;
-  counts["prices_asked"] += tree.prices_asked;
-  counts["prices_known"] += tree.prices_known;
-  counts["path_sets_asked"] += tree.sets_asked;
-  counts["path_sets_known"] += tree.sets_known;
-  counts["helps"] += helps_;
+  counts["branching_cost_queries"] += tree.branching_cost_queries;
+  counts["branching_cost_hits"] += tree.branching_cost_hits;
+  counts["mdd_queries"] += tree.sets_asked;
+  counts["mdd_hits"] += tree.sets_known;
+  counts["assists"] += helps_;
   if (joint_states_ > 0) counts["joint_states"] += joint_states_;
   counts["primal_steps"] += primal.steps;
   counts["primal_attempts"] += primal.attempts;
-  counts["primal_joint_steps"] += primal.joint_steps;
-  counts["primal_neighborhoods"] += primal.neighborhoods;
+  counts["primal_lacam_steps"] += primal.joint_steps;
+  counts["primal_lns_iterations"] += primal.neighborhoods;
   counts["primal_low_level_calls"] += primal.low_level_calls;
   counts["primal_low_level_expanded"] += primal.low_level_expanded;
 }

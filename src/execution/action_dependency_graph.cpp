@@ -34,6 +34,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -41,7 +42,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr const char* kCollides = "a passing order is of a plan without collisions";
+constexpr const char* kCollides = "a passing order requires a plan without collisions";
 constexpr int kLanes = 16;
 // By robot of a group: the number of its actions that are completed when a given action is.
 using Known = std::array<std::int32_t, kLanes>;
@@ -60,7 +61,7 @@ struct Stay {
 };
 
 // True if a step of a turn from state `from` continues the turn `turn`.
-bool goes_on(const Instance& instance, const Action& turn, State from) {
+bool continues(const Instance& instance, const Action& turn, State from) {
   return turn.kind == Action::Kind::kTurn && turn.to == from && instance.pose_of(from).steps > 0;
 }
 
@@ -68,7 +69,7 @@ bool goes_on(const Instance& instance, const Action& turn, State from) {
 
 ActionDependencyGraph::ActionDependencyGraph(const Instance& instance, const Plan& plan) {
   if (static_cast<int>(plan.agents.size()) != instance.agent_count())
-    throw std::invalid_argument("a passing order is of a plan of all agents");
+    throw std::invalid_argument("a passing order requires a plan of all agents");
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
     add_actions(instance, agent, plan.agents[agent]);
     first_.push_back(static_cast<ActionIndex>(actions_.size()));
@@ -97,7 +98,7 @@ void ActionDependencyGraph::add_actions(const Instance& instance, AgentIndex age
     do_work_until(t, from);
     const bool is_turn = world.place(from) == world.place(to);
     if (is_turn && static_cast<ActionIndex>(actions_.size()) > first_.back() &&
-        goes_on(instance, actions_.back(), from)) {
+        continues(instance, actions_.back(), from)) {
       actions_.back().to = to;
       ++actions_.back().steps;
     } else {
@@ -187,6 +188,45 @@ void ActionDependencyGraph::leave_out_transitive() {
     ++(is_transitive[a] ? transitive_waits_ : waits_);
     if (is_transitive[a]) after_[a] = kNoAction;
   }
+}
+
+namespace {
+
+// By place: the agent's tasks without duration that are not visited yet.
+using Open = std::multimap<Place, TaskIndex>;
+
+std::vector<Open> open_tasks(const Instance& instance) {
+  std::vector<Open> open(instance.agent_count());
+  for (TaskIndex t = 0; t < instance.task_count(); ++t) {
+    const Task& task = instance.task(t);
+    if (task.duration > 0) continue;
+    for (const AgentIndex agent : task.agents) open[agent].emplace(task.cell, t);
+  }
+  return open;
+}
+
+void come_by(Place place, ActionIndex action, Open& open, std::vector<TaskVisit>& visits) {
+  const auto [begin, end] = open.equal_range(place);
+  for (auto task = begin; task != end; ++task) visits.push_back({task->second, action});
+  open.erase(begin, end);
+}
+
+}  // namespace
+
+std::vector<std::vector<TaskVisit>> task_visits(const Instance& instance,
+                                                const ActionDependencyGraph& order) {
+  const World& world = instance.world();
+  std::vector<Open> open = open_tasks(instance);
+  std::vector<std::vector<TaskVisit>> visits(instance.agent_count());
+  for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
+    come_by(world.place(instance.agent(agent).start), kNoAction, open[agent], visits[agent]);
+    for (ActionIndex a = order.begin_of(agent); a < order.end_of(agent); ++a) {
+      const Action& action = order.actions()[a];
+      if (action.kind == Action::Kind::kWork) visits[agent].push_back({action.task, a});
+      come_by(world.place(action.to), a, open[agent], visits[agent]);
+    }
+  }
+  return visits;
 }
 
 }  // namespace grove::detail

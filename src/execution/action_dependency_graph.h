@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Action dependency graph (ADG; Hoenig et al. 2019, Ma et al. 2017): the actions of a plan, and
-// which of them must be completed before which. Robots that keep to it never collide, whatever
-// their delays.
+// Action dependency graph (ADG; Hoenig et al. 2019, Ma et al. 2017): the actions of a plan, which of
+// them must be completed before which, and the tasks that they visit. Robots that keep to it never
+// collide, whatever their delays.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "model/instance.h"
 #include "model/plan.h"
 
 namespace grove::detail {
@@ -80,5 +81,17 @@ class ActionDependencyGraph {
   std::int64_t transitive_waits_ = 0;
   std::int64_t rings_ = 0;
 };
+
+// The visit is made when `action` is completed; kNoAction: at the start.
+struct TaskVisit {
+  TaskIndex task = -1;
+  ActionIndex action = kNoAction;
+};
+
+// Returns the visits by agent, in the order of its actions. A task without duration is visited when
+// the agent first is on its place; other tasks when their work is done. Tasks that `order` does not
+// visit are omitted.
+std::vector<std::vector<TaskVisit>> task_visits(const Instance& instance,
+                                                const ActionDependencyGraph& order);
 
 }  // namespace grove::detail

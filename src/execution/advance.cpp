@@ -75,7 +75,7 @@ class AgentLater {
     for (const TaskIndex task : plan_.sequence)
       if (std::ranges::count(left_, task) > 0) rest.sequence.push_back(later[task]);
     for (const WorkTime& work : plan_.work)
-      if (goes_on(work))
+      if (continues(work))
         rest.work.push_back({later[work.task], work.begin - time_, work.end - time_});
     rest.path.assign(plan_.path.begin() + std::min(time_, end()), plan_.path.end());
     rest.cost = finish(rest);
@@ -87,21 +87,21 @@ class AgentLater {
   Time end() const { return static_cast<Time>(plan_.path.size()) - 1; }
 
   // True if the work continues. Work in progress at the start continues even before the first step.
-  bool goes_on(const WorkTime& work) const { return work.end > time_; }
+  bool continues(const WorkTime& work) const { return work.end > time_; }
 
   const WorkTime* work_under_way() const {
     const bool is_at_work = instance_.world().is_working(agent_.start);
     const auto is_first = [&](const WorkTime& work) { return &work == &plan_.work.front(); };
     for (const WorkTime& work : plan_.work)
-      if (goes_on(work) && (work.begin < time_ || (is_at_work && is_first(work)))) return &work;
+      if (continues(work) && (work.begin < time_ || (is_at_work && is_first(work)))) return &work;
     return nullptr;
   }
 
   bool is_visited(TaskIndex index) const {
     const Task& task = instance_.task(index);
     if (task.duration > 0)
-      return std::ranges::any_of(plan_.work,
-                                 [&](const WorkTime& w) { return w.task == index && !goes_on(w); });
+      return std::ranges::any_of(
+          plan_.work, [&](const WorkTime& w) { return w.task == index && !continues(w); });
     const auto last = plan_.path.begin() + std::min(time_, end()) + 1;
     return std::any_of(plan_.path.begin(), last,
                        [&](State state) { return instance_.world().place(state) == task.cell; });

@@ -98,7 +98,8 @@ class Applying {
       if (found == instance_.tasks().end())
         throw InstanceError(
             fmt::format("dropped_tasks/{}", i),
-            fmt::format("there is no task '{}' left; expected one that is not visited yet", id));
+            fmt::format("there is no remaining task '{}'; expected one that is not visited yet",
+                        id));
       dropped[found - instance_.tasks().begin()] = true;
     }
     return dropped;
@@ -120,7 +121,7 @@ class Applying {
 
   void require_nothing_at(Place blocked, const std::string& field) const {
     if (instance_.is_on_grid() && !instance_.grid().passable(blocked))
-      throw InstanceError(field, "it is blocked on the map already; expected a passable cell");
+      throw InstanceError(field, "the map is blocked there already; expected a passable cell");
     for (const Agent& agent : instance_.agents()) {
       if (instance_.world().place(agent.start) == blocked)
         throw InstanceError(field, fmt::format("'{}' is there", agent.id));
@@ -129,8 +130,9 @@ class Applying {
     }
     for (TaskIndex task = 0; task < instance_.task_count(); ++task)
       if (!dropped_[task] && instance_.task(task).cell == blocked)
-        throw InstanceError(field, fmt::format("task '{}' is there; expected it to be dropped, too",
-                                               instance_.task(task).id));
+        throw InstanceError(field,
+                            fmt::format("task '{}' is there; expected that it is dropped as well",
+                                        instance_.task(task).id));
   }
 
   // The JSON field of the change that closes the road.

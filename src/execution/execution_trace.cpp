@@ -59,7 +59,7 @@ AgentIndex waits_for(const ActionDependencyGraph& order, const ExecutionTrace& d
 // Only an action that never ends has end kNever.
 Time end_of_action(Time begin, Time duration) {
   if (duration >= kNever) return kNever;
-  if (duration >= kNever - begin) throw std::overflow_error("robots drive for too many steps");
+  if (duration >= kNever - begin) throw std::overflow_error("the execution takes too many steps");
   return begin + duration;
 }
 
@@ -105,12 +105,12 @@ Plan executed_plan(const Instance& instance, const Plan& plan, const ActionDepen
 
 std::vector<BlockedRobot> stuck(const ActionDependencyGraph& order, const ExecutionTrace& drive) {
   std::vector<BlockedRobot> stuck;
-  std::vector<bool> is_told(static_cast<std::size_t>(order.agent_count()));
+  std::vector<bool> is_listed(static_cast<std::size_t>(order.agent_count()));
   for (std::int32_t number = 0; number < order.step_count(); ++number) {
     for (const ActionIndex a : order.step(number)) {
       const AgentIndex agent = order.actions()[a].agent;
-      if (drive.end[a] < kNever || is_told[agent]) continue;
-      is_told[agent] = true;
+      if (drive.end[a] < kNever || is_listed[agent]) continue;
+      is_listed[agent] = true;
       stuck.push_back({agent, waits_for(order, drive, number)});
     }
   }

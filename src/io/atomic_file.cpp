@@ -17,7 +17,6 @@
 
 #include "io/file_descriptor.h"
 #include "io/input_error.h"
-#include "io/special_file.h"
 
 namespace grove::detail {
 namespace {
@@ -34,7 +33,7 @@ fs::path resolved(const fs::path& path, fs::file_status& status) {
   status = fs::status(path, error);
   if (status.type() == fs::file_type::none) fail_to_write(path, error.value());
   if (path.filename().empty() || fs::is_directory(status))
-    throw InputError(path.string(), "", "cannot be written: is a directory; expected a file name");
+    throw InputError(path.string(), "", "is a directory; expected a file name");
   if (fs::exists(status) && ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0)
     fail_to_write(path);
   if (is_special_file(path, status)) return path;
@@ -143,6 +142,18 @@ void write_file_atomically(const fs::path& path, std::string_view content, Durab
   AtomicFile file(path);
   file.write(content);
   file.commit(outlives);
+}
+
+bool is_special_file(const fs::path& path) {
+  std::error_code error;
+  return is_special_file(path, fs::status(path, error));
+}
+
+bool is_special_file(const fs::path& path, const fs::file_status& status) {
+  if (!fs::exists(status)) return false;
+  const std::string name = path.lexically_normal().string();
+  return !fs::is_regular_file(status) || name == "/dev/stdout" || name == "/dev/stderr" ||
+         name.starts_with("/dev/fd/") || name.starts_with("/proc/");
 }
 
 void flush_file(const fs::path& path) {

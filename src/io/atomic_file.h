@@ -48,6 +48,11 @@ class AtomicFile {
 void write_file_atomically(const std::filesystem::path& path, std::string_view content,
                            Durability outlives = Durability::kMachine);
 
+// True if write_file_atomically() writes directly to this file. This includes /dev/stdout, even if
+// it is a regular file, because other processes have it open.
+bool is_special_file(const std::filesystem::path& path);
+bool is_special_file(const std::filesystem::path& path, const std::filesystem::file_status& status);
+
 // Waits until the file at `path`, which was written with Durability::kProcess, is on the disk.
 // Thread-safe. Throws InputError.
 void flush_file(const std::filesystem::path& path);

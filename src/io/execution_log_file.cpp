@@ -55,10 +55,11 @@ class DriveReader {
   }
 
   [[noreturn]] void fail_as_no_drive() const {
-    throw InputError(file_, "line 1",
-                     fmt::format("expected the log of a drive, {{\"format\": \"{}\", ...}}, as "
-                                 "'grove toio --log' and 'grove vda5050 --log' write it",
-                                 kDriveFormat));
+    throw InputError(
+        file_, "line 1",
+        fmt::format("expected the log of an execution, {{\"format\": \"{}\", ...}}, as "
+                    "'grove toio --log' and 'grove vda5050 --log' write it",
+                    kDriveFormat));
   }
 
   void begin(const JsonValue& value) {

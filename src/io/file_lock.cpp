@@ -13,8 +13,8 @@
 #include <system_error>
 #include <utility>
 
+#include "io/atomic_file.h"
 #include "io/input_error.h"
-#include "io/special_file.h"
 
 namespace grove::detail {
 namespace {
@@ -31,7 +31,7 @@ std::string who_i_am() {
 std::string holder(const FileDescriptor& file) {
   char text[kLongestHolder];
   const ssize_t size = ::pread(file.get(), text, sizeof text, 0);
-  return size > 0 ? std::string(text, static_cast<std::size_t>(size)) : "it has just begun";
+  return size > 0 ? std::string(text, static_cast<std::size_t>(size)) : "it has just started";
 }
 
 // Does not follow links. In a folder where other users may write, a link could lead to any file of
@@ -42,7 +42,7 @@ FileDescriptor open_lock_file(const fs::path& path) {
   struct stat status {};
   const bool is_known = file.is_open() && ::fstat(file.get(), &status) == 0;
   if (!is_known || !S_ISREG(status.st_mode) || status.st_nlink > 1)
-    throw InputError(path.string(), "", "is a link or no regular file; expected a lock file");
+    throw InputError(path.string(), "", "is a link or not a regular file; expected a lock file");
   return file;
 }
 
@@ -71,9 +71,9 @@ FileLock::FileLock(const fs::path& path) : file_(open_lock_file(path)) {
   if (!file_.is_open()) fail_to_write(path);
   const LockResult result = lock(file_.get());
   if (result == LockResult::kHeld)
-    throw InputError(
-        path.string(), "",
-        fmt::format("is locked by another run ({}), which must have ended first", holder(file_)));
+    throw InputError(path.string(), "",
+                     fmt::format("is locked by another run ({}); expected that run to end first",
+                                 holder(file_)));
   held_ = result == LockResult::kLocked;
   if (!write_holder(file_)) fail_to_write(path);
 }
@@ -88,9 +88,9 @@ OutputLock::OutputLock(const fs::path& output) : file_(-1) {
     if (lock(file_.get()) == LockResult::kHeld)
       throw InputError(
           output.string(), "",
-          fmt::format("is being written by another run ({}); expected another name, or "
-                      "that run to end first",
-                      holder(file_)));
+          fmt::format(
+              "is being written by another run ({}); expected another name, or the end of that run",
+              holder(file_)));
   } while (!is_still_there(file_, path_));  // or another run has just ended, and removed it
   (void)write_holder(file_);                // for messages only
 }

@@ -69,35 +69,34 @@ std::string default_task_id(TaskIndex task) {
 
 void require_free_grid(const Instance& instance, std::string_view format) {
   if (!instance.is_on_grid())
-    throw NotRepresentable("roadmap",
-                           fmt::format("a roadmap cannot be said in {}; expected a grid", format),
-                           Loss::kNothing);
+    throw NotRepresentable(
+        "roadmap", fmt::format("a roadmap cannot be represented in {}; expected a grid", format),
+        Loss::kNothing);
   for (AgentIndex i = 0; i < instance.agent_count(); ++i)
     if (instance.agent(i).motion.turn_steps > 0)
-      throw NotRepresentable(agent_field(i),
-                             fmt::format("agent '{}' turns, which cannot be said in {}; expected "
-                                         "agents that turn freely",
-                                         instance.agent(i).id, format),
-                             Loss::kNothing);
+      throw NotRepresentable(
+          agent_field(i),
+          fmt::format("agent '{}' turns, which cannot be represented in {}; expected "
+                      "agents that turn freely",
+                      instance.agent(i).id, format),
+          Loss::kNothing);
   for (TaskIndex i = 0; i < instance.task_count(); ++i)
     if (instance.task(i).duration > 0)
-      throw NotRepresentable(
-          task_field(i),
-          fmt::format("task '{}' takes time, which cannot be said in {}; expected "
-                      "none that does",
-                      instance.task(i).id, format),
-          Loss::kNothing);
+      throw NotRepresentable(task_field(i),
+                             fmt::format("task '{}' takes time, which cannot be represented in {}; "
+                                         "expected tasks without a duration",
+                                         instance.task(i).id, format),
+                             Loss::kNothing);
 }
 
 void require_work_for_all(const Instance& instance, std::string_view format) {
   for (AgentIndex i = 0; i < instance.agent_count(); ++i)
     if (instance.agent(i).is_idle())
-      throw NotRepresentable(
-          agent_field(i),
-          fmt::format("agent '{}' has neither a goal nor a task, which cannot be "
-                      "said in {}; expected one of them",
-                      instance.agent(i).id, format),
-          Loss::kNothing);
+      throw NotRepresentable(agent_field(i),
+                             fmt::format("agent '{}' has neither a goal nor a task, which cannot "
+                                         "be represented in {}; expected one of them",
+                                         instance.agent(i).id, format),
+                             Loss::kNothing);
 }
 
 void require_distinct_cells(const Instance& instance, std::string_view format) {
@@ -107,8 +106,8 @@ void require_distinct_cells(const Instance& instance, std::string_view format) {
     if (!is_new)
       throw NotRepresentable(
           task_field(i),
-          fmt::format("task '{}' is on the cell of task '{}', which cannot be "
-                      "said in {}; expected one task per cell",
+          fmt::format("task '{}' is on the cell of task '{}', which cannot be represented in {}; "
+                      "expected one task per cell",
                       instance.task(i).id, instance.task(first->second).id, format),
           Loss::kNothing);
   }
@@ -119,18 +118,18 @@ void require_goals(const Instance& instance, std::string_view format) {
     if (!instance.agent(i).goal)
       throw NotRepresentable(
           agent_field(i),
-          fmt::format("agent '{}' has no goal; expected one for every agent, for "
-                      "{} cannot do without",
-                      instance.agent(i).id, format),
+          fmt::format(
+              "agent '{}' has no goal; expected one for every agent, because {} requires it",
+              instance.agent(i).id, format),
           Loss::kNothing);
 }
 
 void require_no_tasks(const Instance& instance, std::string_view format) {
   if (instance.task_count() == 0) return;
-  throw NotRepresentable(
-      "tasks/0",
-      fmt::format("task '{}' cannot be said in {}; expected no tasks", instance.task(0).id, format),
-      Loss::kTasks);
+  throw NotRepresentable("tasks/0",
+                         fmt::format("task '{}' cannot be represented in {}; expected no tasks",
+                                     instance.task(0).id, format),
+                         Loss::kTasks);
 }
 
 void require_default_agent_ids(const Instance& instance, std::string_view format) {
@@ -138,7 +137,7 @@ void require_default_agent_ids(const Instance& instance, std::string_view format
     if (instance.agent(i).id != default_agent_id(i))
       throw NotRepresentable(
           agent_field(i),
-          fmt::format("{} has no ids: read back, agent '{}' would be '{}'; expected that id",
+          fmt::format("{} has no ids: read back, agent '{}' would be '{}'; expected this id",
                       format, instance.agent(i).id, default_agent_id(i)),
           Loss::kIds);
 }
@@ -161,8 +160,8 @@ Instance without_tasks(const Instance& instance) {
   for (AgentIndex i = 0; i < instance.agent_count(); ++i)
     if (!instance.agent(i).goal)
       throw InstanceError(agent_field(i),
-                          fmt::format("agent '{}' has no goal; expected one for every agent, for "
-                                      "without tasks it would have nothing to do",
+                          fmt::format("agent '{}' has no goal; expected one for every agent, "
+                                      "because without tasks it would have nothing to do",
                                       instance.agent(i).id));
   return with_agents(
              instance, [&](AgentIndex i) { return instance.agent(i).id; },

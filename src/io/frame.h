@@ -2,6 +2,8 @@
 // Coordinates of places in the world frame of the robots.
 #pragma once
 
+#include <variant>
+
 #include "model/map.h"
 
 namespace grove::detail {
@@ -14,6 +16,12 @@ struct Frame {
 
 // The centre of a place, in metres. `frame` applies to grids only; a roadmap has its own
 // coordinates.
-Point metres(const Map& map, const Frame& frame, Place place);
+inline Point metres(const Map& map, const Frame& frame, Place place) {
+  if (const auto* roadmap = std::get_if<Roadmap>(&map)) return roadmap->at(place);
+  const Grid& grid = std::get<Grid>(map);
+  const Position p = grid.position(place);
+  return {frame.origin.x + (p.x + 0.5) * frame.cell_size,
+          frame.origin.y + (grid.height() - p.y - 0.5) * frame.cell_size};
+}
 
 }  // namespace grove::detail

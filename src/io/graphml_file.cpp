@@ -17,9 +17,7 @@
 #include <unordered_map>
 
 #include "io/input_error.h"
-#include "io/line_starts.h"
 #include "io/text_file.h"
-#include "io/utf8.h"
 #include "model/parse_number.h"
 
 namespace grove::detail {
@@ -71,7 +69,7 @@ class XmlFile {
     const auto result =
         document_.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_doctype);
     if (result.encoding != pugi::encoding_utf8)
-      throw InputError(file_, "", "is in another encoding; expected UTF-8");
+      throw InputError(file_, "", "is encoded in another way; expected UTF-8");
     if (!result)
       throw InputError(file_,
                        lines_.place(static_cast<std::size_t>(
@@ -80,9 +78,9 @@ class XmlFile {
     for (const xml_node node : document_.children())
       if (node.type() == pugi::node_doctype &&
           std::string_view(node.value()).find('[') != std::string_view::npos)
-        throw InputError(file_, "",
-                         "its document type has declarations of its own; expected none: entities "
-                         "are not expanded");
+        throw InputError(
+            file_, "",
+            "its document type has declarations; expected none, because entities are not expanded");
   }
 
   const std::string& file() const { return file_; }
@@ -178,7 +176,7 @@ class GraphmlReader {
     xml_node graph;
     for (const xml_node child : xml_.root().children()) {
       if (!is_element(child, "graph")) continue;
-      if (graph) xml_.fail(child, "a second graph; expected one in a file");
+      if (graph) xml_.fail(child, "found a second graph; expected one per file");
       graph = child;
     }
     if (!graph) xml_.fail(xml_.root(), "has no element 'graph'; expected one");
@@ -245,7 +243,7 @@ class GraphmlReader {
   std::string new_id(xml_node node) {
     std::string id = attribute(node, "id");
     if (id.empty()) xml_.fail(node, "expected an id that is not empty");
-    if (!is_utf8(id)) xml_.fail(node, fmt::format("id '{}' is no UTF-8; expected UTF-8", id));
+    if (!is_utf8(id)) xml_.fail(node, fmt::format("id '{}' is not in UTF-8; expected UTF-8", id));
     if (!numbers_.emplace(id, static_cast<int>(network_.vertices.size())).second)
       xml_.fail(node, fmt::format("id '{}' is used twice; expected distinct ids", id));
     return id;
@@ -279,7 +277,7 @@ class GraphmlReader {
     std::string id = new_id(node);
     for (const xml_node child : node.children())
       if (is_element(child, "graph"))
-        xml_.fail(child, "a graph within a node; expected a flat graph, without groups");
+        xml_.fail(child, "found a graph within a node; expected a graph without groups");
     network_.vertices.push_back({std::move(id), position(node)});
   }
 
@@ -287,7 +285,7 @@ class GraphmlReader {
     if (child.type() != pugi::node_element || is_element(child, "node")) return;
     if (is_element(child, "edge")) return read_edge(child);
     if (is_element(child, "hyperedge"))
-      xml_.fail(child, "a hyperedge; expected edges between two nodes");
+      xml_.fail(child, "found a hyperedge; expected edges between two nodes");
     if (!is_element(child, "data") && !is_element(child, "desc"))
       warn_once(child, fmt::format("element '{}'", local_name(child)));
   }
@@ -318,7 +316,7 @@ class GraphmlReader {
     const double metres = std::hypot(a.x - b.x, a.y - b.y);
     if (!(metres > 0) || !std::isfinite(metres))
       xml_.fail(edge, fmt::format("has no length, and its ends are {} m apart; expected data "
-                                  "'length', or ends at some distance",
+                                  "'length', or ends at a positive distance",
                                   metres));
     return metres;
   }

@@ -39,12 +39,12 @@ fs::path file_in_folder(const InputRules& rules, const fs::path& folder, const f
         fmt::format("'{}' {}; expected a file in the folder of this file or below, with --confine",
                     one_line(name.string()), what));
   };
-  if (name.is_absolute()) refuse("is an absolute name");
+  if (name.is_absolute()) refuse("is an absolute path");
   std::error_code error;
   const fs::path base = fs::canonical(folder.empty() ? "." : folder, error);
   // A missing file is checked by its name. The reader reports later that it is missing.
   const fs::path real = error ? fs::path() : fs::weakly_canonical(base / name, error);
-  if (error || !is_below(base, real)) refuse("leads out of the folder of this file");
+  if (error || !is_below(base, real)) refuse("leads outside the folder of this file");
   return real;
 }
 

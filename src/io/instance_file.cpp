@@ -9,8 +9,8 @@
 #include "io/atomic_file.h"
 #include "io/format_support.h"
 #include "io/input_error.h"
+#include "io/json_text.h"
 #include "io/json_value.h"
-#include "io/json_writer.h"
 #include "io/known_keys.h"
 #include "io/map_file.h"
 #include "io/path_entry.h"
@@ -48,7 +48,7 @@ Motion read_motion(const InstanceBuilder& builder, const JsonValue& agent) {
   if (!motion->json().is_string() || motion->text() != "turning")
     motion->fail_expected("\"turning\", or no such key for an agent that turns freely");
   if (builder.roadmap())
-    motion->fail("agents turn on grids only; expected no such key on a roadmap");
+    motion->fail("agents can turn only on grids; expected no such key on a roadmap");
   const auto steps = agent.find("turn_steps");
   return {steps ? static_cast<Time>(steps->integer(1, InstanceBuilder::kLongest)) : 1};
 }
@@ -66,7 +66,7 @@ Pose read_start_pose(const InstanceBuilder& builder, Motion motion, const JsonVa
   }
   const Pose pose = read_pose(builder.map(), motion, start);
   if (heading && read_heading(*heading) != pose.heading)
-    heading->fail(fmt::format("the start says \"{}\"; expected the same, or no such key",
+    heading->fail(fmt::format("the start has \"{}\"; expected the same, or no such key",
                               letter(pose.heading)));
   return pose;
 }
@@ -94,7 +94,7 @@ void add_agent(InstanceBuilder& builder, const JsonValue& agent) {
   spec.goal = read_goal(builder, agent);
   if (const auto heading = agent.find("goal_heading")) {
     spec.goal_heading = read_heading(*heading);
-    if (!spec.goal) heading->fail("the agent has no goal; expected one, or no such key");
+    if (!spec.goal) heading->fail("the agent has no goal; expected a goal, or no such key");
   }
   spec.working = read_working(agent);
   at_place_of(agent, [&] { builder.add_agent(std::move(spec)); });
@@ -176,12 +176,12 @@ void require_map_not_roadmap(const JsonValue& value, const std::filesystem::path
   const bool is_json = first_character(path) == '{';
   if (is_json && !is_roadmap)
     value.fail(
-        fmt::format("'{}' is a JSON file; expected a map, or this name under the key "
+        fmt::format("'{}' is a JSON file; expected a map, or this file under the key "
                     "\"roadmap\" if it is a roadmap",
                     path.string()));
   if (!is_json && is_roadmap && path.extension() == ".map")
     value.fail(
-        fmt::format("'{}' is named like a map; expected a roadmap, or this name under the "
+        fmt::format("'{}' has the suffix of a map; expected a roadmap, or this file under the "
                     "key \"map\"",
                     path.string()));
 }
@@ -202,12 +202,11 @@ std::pair<ScenarioRow, Time> row_of(const Instance& instance, AgentIndex i,
   const Agent& agent = instance.agent(i);
   const Time length = distance_field(grid, *agent.goal)[agent.start];
   if (length >= kNever)
-    throw NotRepresentable(
-        fmt::format("agents/{}", i),
-        fmt::format("agent '{}' cannot reach its goal; expected a way there, for "
-                    "a .scen file tells how long it is",
-                    agent.id),
-        Loss::kNothing);
+    throw NotRepresentable(fmt::format("agents/{}", i),
+                           fmt::format("agent '{}' cannot reach its goal; expected a path, because "
+                                       "a .scen file has its length",
+                                       agent.id),
+                           Loss::kNothing);
   return {{.line = i + 2,
            .map = map,
            .width = grid.width(),
@@ -314,7 +313,7 @@ void write_scenario_instance(const std::filesystem::path& path, const Instance& 
   require_default_agent_ids(instance, kFormat);
   if (map.find_first_of(" \t\r\n") != std::string::npos)
     throw InputError(path.string(), "",
-                     fmt::format("the map's name '{}' has blanks in it; expected none, for they "
+                     fmt::format("the map's name '{}' contains blanks; expected none, because they "
                                  "separate the columns of a .scen file",
                                  map));
   std::vector<ScenarioRow> rows;

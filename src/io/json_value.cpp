@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "io/input_error.h"
-#include "io/json_parser.h"
+#include "io/json_text.h"
 #include "io/text_file.h"
 
 namespace grove::detail {

@@ -157,7 +157,7 @@ bool has_key(const JsonValue& object, const KnownKey& key) {
 }
 
 std::string hint(const KnownKey& key) {
-  return fmt::format("expected '{}'{}, if that is what it means", key.name, key.meaning);
+  return fmt::format("expected '{}'{}, if that is meant", key.name, key.meaning);
 }
 
 // The key that was probably meant. Keys that the object already has are excluded.
@@ -220,7 +220,7 @@ std::string what_was_meant(const JsonValue& object, const std::string& key,
     return fmt::format("this key belongs to {}; expected it there", found->name);
   if (meant) return hint(*meant);
   if (const Unmodelled* found = nearly_unmodelled(key)) return not_modelled(*found);
-  return fmt::format("expected one of {}, or a name that begins with '_' for a remark",
+  return fmt::format("expected one of {}, or a name that begins with '_', for a remark",
                      names_of(known));
 }
 

@@ -28,7 +28,7 @@ Grid read_grid(const YamlValue& map, const std::string& file, const InputRules& 
   const int height = dimensions.element(1).integer(1, kMaxCells);
   if (height > kMaxCells / width)
     dimensions.fail(
-        fmt::format("{} x {} cells are too many; expected at most {}", width, height, kMaxCells));
+        fmt::format("found {} x {} cells; expected at most {}", width, height, kMaxCells));
   require_memory(rules, file, dimensions.place(), std::int64_t{width} * height, "cells",
                  kBytesPerCell);
   std::vector<bool> passable(static_cast<std::size_t>(width) * height, true);
@@ -55,10 +55,9 @@ std::optional<YamlValue> find_goal(const YamlValue& agent) {
     agent.fail("expected exactly one of the keys 'goal', 'goals' and 'potentialGoals'");
   if (!choice) return goal;
   if (choice->size() != 1)
-    choice->fail(
-        fmt::format("found {} potential goals; expected one, for Grove does not "
-                    "choose destinations",
-                    choice->size()));
+    choice->fail(fmt::format(
+        "found {} potential goals; expected one, because Grove does not choose destinations",
+        choice->size()));
   return choice->element(0);
 }
 
@@ -116,9 +115,10 @@ void require_no_goals(const Instance& instance, std::string_view format) {
     if (instance.agent(i).goal)
       throw NotRepresentable(
           fmt::format("agents/{}", i),
-          fmt::format("agent '{}' has a goal to end on, which cannot be said in {}; expected an "
-                      "agent that may end on any of its tasks (MG-MAPF)",
-                      instance.agent(i).id, format),
+          fmt::format(
+              "agent '{}' has a goal to end on, which cannot be represented in {}; expected an "
+              "agent that may end on any of its tasks (MG-MAPF)",
+              instance.agent(i).id, format),
           Loss::kNothing);
 }
 
@@ -142,7 +142,7 @@ Instance read_libmrp_instance(const std::filesystem::path& path, std::vector<std
   const YamlDocument document(path, rules);
   const YamlValue root = document.root();
   if (const auto roadmap = root.find("roadmap"))
-    roadmap->fail("a roadmap; expected a grid, given by the key 'map'");
+    roadmap->fail("found a roadmap; expected a grid, given by the key 'map'");
   UnknownYamlKeys unknown(path.string(), warnings);
   unknown.look_at(root, {"map", "agents"});
   const YamlValue map = root.member("map");

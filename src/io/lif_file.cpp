@@ -4,21 +4,69 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
 #include <unordered_map>
 #include <unordered_set>
+#include <vector>
 
 #include "io/input_error.h"
 #include "io/json_value.h"
-#include "io/nurbs.h"
 #include "io/text_file.h"
+#include "model/roadmap.h"
 
 namespace grove::detail {
 namespace {
 
+constexpr int kPartsOfSpan = 64;    // of a curve, in its polyline
 constexpr int kHighestDegree = 16;  // sufficient for curves of vehicles
+
+// A non-uniform rational B-spline (NURBS). `knots` is non-decreasing and has degree + 1 more
+// entries than `points`. There are more points than the degree. The weights are positive.
+struct Nurbs {
+  int degree = 1;
+  std::vector<double> knots;
+  std::vector<Point> points;
+  std::vector<double> weights;  // one per point
+};
+
+// De Boor's algorithm on (w x, w y, w), for t between the knots `span` and span + 1.
+Point point_at(const Nurbs& curve, int span, double t) {
+  const int p = curve.degree;
+  std::vector<std::array<double, 3>> d;
+  for (int j = span - p; j <= span; ++j) {
+    const double w = curve.weights[j];
+    d.push_back({w * curve.points[j].x, w * curve.points[j].y, w});
+  }
+  for (int level = 1; level <= p; ++level)
+    for (int j = p; j >= level; --j) {
+      const double begin = curve.knots[span - p + j];
+      const double end = curve.knots[span + 1 + j - level];
+      const double part = (t - begin) / (end - begin);  // begin <= knot span < knot span + 1 <= end
+      for (int k = 0; k < 3; ++k) d[j][k] = (1 - part) * d[j - 1][k] + part * d[j][k];
+    }
+  return {d[p][0] / d[p][2], d[p][1] / d[p][2]};
+}
+
+// The length of the curve, approximated by a polyline through many of its points, so slightly too
+// small for a bent curve.
+double length_of(const Nurbs& curve) {
+  double length = 0;
+  for (int span = curve.degree; span < std::ssize(curve.points); ++span) {
+    const double begin = curve.knots[span];
+    const double end = curve.knots[span + 1];
+    if (!(begin < end)) continue;
+    Point last = point_at(curve, span, begin);
+    for (int k = 1; k <= kPartsOfSpan; ++k) {
+      const Point next = point_at(curve, span, begin + (end - begin) * k / kPartsOfSpan);
+      length += std::hypot(next.x - last.x, next.y - last.y);
+      last = next;
+    }
+  }
+  return length;
+}
 
 // Exporters write null for unknown values.
 std::optional<JsonValue> find_given(const JsonValue& object, const char* key) {
@@ -63,8 +111,7 @@ class LifReader {
     for (std::size_t k = 0; k < edges.size(); ++k) read_edge(edges.element(k));
     if (edges_away_ > 0 && warnings_ != nullptr)
       warnings_->push_back(
-          fmt::format("{}: {}: {} of the edges lead from or to another layout and "
-                      "are left out",
+          fmt::format("{}: {}: {} edges lead from or to another layout and are left out",
                       one_line(network_.file), edges.path(), edges_away_));
     return std::move(network_);
   }
@@ -73,7 +120,7 @@ class LifReader {
   JsonValue chosen_layout() {
     const JsonValue root = document_.root();
     if (!root.find("layouts") && root.find("origins"))
-      root.fail("has 'origins', as LIF 2 has; expected 'layouts', as in LIF 1");
+      root.fail("found 'origins', a key of LIF 2; expected 'layouts', as in LIF 1");
     unknown_.look_at(root, {"metaInformation", "layouts"});
     const JsonValue layouts = root.member("layouts");
     std::set<std::string> ids;
@@ -93,8 +140,8 @@ class LifReader {
       layouts.fail(
           fmt::format("there is no layout '{}'; expected one of {}", choice_.layout, listed(ids)));
     if (choice_.layout.empty() && ids.size() > 1)
-      layouts.fail(
-          fmt::format("{} layouts; expected --layout with one of {}", ids.size(), listed(ids)));
+      layouts.fail(fmt::format("found {} layouts; expected --layout with one of {}", ids.size(),
+                               listed(ids)));
     return *chosen;
   }
 
@@ -123,11 +170,11 @@ class LifReader {
     const std::string& type = choice_.vehicle_type;
     if (type.empty() && types.size() > 1)
       layout.fail(
-          fmt::format("{} vehicle types, with roads and speeds of their own; expected "
+          fmt::format("found {} vehicle types with different roads and speeds; expected "
                       "--vehicle-type with one of {}",
                       types.size(), listed(types)));
     if (!type.empty() && !types.contains(type))
-      layout.fail(types.empty() ? "names no vehicle types; expected no --vehicle-type"
+      layout.fail(types.empty() ? "has no vehicle types; expected no --vehicle-type"
                                 : fmt::format("there is no vehicle type '{}'; expected one of {}",
                                               type, listed(types)));
   }
@@ -228,8 +275,8 @@ class LifReader {
             use.properties ? find_given(*use.properties, "trajectory") : std::nullopt)
       metres = std::max(metres, length_of(read_curve(*curve)));
     if (!(metres > 0) || !std::isfinite(metres))
-      edge.fail(
-          fmt::format("leads over {} m; expected ends, or a trajectory, at some distance", metres));
+      edge.fail(fmt::format(
+          "has a length of {} m; expected ends, or a trajectory, at a positive distance", metres));
     return metres;
   }
 
@@ -253,8 +300,8 @@ class LifReader {
       if (!(curve.weights.back() > 0)) weight->fail_expected("a positive number");
     }
     if (std::ssize(curve.points) <= curve.degree)
-      points.fail(fmt::format("{} points; expected more than the degree, {}", curve.points.size(),
-                              curve.degree));
+      points.fail(fmt::format("found {} points; expected more than the degree, {}",
+                              curve.points.size(), curve.degree));
     read_knots(value.member("knotVector"), curve);
     return curve;
   }
@@ -264,11 +311,11 @@ class LifReader {
       const JsonValue knot = knots.element(k);
       curve.knots.push_back(knot.number());
       if (k > 0 && curve.knots[k] < curve.knots[k - 1])
-        knot.fail_expected("no less than the knot before");
+        knot.fail_expected("at least the knot before");
     }
     const std::size_t count = curve.points.size() + static_cast<std::size_t>(curve.degree) + 1;
     if (curve.knots.size() != count)
-      knots.fail(fmt::format("{} knots; expected {}, for {} control points and degree {}",
+      knots.fail(fmt::format("found {} knots; expected {}, for {} control points and degree {}",
                              curve.knots.size(), count, curve.points.size(), curve.degree));
   }
 

@@ -82,11 +82,10 @@ class MapReader {
   // file.
   void expect_map() const {
     if (constexpr std::string_view kFirst = "type octile"; header_line(0, kFirst) != kFirst)
-      fail(
-          0, 0,
-          fmt::format("does not begin as a map does; expected '{}' ('grove convert' makes a map of "
-                      "a drawing)",
-                      kFirst));
+      fail(0, 0,
+           fmt::format("is not a map; expected the first line '{}' ('grove convert' converts "
+                       "drawings to maps)",
+                       kFirst));
   }
 
   Size read_header() const {
@@ -106,7 +105,7 @@ class MapReader {
     expect_header(3, "map");
     if (size.height > kMaxMapCells / size.width)
       fail(1, 0,
-           fmt::format("{} x {} cells are too many; expected at most {}", size.width, size.height,
+           fmt::format("found {} x {} cells; expected at most {}", size.width, size.height,
                        kMaxMapCells));
     require_memory(rules_, file_, line_and_column(2, 1), std::int64_t{size.width} * size.height,
                    "cells", kBytesPerCell);
@@ -120,7 +119,7 @@ class MapReader {
            fmt::format("the map ends after {} rows; expected {}", lines_.size() - kHeaderLines,
                        height));
     if (lines_.size() > expected)
-      fail(expected, 0, fmt::format("the map goes on after {} rows; expected no more", height));
+      fail(expected, 0, fmt::format("the map has more than {} rows; expected no more", height));
   }
 
   void read_row(std::size_t line, std::size_t width, std::vector<bool>& passable) {

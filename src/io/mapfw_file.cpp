@@ -6,8 +6,8 @@
 #include "io/atomic_file.h"
 #include "io/format_support.h"
 #include "io/input_error.h"
+#include "io/json_text.h"
 #include "io/json_value.h"
-#include "io/json_writer.h"
 #include "io/map_file.h"
 #include "io/waypoints.h"
 

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "execution/visits.h"
-#include "io/json_writer.h"
+#include "execution/action_dependency_graph.h"
+#include "io/json_text.h"
 #include "io/path_entry.h"
 
 namespace grove::detail {

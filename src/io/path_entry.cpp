@@ -30,7 +30,8 @@ int road_meant(const Roadmap& roadmap, const JsonValue& entry, int from, int to)
     entry.element(3).fail(
         fmt::format("edge {} does not join these vertices; expected one that does", road));
   }
-  if (roads.empty()) entry.fail("no road joins these vertices; expected two that one joins");
+  if (roads.empty())
+    entry.fail("no road joins these vertices; expected two vertices joined by a road");
   if (roads.size() > 1)
     entry.fail(
         fmt::format("{} roads join these vertices; expected a fourth entry, the number of "
@@ -91,7 +92,7 @@ Pose read_turning_pose(const Grid& grid, Motion motion, const JsonValue& value) 
   if (!value.json().is_array() || (value.size() != 3 && value.size() != 5))
     value.fail_expected(
         "[x, y, heading], heading \"N\", \"E\", \"S\" or \"W\", or [x, y, heading, next, k], k "
-        "steps of the turn to the next heading made, for an agent that turns");
+        "steps made of the turn to the next heading, for an agent that turns");
   const Position p{value.element(0).coordinate(), value.element(1).coordinate()};
   const Heading heading = read_heading(value.element(2));
   Pose pose{cell_on(grid, value, p), heading, heading, 0};
@@ -100,7 +101,8 @@ Pose read_turning_pose(const Grid& grid, Motion motion, const JsonValue& value) 
   if (!is_next_to(heading, pose.to))
     value.element(3).fail_expected("the heading a quarter turn to the right or to the left");
   if (motion.turn_steps == 1)
-    value.fail("a quarter turn of this agent takes one step; expected [x, y, heading]");
+    value.fail(
+        "found a turn, but a quarter turn of this agent takes one step; expected [x, y, heading]");
   pose.steps = static_cast<Time>(value.element(4).integer(1, motion.turn_steps - 1));
   return pose;
 }

@@ -9,8 +9,8 @@
 
 #include "io/atomic_file.h"
 #include "io/input_error.h"
+#include "io/json_text.h"
 #include "io/json_value.h"
-#include "io/json_writer.h"
 #include "io/known_keys.h"
 #include "io/path_entry.h"
 #include "io/text_file.h"
@@ -160,11 +160,43 @@ class PlanReader {
   IndexById tasks_;
 };
 
+// Counters of plan files of before 0.1, and their present names.
+std::string current_counter(const std::string& name) {
+  static const std::unordered_map<std::string, std::string> kRenamed{
+      {"batches", "node_batches"},
+      {"facts_sent", "learned_bounds_sent"},
+      {"gain_configurations", "gain_lacam"},
+      {"gain_neighborhood", "gain_lns"},
+      {"gain_priorities", "gain_prioritized"},
+      {"helps", "assists"},
+      {"joint_pairs", "joint_mdd_nodes"},
+      {"path_sets_asked", "mdd_queries"},
+      {"path_sets_known", "mdd_hits"},
+      {"plans_configurations", "plans_lacam"},
+      {"plans_neighborhood", "plans_lns"},
+      {"plans_priorities", "plans_prioritized"},
+      {"prices_asked", "branching_cost_queries"},
+      {"prices_known", "branching_cost_hits"},
+      {"prices_of_ranks", "remote_pricings"},
+      {"primal_joint_steps", "primal_lacam_steps"},
+      {"primal_neighborhoods", "primal_lns_iterations"},
+      {"silent_ranks", "unresponsive_ranks"},
+      {"splits_bar", "splits_vertex_edge"},
+      {"splits_no_rest_by", "splits_cost"},
+      {"splits_no_traversal", "splits_corridor"},
+      {"splits_rest_by", "splits_target"},
+      {"splits_stop_is_not", "splits_sequence"},
+      {"trees_prepared_in_vain", "trees_prepared_unused"},
+  };
+  const auto found = kRenamed.find(name);
+  return found == kRenamed.end() ? name : found->second;
+}
+
 Stats read_stats(const JsonValue& value) {
   if (!value.json().is_object()) value.fail_expected("an object");
   Stats stats;
   for (const auto& [name, entry] : value.json().items()) {
-    if (entry.is_number_integer()) stats.counts[name] = entry.get<std::int64_t>();
+    if (entry.is_number_integer()) stats.counts[current_counter(name)] = entry.get<std::int64_t>();
     if (entry.is_number_float()) stats.measures[name] = entry.get<double>();
     if (entry.is_string()) stats.texts[name] = entry.get<std::string>();
   }

@@ -135,8 +135,8 @@ AgentIndex agent_called(const Instance& instance, const YamlValue& name) {
           : std::nullopt;
   if (!number || *number >= instance.agent_count())
     name.fail(
-        fmt::format("found '{}', which no agent of the instance is called; expected the name "
-                    "of one, or agent0 to agent{}",
+        fmt::format("found '{}', which is not an agent of the instance; expected the name of an "
+                    "agent, or agent0 to agent{}",
                     one_line(text), instance.agent_count() - 1));
   return *number;
 }
@@ -148,7 +148,7 @@ Path read_schedule_of_agent(const Instance& instance, const YamlValue& steps) {
     const YamlValue step = steps.element(k);
     const auto t = step.member("t");
     if (t.integer(0, std::numeric_limits<int>::max()) != static_cast<int>(k))
-      t.fail(fmt::format("expected t: {}, for each step follows the one before", k));
+      t.fail(fmt::format("expected t: {}, because steps are consecutive", k));
     path.push_back(grid.cell({step.member("x").integer(0, grid.width() - 1),
                               step.member("y").integer(0, grid.height() - 1)}));
   }
@@ -169,7 +169,7 @@ ToldPaths read_schedule(const std::filesystem::path& path, const Instance& insta
   for (const auto& pair : schedule.node()) {
     const YamlValue key(pair.first, name);
     Path& agent = (*told.paths)[agent_called(instance, key)];
-    if (!agent.empty()) key.fail("an agent appears twice");
+    if (!agent.empty()) key.fail("an agent appears more than once");
     agent = read_schedule_of_agent(instance, {pair.second, name});
   }
   return told;
@@ -182,7 +182,7 @@ ToldPaths read_visualizer_text(const std::filesystem::path& path, const Instance
   for (; k < lines.size() && lines[k] != "solution="; ++k) {
     LineReader line(path, k + 1, lines[k]);
     if (line.take_if("agents=") && line.take_integer() != instance.agent_count())
-      line.fail(fmt::format("expected {} agents, as the instance has", instance.agent_count()));
+      line.fail(fmt::format("expected {} agents, as in the instance", instance.agent_count()));
     if (line.take_if("soc=")) text.cost = line.take_integer();
     if (line.take_if("soc_lb=")) text.lower_bound = line.take_integer();
     if (line.take_if("solved=0")) return {};
@@ -229,7 +229,7 @@ Time finish_of(const Path& path) {
   return static_cast<Time>(std::max<std::size_t>(until_rest(path).size(), 1) - 1);
 }
 
-void count_anew(Plan& plan) {
+void recompute_costs(Plan& plan) {
   plan.cost = 0;
   for (AgentPlan& agent : plan.agents) {
     agent.cost = finish_of(agent.path);
@@ -275,7 +275,7 @@ RecountedPlan read_and_recount(const std::filesystem::path& path, const Instance
   if (claimed.solution.plan && claims("cost")) result.claimed_cost = claimed.solution.plan->cost;
   if (claims("lower bound")) result.claimed_lower_bound = claimed.solution.lower_bound;
   result.solution = std::move(claimed.solution);
-  if (result.solution.plan && paths_are_places(instance)) count_anew(*result.solution.plan);
+  if (result.solution.plan && paths_are_places(instance)) recompute_costs(*result.solution.plan);
   forget_claims(result.solution);
   return result;
 }

@@ -5,10 +5,9 @@
 
 #include "io/atomic_file.h"
 #include "io/format_support.h"
-#include "io/json_writer.h"
+#include "io/json_text.h"
 #include "io/plan_export.h"
 #include "io/plan_steps.h"
-#include "io/visits.h"
 
 namespace grove::detail {
 namespace {
@@ -21,16 +20,17 @@ bool turns(const Instance& instance) {
 
 void require_expressible(const Instance& instance) {
   if (!instance.is_on_grid())
-    throw NotRepresentable("roadmap", "a roadmap cannot be shown by PlanViz; expected a grid",
+    throw NotRepresentable("roadmap", "PlanViz cannot show a roadmap; expected a grid",
                            Loss::kNothing);
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     const Time steps = instance.agent(i).motion.turn_steps;
     if (steps > 1 || (steps > 0) != turns(instance))
-      throw NotRepresentable(fmt::format("agents/{}", i),
-                             fmt::format("agent '{}' takes {} steps for a quarter turn; PlanViz "
-                                         "expects 1 of all agents, or none of any",
-                                         instance.agent(i).id, steps),
-                             Loss::kNothing);
+      throw NotRepresentable(
+          fmt::format("agents/{}", i),
+          fmt::format("agent '{}' takes {} steps for a quarter turn; PlanViz requires 1 step for "
+                      "all agents, or agents that turn freely",
+                      instance.agent(i).id, steps),
+          Loss::kNothing);
   }
 }
 

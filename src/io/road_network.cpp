@@ -30,8 +30,8 @@ double exact_steps(const RoadNetwork& network, const Link& link, const StepScale
     steps = std::max(steps, *link.seconds / *scale.seconds_per_step);
   else if (!scale.metres_per_step)
     throw InputError(network.file, link.place,
-                     "nothing tells how long this edge takes; expected its highest speed (LIF) or "
-                     "its duration (GraphML), or --metres-per-step for the robots' own speed");
+                     "this edge has no time; expected a maximum speed (LIF), a duration (GraphML), "
+                     "or --metres-per-step for the speed of the robots");
   return steps;
 }
 
@@ -39,10 +39,10 @@ Rounding rounded_up(const RoadNetwork& network, int index, const StepScale& scal
   const Link& link = network.links[index];
   const double exact = exact_steps(network, link, scale);
   if (!(exact <= Roadmap::kMostPlaces))
-    throw InputError(network.file, link.place,
-                     fmt::format("this edge takes {:.6g} steps; expected at most {}: take longer "
-                                 "steps",
-                                 exact, Roadmap::kMostPlaces));
+    throw InputError(
+        network.file, link.place,
+        fmt::format("this edge takes {:.6g} steps; expected at most {}; use longer steps", exact,
+                    Roadmap::kMostPlaces));
   const double tidy = without_noise(exact);
   const Time steps = std::max<Time>(1, static_cast<Time>(std::ceil(tidy)));
   return {tidy == steps ? -1 : index, tidy == steps ? tidy : exact, steps};
@@ -53,10 +53,11 @@ void require_room(const RoadNetwork& network, const Link& link, std::int64_t pla
   require_memory(rules, network.file, link.place, places, "places of the roads up to this one",
                  kBytesPerPlace);
   if (places > Roadmap::kMostPlaces)
-    throw InputError(network.file, link.place,
-                     fmt::format("the roads up to this one have more than {} places; expected "
-                                 "fewer: take longer steps",
-                                 Roadmap::kMostPlaces));
+    throw InputError(
+        network.file, link.place,
+        fmt::format(
+            "the roads up to this one have more than {} places; expected fewer; use longer steps",
+            Roadmap::kMostPlaces));
 }
 
 // The one-way roads, grouped by their pair of vertices. In each group first one direction, then the

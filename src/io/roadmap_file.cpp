@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "io/json_text.h"
 #include "io/json_value.h"
-#include "io/json_writer.h"
 #include "io/known_keys.h"
 #include "io/text_file.h"
 
@@ -47,8 +47,8 @@ int read_end(const JsonValue& id, const Numbers& numbers) {
 Time read_steps(const JsonValue& value) {
   if (value.json().is_number_float())
     value.fail_expected(
-        "a whole number of steps, at least 1; 'grove convert --metres-per-step' makes them of "
-        "lengths in GraphML or LIF, and rounds up");
+        "a whole number of steps, at least 1; 'grove convert --metres-per-step' converts lengths "
+        "in GraphML or LIF to steps, rounded up");
   return static_cast<Time>(value.integer(1, Roadmap::kMostPlaces));
 }
 

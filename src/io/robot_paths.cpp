@@ -10,7 +10,7 @@
 #include "io/atomic_file.h"
 #include "io/csv.h"
 #include "io/plan_export.h"
-#include "io/visits.h"
+#include "io/plan_steps.h"
 #include "io/yaml_text.h"
 
 namespace grove::detail {

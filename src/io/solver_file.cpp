@@ -98,7 +98,7 @@ TracePattern trace_of(const JsonValue& value) {
     return group != TraceGroup::kCost && group != TraceGroup::kLowerBound;
   });
   if (times != 1 || std::ranges::count(trace.groups, TraceGroup::kCost) != 1)
-    groups.fail("expected the cost once and one time: seconds, milliseconds or seconds_left");
+    groups.fail("expected cost once and exactly one time: seconds, milliseconds or seconds_left");
   trace.line = pattern_of(value, trace.groups.size());
   return trace;
 }
@@ -106,7 +106,7 @@ TracePattern trace_of(const JsonValue& value) {
 std::vector<std::string> command_of(const JsonValue& value, SolverInput input) {
   const auto words = command_words(template_of(value));
   if (!words) value.fail("a quote is not closed");
-  if (!names(*words, "program")) value.fail("expected {program} where the program stands");
+  if (!names(*words, "program")) value.fail("expected {program} as the program");
   if (const std::string mistake = input_mistake(input, *words); !mistake.empty())
     value.fail(mistake);
   return *words;
@@ -145,7 +145,7 @@ SolverAdapter solver_of(const JsonValue& root) {
     for (std::size_t i = 0; i < trace->size(); ++i)
       solver.trace.push_back(trace_of(trace->element(i)));
   if (solver.plan.empty() && !solver.cost && !solver.solved)
-    root.fail("there is neither a plan nor a claim to read; expected one of plan, claims");
+    root.fail("found neither a plan nor claims; expected one of plan, claims");
   return solver;
 }
 
@@ -207,7 +207,7 @@ std::string regex_mistake(const std::string& text, std::size_t groups) {
     return fmt::format("found {} group{} in round brackets; expected {}", found,
                        found == 1 ? "" : "s", groups);
   } catch (const std::regex_error& error) {
-    return fmt::format("found '{}', which is no regular expression (ECMAScript): {}",
+    return fmt::format("found '{}', which is not a regular expression (ECMAScript): {}",
                        one_line(text), error.what());
   }
 }
@@ -218,7 +218,7 @@ std::string template_mistake(std::string_view text) {
     if (brace == std::string_view::npos) return "";
     const std::size_t close = text.find('}', brace);
     if (text[brace] == '}' || close == std::string_view::npos)
-      return "a brace without its other one; expected names in braces, such as {map}";
+      return "found an unpaired brace; expected names in braces, such as {map}";
     const std::string_view name = text.substr(brace + 1, close - brace - 1);
     if (std::ranges::find(kPlaceholders, name) == kPlaceholders.end())
       return fmt::format("found {{{}}}; expected one of {{{}}}", one_line(name),

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "io/input_error.h"
 
@@ -56,6 +57,25 @@ std::string line_and_column_at(std::string_view text, std::size_t offset) {
   const auto line = static_cast<std::size_t>(std::ranges::count(before, '\n')) + 1;
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 == 0: the first line
   return line_and_column(line, before.size() - line_start + 1);
+}
+
+LineStarts::LineStarts(std::string_view text) : starts_{0} {
+  for (std::size_t end = text.find('\n'); end != std::string_view::npos;
+       end = text.find('\n', end + 1))
+    starts_.push_back(end + 1);
+}
+
+std::string LineStarts::place(std::size_t offset) const {
+  const auto line = std::ranges::upper_bound(starts_, offset) - starts_.begin();
+  return line_and_column(static_cast<std::size_t>(line), offset - starts_[line - 1] + 1);
+}
+
+bool is_utf8(const std::string& text) {
+  try {
+    return !nlohmann::json(text).dump().empty();
+  } catch (const nlohmann::json::exception&) {
+    return false;
+  }
 }
 
 }  // namespace grove::detail

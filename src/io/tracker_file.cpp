@@ -90,12 +90,11 @@ void require_tracker_instance(const Instance& instance) {
   require_free_grid(instance, kFormat);
   require_goals(instance, kFormat);
   if (instance.task_count() > 0)
-    throw NotRepresentable(
-        "tasks/0",
-        fmt::format("task '{}' cannot be said in {}, nor would bound and cost be "
-                    "right without it; expected no tasks",
-                    instance.task(0).id, kFormat),
-        Loss::kNothing);
+    throw NotRepresentable("tasks/0",
+                           fmt::format("task '{}' cannot be represented in {}, and bound and cost "
+                                       "would be wrong without it; expected no tasks",
+                                       instance.task(0).id, kFormat),
+                           Loss::kNothing);
 }
 
 void write_tracker_row(const std::filesystem::path& path, const Instance& instance,

@@ -10,7 +10,6 @@
 
 #include "io/input_error.h"
 #include "io/text_file.h"
-#include "io/utf8.h"
 #include "model/parse_number.h"
 
 namespace grove::detail {
@@ -63,10 +62,9 @@ void require_one_document(const std::string& file, const std::string& text) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
   Deaf deaf;
-  if (!parser.HandleNextDocument(deaf))
-    throw InputError(file, "", "holds nothing; expected a YAML map");
+  if (!parser.HandleNextDocument(deaf)) throw InputError(file, "", "is empty; expected a YAML map");
   if (parser.HandleNextDocument(deaf))
-    throw InputError(file, "", "holds more than one YAML document; expected one");
+    throw InputError(file, "", "has more than one YAML document; expected one");
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ class AgentGraphMaker {
       if (nodes_.size() > most_nodes) return std::nullopt;
       connect(nodes_[node]);
     }
-    settle_costs();
+    compute_costs();
     return compact();
   }
 
@@ -92,7 +92,7 @@ class AgentGraphMaker {
 
   // Breadth-first search backward from the nodes where the agent may rest: all moves except those
   // within rest cost 1.
-  void settle_costs() {
+  void compute_costs() {
     std::vector<std::vector<std::uint32_t>> back(nodes_.size());
     for (std::uint32_t node = 0; node < nodes_.size(); ++node)
       for (const std::uint32_t to : moves_[node])

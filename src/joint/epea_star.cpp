@@ -6,7 +6,7 @@
 // To rest for ever is a decision: an agent that could rest may continue instead, and pays for it.
 //
 // Estimate. It is the sum of the agents' individual costs to go, plus what groups of two or three
-// agents cost more together (pattern_database.h). The groups share no agent; the best grouping
+// agents cost more together (database_groups.h). The groups share no agent; the best grouping
 // counts. In any plan each group costs at least that, so the estimate is admissible.
 //
 // Layers. The queue is ordered by cost + estimate, the layer of a state. Layers are emptied in
@@ -31,15 +31,13 @@
 #include "joint/epea_star.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <new>
 #include <utility>
 
-#include "joint/pattern_database.h"
-#include "model/plan_of_path.h"
+#include "joint/database_groups.h"
+#include "model/plan.h"
 
 namespace grove::detail {
 namespace {
@@ -47,13 +45,6 @@ namespace {
 using Node = AgentGraph::Node;
 using Index = std::uint32_t;
 constexpr Index kNone = std::numeric_limits<Index>::max();
-constexpr std::size_t kMostGrouped =
-    8;  // agents; with more, finding the best grouping takes too long
-constexpr std::size_t kMostEntries = std::size_t{1}
-                                     << 18;         // entries of a table made before the search
-constexpr std::int64_t kMostTableWork = 4'000'000;  // of these tables together; see search/work.h
-constexpr std::size_t kMostLateEntries = std::size_t{1} << 21;
-constexpr std::size_t kMostGroupedLate = 6;
 constexpr std::int64_t kStatesPerPoll = 256;
 constexpr std::int64_t kMadePerWork = 2;  // joint states; see search/work.h
 
@@ -67,20 +58,21 @@ class EpeaStar::Search {
       : instance_(instance),
         agents_(std::move(agents)),
         most_bytes_(most_bytes),
-        from_on_(static_cast<std::size_t>(instance.world().place_count()), kNobody),
+        groups_(instance, agents_),
+        from_on_(static_cast<std::size_t>(instance.world().place_count()), kNoAgent),
         to_on_(from_on_) {
     if (std::ranges::any_of(agents_, [](const auto& agent) { return agent.count() == 0; })) return;
     for (const AgentGraph& agent : agents_) alone_ += agent.to_go(AgentGraph::start());
-    if (tables) plan_tables();
+    if (tables) groups_.plan();
     first_layer_ = lower_bound_ = std::max<Cost>(alone_, least);
-    if (tables_to_come_.empty()) begin();
+    if (!groups_.are_due()) begin();
   }
 
   Outcome run(std::int64_t states, Cost cutoff, const Limits& limits) {
-    if (!tables_to_come_.empty())
-      return make_table(limits) ? Outcome::kWorking : Outcome::kTooLarge;
-    if (late_table_is_due())
-      return make_late_table(limits) ? Outcome::kWorking : Outcome::kTooLarge;
+    if (groups_.are_due()) return make_database(limits) ? Outcome::kWorking : Outcome::kTooLarge;
+    // Databases take at most half of the work.
+    if (groups_.late_is_due(made_ / kMadePerWork))
+      return groups_.make_late(limits) ? Outcome::kWorking : Outcome::kTooLarge;
     for (; states > 0 && !paths_; --states) {
       const Index state = pop();
       if (state == kNone) {
@@ -110,10 +102,10 @@ class EpeaStar::Search {
     return plan;
   }
   std::int64_t states() const { return states_; }
-  std::int64_t work() const { return table_work_ + made_ / kMadePerWork; }
+  std::int64_t work() const { return groups_.work() + made_ / kMadePerWork; }
 
  private:
-  static constexpr std::int8_t kNobody = -1;
+  static constexpr std::int8_t kNoAgent = -1;
 
   struct Record {
     Index parent = kNone;
@@ -124,90 +116,21 @@ class EpeaStar::Search {
     std::uint32_t tables = 0;     // number of tables that its layer includes
   };
 
-  // Tables of disjoint groups, by number; unused entries hold tables_.size().
-  using Grouping = std::array<std::uint8_t, kMostGrouped / 2>;
-
-  // Plans tables for all pairs, then for all triples, if they are small enough. There is no table
-  // of all agents: the search itself is that table.
-  void plan_tables() {
-    if (size() < 3 || size() > kMostGrouped) return;
-    for (std::size_t a = 0; a < size(); ++a)
-      for (std::size_t b = a + 1; b < size(); ++b) plan_table({a, b});
-    for (std::size_t a = 0; a < size() && size() > 3; ++a)
-      for (std::size_t b = a + 1; b < size(); ++b)
-        for (std::size_t c = b + 1; c < size(); ++c) plan_table({a, b, c});
-    std::ranges::stable_sort(late_tables_, {},
-                             [&](const auto& members) { return work_of(members); });
-  }
-  void plan_table(std::vector<std::size_t> members) {
-    const std::size_t entries = PatternDatabase::entries(agents_, members);
-    if (entries <= kMostEntries && planned_work_ + work_of(members) <= kMostTableWork) {
-      planned_work_ += work_of(members);
-      tables_to_come_.push_back(std::move(members));
-    } else if (entries <= kMostLateEntries && size() <= kMostGroupedLate) {
-      late_tables_.push_back(std::move(members));
-    }
-  }
-  std::int64_t work_of(const std::vector<std::size_t>& members) const {
-    return PatternDatabase::work(agents_, members);
-  }
-  // Returns false if a limit was reached.
-  bool add_table(std::deque<std::vector<std::size_t>>& from, const Limits& limits) {
-    auto table = PatternDatabase::make(instance_, agents_, from.front(), limits);
-    if (!table) return false;
-    tables_.push_back(std::move(*table));
-    table_work_ += work_of(from.front());
-    table_bytes_ += PatternDatabase::entries(agents_, from.front());
-    from.pop_front();
-    return true;
-  }
-  bool make_table(const Limits& limits) {
-    if (!add_table(tables_to_come_, limits)) return false;
-    if (tables_to_come_.empty()) begin();
-    return true;
-  }
-  // Tables take at most half of the work.
-  bool late_table_is_due() const {
-    return !late_tables_.empty() &&
-           table_work_ + work_of(late_tables_.front()) <= made_ / kMadePerWork;
-  }
-  bool make_late_table(const Limits& limits) {
-    if (!add_table(late_tables_, limits)) return false;
-    group();
+  bool make_database(const Limits& limits) {
+    if (!groups_.make_next(limits)) return false;
+    if (!groups_.are_due()) begin();
     return true;
   }
   void begin() {
-    group();
     const std::vector<Node> start(size(), AgentGraph::start());
     reach(start.data(), hash_of(start.data()), kNone, 0, alone_);
-  }
-  void group() {
-    excess_.assign(tables_.size() + 1, 0);
-    groupings_.clear();
-    Grouping none;
-    none.fill(static_cast<std::uint8_t>(tables_.size()));
-    add_groupings(0, 0, none, 0);
-  }
-  // Adds all maximal groupings that extend `so_far` by tables from `first` on with free agents.
-  void add_groupings(std::size_t first, unsigned taken, Grouping so_far, std::size_t count) {
-    bool ends = true;
-    for (std::size_t i = 0; i < tables_.size() && count < so_far.size(); ++i) {
-      unsigned members = 0;
-      for (const std::size_t member : tables_[i].members()) members |= 1u << member;
-      if ((taken & members) != 0) continue;
-      ends = false;
-      if (i < first) continue;
-      so_far[count] = static_cast<std::uint8_t>(i);
-      add_groupings(i + 1, taken | members, so_far, count + 1);
-    }
-    if (ends && count > 0) groupings_.push_back(so_far);
   }
 
   std::size_t size() const { return agents_.size(); }
   const Node* nodes_of(Index state) const { return nodes_.data() + state * size(); }
   std::size_t bytes() const {
     return nodes_.capacity() * sizeof(Node) + records_.capacity() * sizeof(Record) +
-           slots_.capacity() * sizeof(Index) + queued_ * sizeof(Index) + table_bytes_;
+           slots_.capacity() * sizeof(Index) + queued_ * sizeof(Index) + groups_.bytes();
   }
 
   // --- the queue: by layer, last in, first out ---
@@ -259,7 +182,7 @@ class EpeaStar::Search {
     if (2 * (records_.size() + 1) > slots_.size()) grow();
     Index& slot = slots_[slot_of(nodes, hash)];
     if (slot != kNone && records_[slot].cost <= cost) return;
-    const Cost layer = std::max(lower_bound_, cost + alone + excess_of(nodes));
+    const Cost layer = std::max(lower_bound_, cost + alone + groups_.excess(nodes));
     if (layer >= cutoff_) return;
     if (slot == kNone) {
       slot = static_cast<Index>(records_.size());
@@ -267,16 +190,16 @@ class EpeaStar::Search {
       nodes_.insert(nodes_.end(), nodes, nodes + size());
     }
     records_[slot] = {parent, cost, static_cast<std::int32_t>(layer),
-                      alone,  -1,   static_cast<std::uint32_t>(tables_.size())};
+                      alone,  -1,   static_cast<std::uint32_t>(groups_.count())};
     push(slot);
   }
   // If a table made since then raises the layer of the state, queues it in the new layer and
   // returns true.
   bool rises(Index state, Cost cutoff) {
     Record& record = records_[state];
-    if (record.tables == tables_.size()) return false;
-    record.tables = static_cast<std::uint32_t>(tables_.size());
-    const Cost layer = record.cost + record.alone + excess_of(nodes_of(state));
+    if (record.tables == groups_.count()) return false;
+    record.tables = static_cast<std::uint32_t>(groups_.count());
+    const Cost layer = record.cost + record.alone + groups_.excess(nodes_of(state));
     if (layer <= record.layer) return false;
     if (layer >= cutoff) return true;
     record.layer = static_cast<std::int32_t>(layer);
@@ -284,23 +207,6 @@ class EpeaStar::Search {
     return true;
   }
   bool is_final(Index state) const { return records_[state].alone == 0; }
-
-  // Lower bound on the excess of the joint cost over the sum of individual costs: that of the best
-  // grouping.
-  Cost excess_of(const Node* nodes) {
-    for (std::size_t i = 0; i < tables_.size(); ++i) {
-      const std::uint8_t excess = tables_[i].excess(nodes);
-      if (excess == PatternDatabase::kUnreachable) return kInfiniteCost;
-      excess_[i] = excess;
-    }
-    int best = 0;
-    for (const Grouping& grouping : groupings_) {
-      int sum = 0;
-      for (const std::uint8_t table : grouping) sum += excess_[table];
-      best = std::max(best, sum);
-    }
-    return best;
-  }
 
   // --- expansion ---
 
@@ -320,7 +226,7 @@ class EpeaStar::Search {
       from_on_[place(i, from_)] = static_cast<std::int8_t>(i);
     choose(0, 0, 0, 0);
     reach_next();
-    for (std::size_t i = 0; i < size(); ++i) from_on_[place(i, from_)] = kNobody;
+    for (std::size_t i = 0; i < size(); ++i) from_on_[place(i, from_)] = kNoAgent;
     if (next_budget_ == kNever) return;
     Record& record = records_[state];
     const Cost layer = record.cost + record.alone + next_budget_;
@@ -371,17 +277,17 @@ class EpeaStar::Search {
       to_[agent] = move.to;
       to_on_[there] = static_cast<std::int8_t>(agent);
       choose(agent + 1, sum, cost + (graph.rests(move.to) ? 0 : 1), alone + graph.to_go(move.to));
-      to_on_[there] = kNobody;
+      to_on_[there] = kNoAgent;
     }
   }
 
   // True if the move collides with that of an earlier agent or, where following is forbidden, with
   // the present place of any agent.
   bool collides(std::size_t agent, std::size_t here, std::size_t there) const {
-    if (to_on_[there] != kNobody) return true;
+    if (to_on_[there] != kNoAgent) return true;
     if (here == there) return false;
     const std::int8_t who = from_on_[there];
-    if (who == kNobody) return false;
+    if (who == kNoAgent) return false;
     if (!instance_.may_follow()) return true;
     return who < static_cast<std::int8_t>(agent) &&
            place(static_cast<std::size_t>(who), to_) == here;
@@ -404,15 +310,9 @@ class EpeaStar::Search {
   const Instance& instance_;
   const std::vector<AgentGraph> agents_;
   const std::size_t most_bytes_;
-  std::deque<std::vector<std::size_t>>
-      tables_to_come_;                                // members of tables to make before the search
-  std::deque<std::vector<std::size_t>> late_tables_;  // the same for larger tables
-  std::int64_t planned_work_ = 0;
-  std::int32_t alone_ = 0;  // sum of individual costs at the start
-  std::vector<PatternDatabase> tables_;
-  std::vector<Grouping> groupings_;  // all maximal groupings
-  std::vector<int> excess_;          // by table, of the state being generated; one more entry: 0
-  std::vector<Node> nodes_;          // by state, then agent
+  DatabaseGroups groups_;
+  std::int32_t alone_ = 0;   // sum of individual costs at the start
+  std::vector<Node> nodes_;  // by state, then agent
   std::vector<Record> records_;
   std::vector<Index> slots_;  // hash table; size: a power of two
   std::vector<std::vector<Index>> layers_;
@@ -422,8 +322,6 @@ class EpeaStar::Search {
   Cost lower_bound_ = 0;  // layer of at_
   std::int64_t states_ = 0;
   std::int64_t made_ = 0;  // joint states generated, repetitions included
-  std::int64_t table_work_ = 0;
-  std::size_t table_bytes_ = 0;
   std::optional<std::vector<Path>> paths_;
   // The current expansion.
   struct Next {

@@ -7,7 +7,7 @@
 // large or a limit was reached, proves nothing.
 #include "lagrangian/finish_time_conflicts.h"
 
-#include "lagrangian/least_cost.h"
+#include "lagrangian/penalized_search.h"
 
 namespace grove::detail {
 namespace {
@@ -59,7 +59,7 @@ FinishTimeConflicts::Known FinishTimeConflicts::compared(const FinishTimeConflic
   if (b == nullptr) return Known::kNotExcluded;
   const bool is_excluded =
       a->empty() || b->empty() ||
-      dependency_.find(*a, *b, most_.compared_pairs, limits) == Dependence::kDependent;
+      dependency_.find(*a, *b, most_.joint_mdd_nodes, limits) == Dependence::kDependent;
   return is_excluded ? Known::kExcluded : Known::kNotExcluded;
 }
 

@@ -31,7 +31,7 @@ class FinishTimeConflicts {
   // Limits: nodes of one MDD, pairs of nodes of one joint search, bytes of all MDDs.
   struct Most {
     std::size_t set_nodes;
-    std::size_t compared_pairs;
+    std::size_t joint_mdd_nodes;
     std::size_t bytes;
   };
 

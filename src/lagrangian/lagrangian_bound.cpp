@@ -64,14 +64,14 @@ LagrangianBound::LagrangianBound(const Instance& instance, const AgentStopsCache
       rows_(instance.world(), instance.agent_count()),
       encounters_(instance.world()),
       pairs_(instance.world(), stops_,
-             {.set_nodes = static_cast<std::size_t>(tuning.path_set_nodes),
-              .compared_pairs = static_cast<std::size_t>(tuning.compared_pairs),
+             {.set_nodes = static_cast<std::size_t>(tuning.mdd_nodes),
+              .joint_mdd_nodes = static_cast<std::size_t>(tuning.joint_mdd_nodes),
               .bytes = std::size_t{256} << 20}),
       ascent_(tuning),
       paths_(static_cast<std::size_t>(instance.agent_count())),
       prices_(paths_.size()),
       labels_(paths_.size(), kFirstLabels),
-      next_list_(tuning.first_price_list),
+      next_list_(tuning.first_dual_solution_round),
       is_priced_(paths_.size()),
       known_(paths_.size()) {
   begin_pricing();
@@ -88,15 +88,15 @@ std::optional<LagrangianBound::Job> LagrangianBound::next() {
   const std::lock_guard lock(mutex_);
   std::optional<Job> job;
   if (phase_ == Phase::kPricing) job = next_price();
-  if (phase_ == Phase::kBetween && in_hand_ == 0) job.emplace();
-  if (job) ++in_hand_;
+  if (phase_ == Phase::kBetween && in_progress_ == 0) job.emplace();
+  if (job) ++in_progress_;
   return job;
 }
 
 bool LagrangianBound::has_jobs() const {
   const std::lock_guard lock(mutex_);
   return phase_ == Phase::kPricing ? next_agent_ < end_agent_ || asked_ < taken_over_
-                                   : phase_ == Phase::kBetween && in_hand_ == 0;
+                                   : phase_ == Phase::kBetween && in_progress_ == 0;
 }
 
 std::optional<LagrangianBound::Job> LagrangianBound::next_price() {
@@ -143,7 +143,7 @@ ScaledCost LagrangianBound::known_price(AgentIndex agent) const {
 
 void LagrangianBound::commit(Job job) {
   const std::lock_guard lock(mutex_);
-  --in_hand_;
+  --in_progress_;
   if (job.failed) phase_ = Phase::kEnded;
   if (phase_ == Phase::kEnded) return;
   if (job.first == job.end) {
@@ -170,7 +170,7 @@ bool LagrangianBound::take_price(AgentIndex agent, ScaledCost price, Path path) 
 }
 
 void LagrangianBound::end_pricing_if_done() {
-  if (phase_ != Phase::kPricing || unpriced_ > 0 || in_hand_ > 0) return;
+  if (phase_ != Phase::kPricing || unpriced_ > 0 || in_progress_ > 0) return;
   phase_ = Phase::kBetween;
   ++rounds_;
   work_between_ = 0;
@@ -211,13 +211,13 @@ std::vector<LagrangianBound::Asked> LagrangianBound::dispatch_pricing() {
 
 // Balances the expected work between helpers and this process. It counts the work between two
 // rounds, which is done only here. No helper gets less work than a message is worth
-// (lagrangian_share_work).
+// (lagrangian_min_remote_work).
 std::vector<LagrangianBound::AgentRange> LagrangianBound::partition_agents() {
   const std::lock_guard lock(mutex_);
   std::vector<AgentRange> cuts;
   if (phase_ != Phase::kPricing) return cuts;
   const auto idle = std::ranges::count(helpers_, false, &Helper::owes);
-  const std::int64_t least = tuning_.lagrangian_share_work;
+  const std::int64_t least = tuning_.lagrangian_min_remote_work;
   const std::int64_t left = idle > 0 ? work_left() : 0;
   const std::int64_t shares = std::min<std::int64_t>(idle, left / least - 1);
   if (shares <= 0) return cuts;
@@ -310,19 +310,19 @@ void LagrangianBound::move_multipliers(Cost cutoff, Cost known) {
   const ScaledCost bound =
       std::accumulate(prices_.begin(), prices_.end(), ScaledCost{0}) - multipliers().sum();
   make_list(bound);
-  const double squares = rows_.turn(paths_, encounters_, tuning_.lagrangian_memory);
+  const double squares = rows_.turn(paths_, encounters_, tuning_.lagrangian_smoothing);
   const double most = static_cast<double>(cutoff) * Penalties::kUnit;
   if (squares > 0) rows_.go(ascent_.step(static_cast<double>(bound), most, squares));
   const std::lock_guard lock(mutex_);
   const double hoped = static_cast<double>(best_) + ascent_.way();
-  const bool is_futile =
-      rounds_ > tuning_.lagrangian_trial && hoped < static_cast<double>(known) * Penalties::kUnit;
+  const bool is_futile = rounds_ > tuning_.lagrangian_min_rounds &&
+                         hoped < static_cast<double>(known) * Penalties::kUnit;
   const bool is_over = squares <= 0 || ascent_.way() < kLeastWay || is_futile;
   phase_ = is_over ? Phase::kEnded : Phase::kPricing;
   begin_pricing();
 }
 
-std::shared_ptr<const DualSolution> LagrangianBound::price_list() const {
+std::shared_ptr<const DualSolution> LagrangianBound::dual_solution() const {
   const std::lock_guard lock(mutex_);
   return list_;
 }

@@ -12,7 +12,6 @@
 #include "lagrangian/finish_time_conflicts.h"
 #include "lagrangian/occupancy_counts.h"
 #include "lagrangian/pricer.h"
-#include "lagrangian/pricing_messages.h"
 #include "lagrangian/relaxed_rows.h"
 #include "lagrangian/target_level_step.h"
 #include "model/tuning.h"
@@ -71,7 +70,7 @@ class LagrangianBound {
   const Multipliers& multipliers() const { return rows_.multipliers(); }
   // The dual solution of a round with the best bound so far; nullptr: none yet. It is replaced now
   // and then, when a job is committed.
-  std::shared_ptr<const DualSolution> price_list() const;
+  std::shared_ptr<const DualSolution> dual_solution() const;
 
  private:
   enum class Phase : std::uint8_t { kPricing, kBetween, kEnded };
@@ -123,7 +122,7 @@ class LagrangianBound {
 
   mutable std::mutex mutex_;  // guards:
   Phase phase_ = Phase::kPricing;
-  int in_hand_ = 0;  // jobs in progress
+  int in_progress_ = 0;  // jobs in progress
   int rounds_ = 0;
   ScaledCost best_ = 0;
   std::vector<RowMultiplier> reasons_;  // multipliers that prove best_, if they are recorded

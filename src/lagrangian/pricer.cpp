@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "lagrangian/least_cost.h"
+#include "lagrangian/penalized_search.h"
 
 namespace grove::detail {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pricing: the subproblem values of several agents under given multipliers.
+// Pricing: the subproblem values of several agents under given multipliers. With the messages that
+// ask another process for them.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +26,24 @@ struct PricingJob {
   std::vector<Path> paths;  // empty: no path cheaper than `known` was found
   std::int64_t work = 0;    // in the unit of search/work.h
   bool failed = false;      // memory was refused: no result counts
+};
+
+// Messages between processes: the request for subproblem values of several agents, and the reply.
+// Values.
+struct PricingRequest {
+  std::int64_t round = 0;
+  std::int32_t first = 0;         // first agent
+  std::vector<ScaledCost> known;  // as in PricingJob, from agent `first` on
+  MultiplierUpdate news;          // changes of the multipliers since the helper's last request
+};
+
+struct PricingReply {
+  std::int64_t round = 0;    // of the request
+  std::uint64_t digest = 0;  // of the multipliers under which all values were computed
+  std::int32_t first = 0;
+  std::vector<ScaledCost> prices;
+  std::vector<Path> paths;  // empty: no path cheaper than the known one was found
+  std::int64_t work = 0;
 };
 
 // Computes subproblem values. One thread at a time.

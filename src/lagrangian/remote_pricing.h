@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "lagrangian/pricer.h"
-#include "lagrangian/pricing_messages.h"
 #include "model/instance.h"
 
 namespace grove::detail {

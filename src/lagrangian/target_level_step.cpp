@@ -10,6 +10,9 @@
 namespace grove::detail {
 namespace {
 
+// Part of the distance to the level that counts as progress.
+constexpr double kSufficientProgress = 0.1;
+
 constexpr double kFarBelow = 0.5;  // of the distance to the level
 constexpr int kRoundsForFarBelow = 5;
 
@@ -26,7 +29,7 @@ void TargetLevelStep::choose_level(double most) {
   const double room = std::max(0.0, most - best_);
   if (way_ <= 0) {
     way_ = tuning_.lagrangian_level * best_;
-  } else if (best_ < best_at_level_ + tuning_.lagrangian_enough * way_) {
+  } else if (best_ < best_at_level_ + kSufficientProgress * way_) {
     if (++waited_ < tuning_.lagrangian_patience) return;
     way_ *= tuning_.lagrangian_shrink;
   }

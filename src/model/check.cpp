@@ -2,7 +2,7 @@
 // The definition of a valid plan (docs/design.md, section 1), implemented a second time. The code
 // is direct rather than clever, so that it can be compared with that section line by line. It
 // checks, in this order:
-// - Each agent by itself: start, places, steps, work, end, visits, cost.
+// - Each agent by itself (agent_check.cpp): start, places, steps, work, end, visits, cost.
 // - Collisions: all agents move through time together on one table of the agent on each place. The
 //   effort is O(agents * time) instead of O(agents^2).
 // - Claims: the plan's cost is the sum of the costs of its paths, and its status follows from cost,
@@ -12,368 +12,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <optional>
 #include <set>
-#include <string_view>
 #include <utility>
-#include <variant>
+
+#include "model/agent_check.h"
 
 namespace grove::detail {
 namespace {
-
-// The violations found so far. Ignores further ones after `limit` of them.
-class Report {
- public:
-  explicit Report(std::size_t limit) : limit_(limit) {}
-
-  template <typename... Args>
-  void add(std::string place, fmt::format_string<Args...> format, Args&&... args) {
-    if (full()) return;
-    violations_.push_back({std::move(place), fmt::format(format, std::forward<Args>(args)...)});
-  }
-  bool full() const { return violations_.size() >= limit_; }
-  std::vector<Violation> take() { return std::move(violations_); }
-
- private:
-  std::size_t limit_;
-  std::vector<Violation> violations_;
-};
-
-// The steps that a map allows. They are derived from its cells or roads, independently of the moves
-// of its world.
-class Steps {
- public:
-  explicit Steps(const Map& map) : map_(map) {
-    if (const auto* roadmap = std::get_if<Roadmap>(&map)) add_roads(*roadmap);
-  }
-
-  Place places() const {
-    return std::visit([](const auto& map) { return map.place_count(); }, map_);
-  }
-  bool is_open(Place place) const {
-    const auto* grid = std::get_if<Grid>(&map_);
-    return grid == nullptr || grid->passable(place);
-  }
-  bool allow(Motion motion, const Pose& from, const Pose& to) const {
-    if (from == to) return true;
-    if (motion.turn_steps == 0) return lead(from.place, to.place);
-    if (from.place == to.place) return is_step_of_turn(motion, from, to);
-    return from.steps == 0 && to.steps == 0 && from.heading == to.heading &&
-           is_ahead(from, to.place);
-  }
-  // The allowed steps, for messages.
-  std::string_view rule(Motion motion) const {
-    if (motion.turn_steps > 0) return "a wait, a move one cell ahead or a step of a quarter turn";
-    return std::holds_alternative<Grid>(map_) ? "a wait or a move to one of 4 neighbors"
-                                              : "a wait or a step along a road in its direction";
-  }
-  std::string name(Place place) const {
-    return std::visit([&](const auto& map) { return map.name(place); }, map_);
-  }
-  std::string name(Motion motion, const Pose& pose) const {
-    if (motion.turn_steps == 0) return name(pose.place);
-    std::string text = name(pose.place);
-    text.pop_back();
-    text += fmt::format(", {}", letter(pose.heading));
-    if (pose.steps > 0) text += fmt::format(", {}, {}", letter(pose.to), pose.steps);
-    return text + "]";
-  }
-
- private:
-  bool lead(Place from, Place to) const {
-    const auto* grid = std::get_if<Grid>(&map_);
-    return grid ? are_neighbors(*grid, from, to) : on_roads_.contains({from, to});
-  }
-  static bool are_neighbors(const Grid& grid, Cell from, Cell to) {
-    const Position a = grid.position(from);
-    const Position b = grid.position(to);
-    return std::abs(a.x - b.x) + std::abs(a.y - b.y) <= 1;
-  }
-  // North is up, towards smaller y.
-  bool is_ahead(const Pose& from, Place to) const {
-    const auto& grid = std::get<Grid>(map_);
-    const Position a = grid.position(from.place);
-    const Position b = grid.position(to);
-    switch (from.heading) {
-      case Heading::kNorth:
-        return b.x == a.x && b.y == a.y - 1;
-      case Heading::kEast:
-        return b.x == a.x + 1 && b.y == a.y;
-      case Heading::kSouth:
-        return b.x == a.x && b.y == a.y + 1;
-      case Heading::kWest:
-        return b.x == a.x - 1 && b.y == a.y;
-    }
-    return false;
-  }
-  // True if the step belongs to a quarter turn. A quarter turn leads from one heading to the next
-  // through all states within the turn.
-  static bool is_step_of_turn(Motion motion, const Pose& from, const Pose& to) {
-    const bool ends = from.steps + 1 == motion.turn_steps || motion.turn_steps == 1;
-    if (ends && to.steps != 0) return false;
-    if (!ends && (to.steps != from.steps + 1 || to.heading != from.heading)) return false;
-    const Heading then = ends ? to.heading : to.to;
-    if (from.steps > 0) return then == from.to;
-    const int quarters = (static_cast<int>(then) - static_cast<int>(from.heading) + 4) % 4;
-    return quarters == 1 || quarters == 3;
-  }
-  void add_roads(const Roadmap& roadmap) {
-    for (int r = 0; r < static_cast<int>(roadmap.roads().size()); ++r)
-      for (Time step = 1; step <= roadmap.roads()[r].steps; ++step) {
-        const Place before = roadmap.place_on_road(r, step - 1);
-        const Place after = roadmap.place_on_road(r, step);
-        on_roads_.emplace(before, after);
-        if (!roadmap.roads()[r].one_way) on_roads_.emplace(after, before);
-      }
-  }
-
-  const Map& map_;
-  std::set<std::pair<Place, Place>> on_roads_;
-};
-
-// Checks one agent's path against the agent's start, goal and tasks.
-class AgentCheck {
- public:
-  AgentCheck(const Instance& instance, const Steps& steps, AgentIndex index, const AgentPlan& plan,
-             Report& report)
-      : instance_(instance),
-        steps_(steps),
-        agent_(instance.agent(index)),
-        plan_(plan),
-        report_(report),
-        place_(fmt::format("/agents/{}", index)) {}
-
-  // Reports every error of this agent. Returns the time at which the agent finishes, or nullopt if
-  // its path cannot be followed.
-  std::optional<Time> run() {
-    if (plan_.path.empty()) {
-      report_.add(place_, "agent '{}' has no path; expected one for every agent", agent_.id);
-      return std::nullopt;
-    }
-    if (!is_in_the_world()) return std::nullopt;
-    for (const State state : plan_.path) poses_.push_back(instance_.pose_of(state));
-    walk();
-    check_work();
-    check_end();
-    check_visits();
-    check_sequence();
-    const Time finish = finishes();
-    if (plan_.cost != finish)
-      report_.add(place_ + "/cost", "agent '{}' finishes at time {}, but the plan says {}",
-                  agent_.id, finish, plan_.cost);
-    return finish;
-  }
-
- private:
-  std::string step_place(std::size_t time) const { return fmt::format("{}/path/{}", place_, time); }
-  std::string name(const Pose& pose) const { return steps_.name(agent_.motion, pose); }
-  const Pose& at(Time time) const {
-    return poses_[std::min(static_cast<std::size_t>(time), poses_.size() - 1)];
-  }
-
-  bool is_in_the_world() {
-    for (std::size_t t = 0; t < plan_.path.size(); ++t) {
-      const State state = plan_.path[t];
-      const bool is_state = state >= 0 && state < instance_.world().state_count() &&
-                            !instance_.world().is_working(state) &&
-                            instance_.world().kind(state) == agent_.kind;
-      if (is_state) continue;
-      report_.add(step_place(t), "agent '{}' is outside the map", agent_.id);
-      return false;
-    }
-    return true;
-  }
-
-  // Checks start, places and steps.
-  void walk() {
-    for (std::size_t t = 0; t < poses_.size(); ++t)
-      if (!steps_.is_open(poses_[t].place))
-        report_.add(step_place(t), "agent '{}' is on the blocked cell {}", agent_.id,
-                    steps_.name(poses_[t].place));
-    const Pose start = instance_.pose_of(agent_.start);
-    if (poses_.front() != start)
-      report_.add(step_place(0), "agent '{}' begins on {}; expected its start {}", agent_.id,
-                  name(poses_.front()), name(start));
-    for (std::size_t t = 1; t < poses_.size(); ++t)
-      if (!steps_.allow(agent_.motion, poses_[t - 1], poses_[t]))
-        report_.add(step_place(t), "agent '{}' jumps from {} to {}; expected {}", agent_.id,
-                    name(poses_[t - 1]), name(poses_[t]), steps_.rule(agent_.motion));
-  }
-
-  // Checks each work interval, that no two of them overlap, and the work in progress at the start.
-  void check_work() {
-    for (std::size_t k = 0; k < plan_.work.size(); ++k) {
-      const std::string place = fmt::format("{}/work/{}", place_, k);
-      const WorkTime& work = plan_.work[k];
-      check_piece(place, work);
-      for (std::size_t other = 0; other < k; ++other) {
-        const WorkTime& before = plan_.work[other];
-        if (before.task == work.task)
-          report_.add(place, "agent '{}' does task '{}' a second time; expected each once",
-                      agent_.id, instance_.task(work.task).id);
-        else if (before.begin < work.end && work.begin < before.end)
-          report_.add(place, "agent '{}' works on tasks '{}' and '{}' at the same time", agent_.id,
-                      instance_.task(before.task).id, instance_.task(work.task).id);
-      }
-    }
-    const auto begun = begun_before();
-    const auto goes_on = [&](const WorkTime& w) {
-      return w.task == begun->first && w.begin == -begun->second;
-    };
-    if (begun && std::ranges::none_of(plan_.work, goes_on))
-      report_.add(place_ + "/work",
-                  "agent '{}' starts at work on task '{}', {} steps of it done; expected it to go "
-                  "on, with begin {}",
-                  agent_.id, instance_.task(begun->first).id, begun->second, -begun->second);
-  }
-
-  void check_piece(const std::string& place, const WorkTime& work) {
-    const Task& task = instance_.task(work.task);
-    if (std::ranges::count(agent_.tasks, work.task) == 0 || task.duration == 0) {
-      report_.add(place,
-                  "task '{}' is no work of agent '{}'; expected one of its own that takes "
-                  "time",
-                  task.id, agent_.id);
-      return;
-    }
-    if (std::int64_t{work.end} - work.begin != task.duration)
-      report_.add(place, "task '{}' takes {} steps, but this work goes from {} to {}", task.id,
-                  task.duration, work.begin, work.end);
-    const auto begun = begun_before();
-    if (work.begin < 0 && !(begun && begun->first == work.task && begun->second == -work.begin))
-      report_.add(place, "agent '{}' begins task '{}' at {}; expected 0 or later", agent_.id,
-                  task.id, work.begin);
-    if (work.end < 0) return;
-    const Time first = std::max(work.begin, 0);
-    if (at(first).place != task.cell)
-      report_.add(place, "agent '{}' is on {} when it begins task '{}'; expected {}", agent_.id,
-                  steps_.name(at(first).place), task.id, steps_.name(task.cell));
-    const Time last = std::min(work.end, static_cast<Time>(poses_.size()) - 1);
-    for (Time t = first + 1; t <= last; ++t)
-      if (at(t) != at(first)) {
-        report_.add(step_place(t), "agent '{}' leaves {} at work on task '{}'", agent_.id,
-                    name(at(first)), task.id);
-        return;
-      }
-  }
-
-  // The task that the agent is working on at the start, and the number of steps done. Returns
-  // nullopt if it does not start at work.
-  std::optional<std::pair<TaskIndex, Time>> begun_before() const {
-    if (!instance_.world().is_working(agent_.start)) return std::nullopt;
-    const Work& work = instance_.world().work(agent_.start);
-    return std::pair(work.task, work.done);
-  }
-
-  void check_end() {
-    const Pose& end = poses_.back();
-    const std::string place = step_place(poses_.size() - 1);
-    if (agent_.goal && end.place != *agent_.goal)
-      report_.add(place, "agent '{}' ends on {}; expected its goal {}", agent_.id,
-                  steps_.name(end.place), steps_.name(*agent_.goal));
-    else if (agent_.goal_heading && (end.heading != *agent_.goal_heading || end.steps > 0))
-      report_.add(place, "agent '{}' ends on {}; expected heading {}", agent_.id, name(end),
-                  letter(*agent_.goal_heading));
-    const auto is_here = [&](TaskIndex task) { return instance_.task(task).cell == end.place; };
-    if (!agent_.goal && !agent_.tasks.empty() && std::ranges::none_of(agent_.tasks, is_here))
-      report_.add(place, "agent '{}' ends on {}; expected one of its own tasks", agent_.id,
-                  steps_.name(end.place));
-  }
-
-  // The first time >= `begin` at which the task counts as visited. Returns nullopt if there is
-  // none.
-  std::optional<Time> visit(TaskIndex index, Time begin) const {
-    const Task& task = instance_.task(index);
-    if (task.duration > 0) {
-      const auto work = std::ranges::find(plan_.work, index, &WorkTime::task);
-      if (work == plan_.work.end() || work->end < begin) return std::nullopt;
-      return work->end;
-    }
-    const auto last = static_cast<Time>(poses_.size()) - 1;
-    for (Time t = begin; t <= last; ++t)
-      if (at(t).place == task.cell) return t;
-    if (begin > last && poses_.back().place == task.cell) return begin;
-    return std::nullopt;
-  }
-
-  void check_visits() {
-    for (TaskIndex index : agent_.tasks) {
-      const Task& task = instance_.task(index);
-      if (!visit(index, 0))
-        report_.add(place_ + (task.duration > 0 ? "/work" : "/path"),
-                    "agent '{}' never {} its task '{}' on {}", agent_.id,
-                    task.duration > 0 ? "does" : "visits", task.id, steps_.name(task.cell));
-    }
-  }
-
-  void check_sequence() {
-    const std::string place = place_ + "/sequence";
-    if (!std::ranges::is_permutation(plan_.sequence, agent_.tasks)) {
-      report_.add(place, "expected every task of agent '{}' exactly once", agent_.id);
-      return;
-    }
-    // It is right to take the first visit that is late enough, because this leaves the most time
-    // for the later tasks.
-    Time now = 0;
-    for (std::size_t k = 0; k < plan_.sequence.size(); ++k) {
-      const auto then = visit(plan_.sequence[k], now);
-      if (!then) {
-        report_.add(fmt::format("{}/{}", place, k),
-                    "the path of agent '{}' does not visit task '{}' in this order", agent_.id,
-                    instance_.task(plan_.sequence[k]).id);
-        return;
-      }
-      now = *then;
-    }
-    check_last_task(place);
-  }
-
-  // Work is not repeated at the end. So an agent with any work may end at another task than its
-  // last one.
-  void check_last_task(const std::string& place) {
-    const auto takes_time = [&](TaskIndex task) { return instance_.task(task).duration > 0; };
-    if (agent_.goal || plan_.sequence.empty() || std::ranges::any_of(agent_.tasks, takes_time))
-      return;
-    const Task& last = instance_.task(plan_.sequence.back());
-    if (poses_.back().place != last.cell)
-      report_.add(fmt::format("{}/{}", place, plan_.sequence.size() - 1),
-                  "agent '{}' has no goal and ends on {}; expected the last task of its sequence "
-                  "there, found '{}'",
-                  agent_.id, steps_.name(poses_.back().place), last.id);
-  }
-
-  // The finish time: from then on the state never changes and no task is left. All visits without
-  // work lie before, because the agent enters no new place later.
-  Time finishes() const {
-    Time time = static_cast<Time>(poses_.size()) - 1;
-    while (time > 0 && at(time - 1) == poses_.back()) --time;
-    for (const WorkTime& work : plan_.work) time = std::max(time, work.end);
-    return time;
-  }
-
-  const Instance& instance_;
-  const Steps& steps_;
-  const Agent& agent_;
-  const AgentPlan& plan_;
-  Report& report_;
-  std::string place_;
-  std::vector<Pose> poses_;  // by time
-};
 
 // Checks for collisions by moving all agents through time together. Precondition: every path is
 // inside the map.
 class CollisionCheck {
  public:
-  CollisionCheck(const Instance& instance, const Steps& steps, const Plan& plan, bool may_follow,
-                 Report& report)
+  CollisionCheck(const Instance& instance, const AllowedSteps& steps, const Plan& plan,
+                 bool may_follow, ViolationReport& report)
       : instance_(instance),
         steps_(steps),
         plan_(plan),
         may_follow_(may_follow),
         report_(report),
-        before_(static_cast<std::size_t>(steps.places()), kNobody),
-        now_(static_cast<std::size_t>(steps.places()), kNobody) {}
+        before_(static_cast<std::size_t>(steps.places()), kNoAgent),
+        now_(static_cast<std::size_t>(steps.places()), kNoAgent) {}
 
   void run() {
     std::size_t end = 0;
@@ -385,13 +45,13 @@ class CollisionCheck {
       if (t > 0 && !may_follow_)
         for (AgentIndex i = 0; i < agent_count(); ++i) check_following(i, t);
       if (t > 0)
-        for (AgentIndex i = 0; i < agent_count(); ++i) before_[at(i, t - 1)] = kNobody;
+        for (AgentIndex i = 0; i < agent_count(); ++i) before_[at(i, t - 1)] = kNoAgent;
       std::swap(before_, now_);
     }
   }
 
  private:
-  static constexpr AgentIndex kNobody = -1;
+  static constexpr AgentIndex kNoAgent = -1;
 
   AgentIndex agent_count() const { return static_cast<AgentIndex>(plan_.agents.size()); }
 
@@ -403,7 +63,7 @@ class CollisionCheck {
   void enter(AgentIndex agent, std::size_t t) {
     const Place place = at(agent, t);
     const AgentIndex other = std::exchange(now_[place], agent);
-    if (other != kNobody && is_new(vertex_pairs_, other, agent))
+    if (other != kNoAgent && is_new(vertex_pairs_, other, agent))
       report_.add(where(agent, t), "agents '{}' and '{}' are both on {} at time {}", id(other),
                   id(agent), steps_.name(place), t);
   }
@@ -412,7 +72,7 @@ class CollisionCheck {
     const Place from = at(agent, t - 1);
     const Place to = at(agent, t);
     const AgentIndex other = before_[to];
-    if (from == to || other == kNobody || other == agent || at(other, t) != from) return;
+    if (from == to || other == kNoAgent || other == agent || at(other, t) != from) return;
     if (is_new(edge_pairs_, other, agent))
       report_.add(where(agent, t), "agents '{}' and '{}' swap {} and {} between times {} and {}",
                   id(agent), id(other), steps_.name(from), steps_.name(to), t - 1, t);
@@ -421,13 +81,11 @@ class CollisionCheck {
   void check_following(AgentIndex agent, std::size_t t) {
     const Place to = at(agent, t);
     const AgentIndex other = before_[to];
-    if (other == kNobody || other == agent || at(other, t) == to) return;
+    if (other == kNoAgent || other == agent || at(other, t) == to) return;
     if (is_new(following_pairs_, other, agent))
-      report_.add(
-          where(agent, t),
-          "agent '{}' enters {} at time {}, as '{}' leaves it; expected that nobody follows "
-          "another so closely",
-          id(agent), steps_.name(to), t, id(other));
+      report_.add(where(agent, t),
+                  "agent '{}' enters {} at time {}, as '{}' leaves it; expected no following",
+                  id(agent), steps_.name(to), t, id(other));
   }
 
   const std::string& id(AgentIndex agent) const { return instance_.agent(agent).id; }
@@ -445,10 +103,10 @@ class CollisionCheck {
   }
 
   const Instance& instance_;
-  const Steps& steps_;
+  const AllowedSteps& steps_;
   const Plan& plan_;
   const bool may_follow_;
-  Report& report_;
+  ViolationReport& report_;
   std::vector<AgentIndex> before_;  // by place: the agent that was there at time t - 1
   std::vector<AgentIndex> now_;
   Pairs vertex_pairs_;
@@ -457,11 +115,11 @@ class CollisionCheck {
 };
 
 // The sum of the finish times of all paths. Returns nullopt if a path cannot be followed.
-std::optional<Cost> check_agents(const Instance& instance, const Steps& steps, const Plan& plan,
-                                 Report& report) {
+std::optional<Cost> check_agents(const Instance& instance, const AllowedSteps& steps,
+                                 const Plan& plan, ViolationReport& report) {
   std::optional<Cost> total = 0;
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
-    const auto finish = AgentCheck(instance, steps, i, plan.agents[i], report).run();
+    const auto finish = check_agent(instance, steps, i, plan.agents[i], report);
     if (!finish) total.reset();
     if (total) *total += *finish;
   }
@@ -475,14 +133,14 @@ Status deserved_status(Cost cost, Cost lower_bound, Omega omega) {
   return within ? Status::kBounded : Status::kFeasible;
 }
 
-void check_claims(const Solution& solution, Cost cost, Report& report) {
+void check_claims(const Solution& solution, Cost cost, ViolationReport& report) {
   if (solution.plan->cost != cost)
     report.add("/cost", "the agents' costs add up to {}, but the plan says {}", cost,
                solution.plan->cost);
   if (solution.lower_bound < 0)
     report.add("/lower_bound", "found {}; expected at least 0", solution.lower_bound);
   if (solution.lower_bound > cost)
-    report.add("/lower_bound", "a lower bound of {} cannot be: this plan costs {}",
+    report.add("/lower_bound", "found {}; expected at most {}, the cost of this plan",
                solution.lower_bound, cost);
   const Status deserved = deserved_status(cost, solution.lower_bound, solution.omega);
   if (solution.lower_bound <= cost && solution.status != deserved)
@@ -495,7 +153,7 @@ void check_claims(const Solution& solution, Cost cost, Report& report) {
 
 std::vector<Violation> check(const Instance& instance, const Solution& solution,
                              std::size_t limit) {
-  Report report(std::max<std::size_t>(limit, 1));
+  ViolationReport report(std::max<std::size_t>(limit, 1));
   if (!solution.plan) {
     report.add("/status", "there is no plan ('{}'); expected a path for every agent",
                to_string(solution.status));
@@ -507,7 +165,7 @@ std::vector<Violation> check(const Instance& instance, const Solution& solution,
                instance.agent_count());
     return report.take();
   }
-  const Steps steps(instance.map());
+  const AllowedSteps steps(instance.map());
   if (const auto cost = check_agents(instance, steps, plan, report)) {
     CollisionCheck(instance, steps, plan, instance.may_follow() && solution.may_follow, report)
         .run();

@@ -14,9 +14,10 @@
 
 namespace grove::detail {
 
-// One error. `place` is a JSON Pointer (RFC 6901) into the plan file, such as "/agents/2/path/17".
+// One error. `json_pointer` is a JSON Pointer (RFC 6901) into the plan file, such as
+// "/agents/2/path/17".
 struct Violation {
-  std::string place;
+  std::string json_pointer;
   std::string message;
 };
 
@@ -30,7 +31,8 @@ std::vector<Violation> check(const Instance& instance, const Solution& solution,
 class InvalidPlan : public std::logic_error {
  public:
   explicit InvalidPlan(Violation violation)
-      : std::logic_error("the plan is not valid: " + violation.place + ": " + violation.message),
+      : std::logic_error("the plan is not valid: " + violation.json_pointer + ": " +
+                         violation.message),
         violation_(std::move(violation)) {}
   const Violation& violation() const { return violation_; }
 

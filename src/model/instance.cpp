@@ -235,16 +235,17 @@ void InstanceBuilder::require_work(AgentIndex agent, const WorkBegun& begun) con
   const auto found = task_by_id_.find(begun.task);
   if (found == task_by_id_.end())
     fail("task",
-         fmt::format("there is no task '{}'; expected one of agent '{}'", begun.task, a.id));
+         fmt::format("there is no task '{}'; expected a task of agent '{}'", begun.task, a.id));
   const Task& task = instance_.task(found->second);
   if (std::ranges::count(task.agents, agent) == 0)
-    fail("task",
-         fmt::format("task '{}' is none of agent '{}'; expected one of its own", begun.task, a.id));
+    fail("task", fmt::format("task '{}' is not a task of agent '{}'; expected one of its tasks",
+                             begun.task, a.id));
   if (task.cell != specs_[agent].start.place)
-    fail("task", fmt::format("agent '{}' does not start on {}; expected a task where it starts",
-                             a.id, name(task.cell)));
+    fail("task", fmt::format("agent '{}' does not start on {}; expected a task on its start", a.id,
+                             name(task.cell)));
   if (task.duration == 0)
-    fail("task", fmt::format("task '{}' takes no time; expected one with a duration", begun.task));
+    fail("task",
+         fmt::format("task '{}' takes no time; expected a task with a duration", begun.task));
   if (begun.done < 0 || begun.done >= task.duration)
     fail("done",
          fmt::format("found {} steps of task '{}'; expected 0 to {}, less than its duration",

@@ -9,11 +9,27 @@
 #include <functional>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace grove::detail {
 
 enum class StopReason : std::uint8_t { kNone, kTime, kMemory, kInterrupt };
+
+// Text for plan files.
+inline std::string stop_text(StopReason reason) {
+  switch (reason) {
+    case StopReason::kTime:
+      return "time limit";
+    case StopReason::kMemory:
+      return "memory limit";
+    case StopReason::kInterrupt:
+      return "interrupt";
+    case StopReason::kNone:
+      break;
+  }
+  return "";
+}
 
 // The memory that this process holds (its resident set), in bytes; 0 if the system does not report
 // it.

@@ -133,12 +133,12 @@ MotionWorld::Parts MotionWorld::parts(const Map& map, std::span<const Motion> mo
                                       std::span<const Job> jobs) {
   const World& places = ground(map);
   if (!motions.empty() && !std::holds_alternative<Grid>(map))
-    throw std::invalid_argument("agents turn on grids only");
+    throw std::invalid_argument("agents can turn only on grids");
   std::int64_t count = count_bases(places, motions);
   const std::int64_t bases = count;
   for (const Job& job : jobs) count += job.duration + 1;
   if (count > kMostStates)
-    throw std::invalid_argument(fmt::format("a world has {} states at most", kMostStates));
+    throw std::invalid_argument(fmt::format("a world has at most {} states", kMostStates));
 
   Parts parts;
   parts.kinds.push_back({});
@@ -214,7 +214,8 @@ State MotionWorld::working(TaskIndex task, State base, Time done) const {
     const Work& w = work(state);
     if (w.task == task && w.base == base && w.done == done) found = state;
   });
-  if (found == kNoState) throw std::invalid_argument("there is no such work in this world");
+  if (found == kNoState)
+    throw std::invalid_argument("there is no such task execution in this world");
   return found;
 }
 

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 namespace grove::detail {
 namespace {
@@ -58,6 +61,19 @@ AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
   while (plan.cost < end && !instance.may_rest(agent, plan.path[plan.cost])) ++plan.cost;
   plan.path.resize(static_cast<std::size_t>(plan.cost) + 1, plan.path.back());
   return plan;
+}
+
+AgentPlan plan_of_path(const Instance& instance, AgentIndex agent, const Path& path) {
+  const std::vector<TaskIndex>& stops = instance.agent(agent).stops;
+  std::vector<std::uint8_t> order(stops.size());
+  std::iota(order.begin(), order.end(), std::uint8_t{0});
+  const bool ends_on_a_stop = instance.rests_on_last_stop(agent);
+  std::ranges::stable_sort(order, {}, [&](std::uint8_t stop) {
+    const auto visits = [&](State state) { return instance.is_visited(stops[stop], state); };
+    const bool last = ends_on_a_stop && visits(path.back());
+    return (last ? path.end() : std::ranges::find_if(path, visits)) - path.begin();
+  });
+  return agent_plan(instance, agent, order, path);
 }
 
 // Moves work within a turn to before the turn, on the same place. The world has states for work

@@ -55,6 +55,10 @@ struct AgentPlan {
 // `stops`: a sequence that the path realizes, as positions in Agent::stops.
 AgentPlan agent_plan(const Instance& instance, AgentIndex agent,
                      std::span<const std::uint8_t> stops, const Path& path);
+// The same if only the path is known: the stops are ordered by their first visits. If the agent
+// rests on its last stop, the stop at the end of the path comes last. Precondition: the path ends
+// at rest with every task visited.
+AgentPlan plan_of_path(const Instance& instance, AgentIndex agent, const Path& path);
 // The inverse: the path of the agent, with states of work, until it finishes. Precondition: `plan`
 // is valid.
 Path walked_path(const Instance& instance, AgentIndex agent, const AgentPlan& plan);

@@ -16,11 +16,11 @@ void require_roads_between(const std::vector<Road>& roads, std::size_t vertices)
   for (const Road& road : roads) {
     if (!is_vertex(road.from) || !is_vertex(road.to) || road.from == road.to || road.steps < 1)
       throw std::invalid_argument(
-          "a road leads from one vertex to another one in one step or more");
+          "a road must join two different vertices and take at least one step");
     places += road.steps - 1;
     if (places > Roadmap::kMostPlaces)
       throw std::invalid_argument(
-          fmt::format("a roadmap has {} places at most", Roadmap::kMostPlaces));
+          fmt::format("a roadmap has at most {} places", Roadmap::kMostPlaces));
   }
 }
 
@@ -65,11 +65,11 @@ Roadmap::Roadmap(std::vector<Vertex> vertices, std::vector<Road> roads)
       vertices_(std::move(vertices)),
       roads_(std::move(roads)),
       first_inner_(inner_places(roads_, vertices_.size())) {
-  if (vertices_.empty()) throw std::invalid_argument("a roadmap has a vertex at least");
+  if (vertices_.empty()) throw std::invalid_argument("a roadmap needs at least one vertex");
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
-    if (vertices_[v].id.empty()) throw std::invalid_argument("a vertex has an id");
+    if (vertices_[v].id.empty()) throw std::invalid_argument("a vertex needs an id");
     if (!by_id_.emplace(vertices_[v].id, static_cast<int>(v)).second)
-      throw std::invalid_argument("vertices have distinct ids");
+      throw std::invalid_argument("the ids of vertices must be distinct");
   }
   for (std::size_t r = 0; r < roads_.size(); ++r)
     by_ends_[std::minmax(roads_[r].from, roads_[r].to)].push_back(static_cast<int>(r));

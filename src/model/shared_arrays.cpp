@@ -3,11 +3,11 @@
 //
 // Claim: if await() returns an array, then all of its bytes are written, and no thread writes to it
 // any more.
-// Proof: an array changes from kUntouched to kInHand by compare-exchange. So at most one thread of
+// Proof: an array changes from kEmpty to kClaimed by compare-exchange. So at most one thread of
 // all members fills it. Only that thread stores the result: kReady after the last byte (release),
-// or kRefused. A reader has loaded kReady (acquire), hence it sees all bytes. No thread writes to
+// or kFailed. A reader has loaded kReady (acquire), hence it sees all bytes. No thread writes to
 // an array that is kReady.
-// A member that ends or becomes unresponsive while it fills an array leaves it kInHand for ever.
+// A member that ends or becomes unresponsive while it fills an array leaves it kClaimed for ever.
 // Then no process reads that array, and each process makes its own.
 //
 // Claim: the array that a process reads is equal to the one that it would compute. Proof: all
@@ -38,17 +38,17 @@ std::size_t aligned(std::size_t bytes) {
 }  // namespace
 
 bool SharedArray::claim() const {
-  std::uint32_t expected = kUntouched;
-  return flag_->compare_exchange_strong(expected, kInHand, std::memory_order_relaxed);
+  std::uint32_t expected = kEmpty;
+  return flag_->compare_exchange_strong(expected, kClaimed, std::memory_order_relaxed);
 }
 
 const std::byte* SharedArray::await(const Limits& limits) const {
   if (room_ == 0) return nullptr;
   const auto progress = [&] { return flag_->load(std::memory_order_acquire); };
   std::uint32_t now = progress();
-  if (now == kInHand) {
+  if (now == kClaimed) {
     const Limits::Clock::time_point end = limits.now() + kPatience;
-    while ((now = progress()) == kInHand && limits.now() < end && !limits.stop_requested())
+    while ((now = progress()) == kClaimed && limits.now() < end && !limits.stop_requested())
       std::this_thread::sleep_for(kNap);
   }
   return now == kReady ? begin_ : nullptr;

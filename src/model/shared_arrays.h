@@ -58,7 +58,7 @@ class SharedArray {
  private:
   friend class SharedArrays;
   // The phase of an array, in shared memory.
-  enum Progress : std::uint32_t { kUntouched, kInHand, kReady, kRefused };
+  enum Progress : std::uint32_t { kEmpty, kClaimed, kReady, kFailed };
   using Flag = std::atomic<std::uint32_t>;
   static_assert(Flag::is_always_lock_free, "else it would be of one process alone");
 
@@ -73,7 +73,7 @@ class SharedArray {
     ~Claimed() { flag_.store(result, std::memory_order_release); }
     Claimed(const Claimed&) = delete;
     Claimed& operator=(const Claimed&) = delete;
-    Progress result = kRefused;
+    Progress result = kFailed;
 
    private:
     Flag& flag_;

@@ -15,7 +15,7 @@ namespace grove::detail {
 // search. A value type.
 struct Tuning {
   using int64_t = std::int64_t;
-#define GROVE_TUNABLE(type, name, value, least, most, what, measured) type name = value;
+#define GROVE_TUNABLE(type, name, value, min, max, meaning, evidence) type name = value;
 #include "model/tunables.def"
 #undef GROVE_TUNABLE
 
@@ -26,10 +26,10 @@ struct Tuning {
 struct Tunable {
   std::string_view member;
   std::variant<std::int64_t Tuning::*, double Tuning::*> place;
-  double least;
-  double most;
-  std::string_view what;      // meaning
-  std::string_view measured;  // evidence for the default; empty: no measurement is on record
+  double min;
+  double max;
+  std::string_view meaning;
+  std::string_view evidence;  // for the default; empty: no measurement is on record
 
   // The name on the command line: `member` with '-' for '_'.
   std::string name() const;
@@ -39,8 +39,12 @@ struct Tunable {
 
 // All parameters, in the order of the struct.
 std::span<const Tunable> tunables();
-// Sets one parameter from text such as "pair-expansions=20". Throws std::invalid_argument, with
-// what was expected, if the parameter does not exist or the value is not a number in its range.
+// All names that set() accepts: those of tunables(), and deprecated ones.
+std::span<const std::string> accepted_tunable_names();
+// Sets one parameter from text such as "pair-expansions=20". The deprecated name of a parameter
+// sets the parameter; that of a former parameter, now a constant, accepts only its value. Throws
+// std::invalid_argument, with what was expected, if the parameter does not exist or the value is
+// not a number in its range.
 void set(Tuning& tuning, std::string_view text);
 
 }  // namespace grove::detail

@@ -13,8 +13,8 @@
 namespace grove::detail {
 
 // Counts the paths that use each (place, time) and each (move, time); fewer than 65,536 paths. A
-// hash table of the places and times on the paths, whatever the size of the map. It takes about 100
-// bytes per step of a path, so it stays in the processor cache where a full table would not. One
+// hash table of the places and times on the paths, whatever the size of the map. It takes at least
+// 100 bytes per step of a path, and stays in the processor cache where a full table would not. One
 // thread at a time.
 class ConflictAvoidanceTable {
  public:

@@ -14,15 +14,16 @@ namespace {
 struct Named {
   ConstraintKind kind;
   std::string_view name;
+  std::string_view split;
 };
 
 constexpr std::array<Named, kConstraintKinds> kNames = {{
-    {ConstraintKind::kVertexOrEdge, "bar"},
-    {ConstraintKind::kNoRestBy, "no-rest-by"},
-    {ConstraintKind::kRestBy, "rest-by"},
-    {ConstraintKind::kNoTraversal, "no-traversal"},
-    {ConstraintKind::kStopIs, "stop-is"},
-    {ConstraintKind::kStopIsNot, "stop-is-not"},
+    {ConstraintKind::kVertexOrEdge, "bar", "vertex-edge"},
+    {ConstraintKind::kNoRestBy, "no-rest-by", "cost"},
+    {ConstraintKind::kRestBy, "rest-by", "target"},
+    {ConstraintKind::kNoTraversal, "no-traversal", "corridor"},
+    {ConstraintKind::kStopIs, "stop-is", "sequence"},
+    {ConstraintKind::kStopIsNot, "stop-is-not", "sequence"},
 }};
 
 // One time step of rest represents all later ones, because the path does not change any more.
@@ -43,9 +44,9 @@ bool rests_by(const World& world, const Path& path, const Constraint& c) {
 bool ends_traversal(const World& world, const Path& path, Time arrival,
                     const Corridors& corridors) {
   const auto place = [&](Time t) { return world.place(path[t]); };
-  const int chain = corridors.corridor_of(place(arrival - 1));
+  const int corridor = corridors.corridor_of(place(arrival - 1));
   Time before = arrival - 1;  // the last time before it was inside
-  while (before >= 0 && corridors.corridor_of(place(before)) == chain) --before;
+  while (before >= 0 && corridors.corridor_of(place(before)) == corridor) --before;
   if (before < 0) return false;
   return place(before) != place(arrival) || place(before + 1) != place(arrival - 1);
 }
@@ -64,6 +65,10 @@ bool traverses(const World& world, const Path& path, const Constraint& c,
 
 std::string_view name_of(ConstraintKind kind) {
   return std::ranges::find(kNames, kind, &Named::kind)->name;
+}
+
+std::string_view split_name(ConstraintKind second) {
+  return std::ranges::find(kNames, second, &Named::kind)->split;
 }
 
 std::optional<ConstraintKind> constraint_kind(std::uint8_t number) {

@@ -44,6 +44,8 @@ inline constexpr std::size_t kConstraintKinds = 6;
 
 // Name in messages: "bar", "no-rest-by", ...
 std::string_view name_of(ConstraintKind kind);
+// Name, in statistics and logs, of a split whose second constraint has this kind: "target", ...
+std::string_view split_name(ConstraintKind second);
 // Returns nullopt if no kind has this number.
 std::optional<ConstraintKind> constraint_kind(std::uint8_t number);
 

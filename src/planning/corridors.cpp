@@ -51,10 +51,10 @@ void Corridors::add_chain_through(const World& world, Place inner) {
   number_inner_places(count() - 1);
 }
 
-void Corridors::number_inner_places(int chain) {
-  const auto row = places(chain);
+void Corridors::number_inner_places(int corridor) {
+  const auto row = places(corridor);
   for (std::size_t i = 1; i + 1 < row.size(); ++i) {
-    corridor_of_[row[i]] = chain;
+    corridor_of_[row[i]] = corridor;
     position_[row[i]] = static_cast<std::int32_t>(i);
   }
 }

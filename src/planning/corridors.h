@@ -27,8 +27,8 @@ class Corridors {
   int corridor_of(Place place) const { return corridor_of_[place]; }
   // The places of a corridor: one end (the *front*), the inner places in order, the other end (the
   // *back*).
-  std::span<const Place> places(int chain) const {
-    return {places_.data() + first_[chain], places_.data() + first_[chain + 1]};
+  std::span<const Place> places(int corridor) const {
+    return {places_.data() + first_[corridor], places_.data() + first_[corridor + 1]};
   }
   // Index of an inner place in places(); 1 is next to the front.
   int position(Place inner) const { return position_[inner]; }
@@ -37,7 +37,7 @@ class Corridors {
   static constexpr int kSeen = -2;  // on a ring
 
   void add_chain_through(const World& world, Place inner);
-  void number_inner_places(int chain);
+  void number_inner_places(int corridor);
 
   std::vector<std::int32_t> corridor_of_;  // by place
   std::vector<std::int32_t> position_;     // by place

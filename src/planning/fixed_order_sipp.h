@@ -8,8 +8,8 @@
 
 #include "model/limits.h"
 #include "model/plan.h"
+#include "planning/agent_planner.h"
 #include "planning/goal_sequence.h"
-#include "planning/path_query.h"
 
 namespace grove::detail {
 

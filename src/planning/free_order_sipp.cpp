@@ -69,7 +69,7 @@
 #include <optional>
 
 #include "planning/free_order_goals.h"
-#include "planning/late_goals.h"
+#include "planning/late_costs.h"
 #include "planning/safe_interval_search.h"
 #include "planning/single_stop_bound.h"
 
@@ -105,7 +105,7 @@ class FreeOrderSipp::Workspace {
   PathOutcome find_known();
   std::optional<PathOutcome> find_within(Time cap);
   std::optional<PathOutcome> doubt();
-  bool price_anew();
+  bool recompute_costs();
   SequenceStages& goals() { return search_.goals().free_goals(); }
 
   Search search_;
@@ -118,8 +118,8 @@ class FreeOrderSipp::Workspace {
   Path* path_ = nullptr;
   Time latest_ = 0;                                // largest cost of a useful path,
   PathOutcome above_ = PathOutcome::kAboveCutoff;  // and the outcome if every path costs more
-  // Values of expanded() at which to abort, to call doubt(), and to call price_anew().
-  std::int64_t give_up_at_ = 0;
+  // Values of expanded() at which to abort, to call doubt(), and to call recompute_costs().
+  std::int64_t abort_at_ = 0;
   std::int64_t doubt_at_ = 0;
   std::int64_t price_at_ = 0;
 };
@@ -164,7 +164,7 @@ PathOutcome FreeOrderSipp::Workspace::find(SequenceStages& goals, const PathQuer
 void FreeOrderSipp::Workspace::decide_when(const PathQuery& query) {
   // With reservations and a label limit the caller does not need a proof of infeasibility.
   const bool doubts = !query.reservations || query.label_limit == PathQuery::kUnlimited;
-  give_up_at_ = search_.expanded_after(query.label_limit);
+  abort_at_ = search_.expanded_after(query.label_limit);
   doubt_at_ = doubts ? search_.expanded_after(kExpansionsBeforeDoubt) : kNotAgain;
   price_at_ = search_.expanded_after(kExpansionsBeforePricing);
 }
@@ -187,7 +187,7 @@ PathOutcome FreeOrderSipp::Workspace::find_any() {
     if (latest_ < beyond || beyond == kNever) return above_;
     if (goals().first_stage() != SequenceStages::kOutside) {
       if (const auto answer = doubt()) return *answer;
-      if (price_anew()) continue;
+      if (recompute_costs()) continue;
     }
     if (!goals().cost_to_go().widen(beyond, *limits_)) return PathOutcome::kStopped;
   }
@@ -203,7 +203,7 @@ std::optional<PathOutcome> FreeOrderSipp::Workspace::find_within(Time cap) {
   search_.goals().begin(cap);
   search_.begin(goals().stops().start(), first, 0, others_, *limits_);
   for (;;) {
-    switch (search_.run(std::min({give_up_at_, doubt_at_, price_at_}))) {
+    switch (search_.run(std::min({abort_at_, doubt_at_, price_at_}))) {
       case Search::End::kFound:
         search_.write_path(*path_);
         return PathOutcome::kFound;
@@ -214,10 +214,10 @@ std::optional<PathOutcome> FreeOrderSipp::Workspace::find_within(Time cap) {
       case Search::End::kPaused:
         break;
     }
-    if (search_.expanded() >= give_up_at_) return PathOutcome::kStopped;
+    if (search_.expanded() >= abort_at_) return PathOutcome::kStopped;
     if (search_.expanded() >= doubt_at_)
       if (const auto answer = doubt()) return answer;
-    if (search_.expanded() >= price_at_ && price_anew()) return std::nullopt;
+    if (search_.expanded() >= price_at_ && recompute_costs()) return std::nullopt;
   }
 }
 
@@ -235,7 +235,7 @@ std::optional<PathOutcome> FreeOrderSipp::Workspace::doubt() {
 
 // Recomputes the costs of the legs, at most once per call. Returns true if the search must restart
 // with the new costs to go.
-bool FreeOrderSipp::Workspace::price_anew() {
+bool FreeOrderSipp::Workspace::recompute_costs() {
   if (price_at_ == kNotAgain) return false;
   price_at_ = kNotAgain;
   SequenceStages* const late = late_goals_.over(goals(), *limits_);

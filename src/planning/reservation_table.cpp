@@ -57,7 +57,7 @@ void ReservationTable::clear() {
 AgentIndex ReservationTable::agent_at(Place place, Time time) const {
   const std::vector<Stay>& stays = stays_[place];
   const auto after = std::ranges::upper_bound(stays, time, {}, &Stay::first);
-  if (after == stays.begin() || std::prev(after)->last < time) return kNobody;
+  if (after == stays.begin() || std::prev(after)->last < time) return kNoAgent;
   return std::prev(after)->agent;
 }
 

@@ -16,7 +16,7 @@ namespace grove::detail {
 // places, and the low level looks up only the places that it reaches. One thread at a time.
 class ReservationTable {
  public:
-  static constexpr AgentIndex kNobody = -1;
+  static constexpr AgentIndex kNoAgent = -1;
 
   // A period during which an agent is on a place without a break.
   struct Stay {
@@ -44,7 +44,7 @@ class ReservationTable {
   std::span<const Stay> stays(Place place) const { return stays_[place]; }
   // Number of stays on all places.
   std::int64_t count() const { return count_; }
-  // The agent on the place at this time; kNobody if there is none.
+  // The agent on the place at this time; kNoAgent if there is none.
   AgentIndex agent_at(Place place, Time time) const;
 
   // May another agent arrive on `to` at `arrival`, from a neighbour or, if `from` == `to`, by

@@ -44,9 +44,9 @@
 #include <limits>
 
 #include "model/limits.h"
+#include "planning/agent_planner.h"
 #include "planning/bucket_queue.h"
 #include "planning/label_planes.h"
-#include "planning/path_query.h"
 #include "planning/safe_intervals.h"
 
 namespace grove::detail {

@@ -78,21 +78,21 @@ void SafeIntervals::check(const Constraint& c) {
   if (is_about_sequence(c))
     throw std::invalid_argument("a constraint on the sequence is none on the path");
   if (c.kind != ConstraintKind::kNoTraversal) return;
-  if (!chains_) chains_.emplace(world_);
+  if (!corridors_) corridors_.emplace(world_);
   if (!leaves_at_front(c) && !leaves_at_back(c))
     throw std::invalid_argument("a traversal must leave a chain for one of its ends");
 }
 
 bool SafeIntervals::leaves_at_front(const Constraint& c) const {
-  const int chain = chains_->corridor_of(c.from);
-  return chain != Corridors::kNoCorridor && chains_->position(c.from) == 1 &&
-         chains_->places(chain).front() == c.cell;
+  const int corridor = corridors_->corridor_of(c.from);
+  return corridor != Corridors::kNoCorridor && corridors_->position(c.from) == 1 &&
+         corridors_->places(corridor).front() == c.cell;
 }
 
 bool SafeIntervals::leaves_at_back(const Constraint& c) const {
-  const int chain = chains_->corridor_of(c.from);
-  if (chain == Corridors::kNoCorridor) return false;
-  const auto places = chains_->places(chain);
+  const int corridor = corridors_->corridor_of(c.from);
+  if (corridor == Corridors::kNoCorridor) return false;
+  const auto places = corridors_->places(corridor);
   return places[places.size() - 2] == c.from && places.back() == c.cell;
 }
 
@@ -130,16 +130,16 @@ void SafeIntervals::keep_rest_by(const Constraint& c) {
 }
 
 void SafeIntervals::keep_traversal(const Constraint& c) {
-  ChainUsed& used = chain_used(chains_->corridor_of(c.from));
+  ChainUsed& used = chain_used(corridors_->corridor_of(c.from));
   const bool at_back = leaves_at_back(c);
   (at_back ? used.from_front = kFromFront : used.from_back = kFromBack);
   const std::uint8_t barred = at_back ? kFromFront : kFromBack;
   bars_.push_back({c.cell, c.from, c.begin, c.end, Bar::Kind::kMove, barred});
 }
 
-SafeIntervals::ChainUsed& SafeIntervals::chain_used(int chain) {
-  const auto known = std::ranges::find(chains_used_, chain, &ChainUsed::chain);
-  return known != chains_used_.end() ? *known : chains_used_.emplace_back(ChainUsed{chain});
+SafeIntervals::ChainUsed& SafeIntervals::chain_used(int corridor) {
+  const auto known = std::ranges::find(chains_used_, corridor, &ChainUsed::corridor);
+  return known != chains_used_.end() ? *known : chains_used_.emplace_back(ChainUsed{corridor});
 }
 
 SafeIntervals::Group& SafeIntervals::group(Place place) {
@@ -152,9 +152,9 @@ SafeIntervals::Group& SafeIntervals::group(Place place) {
 
 void SafeIntervals::group_inner_places() {
   for (std::size_t used = 0; used < chains_used_.size(); ++used) {
-    const auto places = chains_->places(chains_used_[used].chain);
+    const auto places = corridors_->places(chains_used_[used].corridor);
     for (const Place inner : places.subspan(1, places.size() - 2))
-      group(inner).chain = static_cast<std::int32_t>(used);
+      group(inner).corridor = static_cast<std::int32_t>(used);
     group(places[1]).front = places.front();
   }
 }
@@ -178,8 +178,8 @@ void SafeIntervals::group_bars() {
 void SafeIntervals::add_slots(Group& group) {
   group.first_slot = slot_count();
   world_.for_each_state(group.place, [&](State state) {
-    if (group.chain != kNoCopies) {
-      const ChainUsed& used = chains_used_[group.chain];
+    if (group.corridor != kNoCopies) {
+      const ChainUsed& used = chains_used_[group.corridor];
       if (used.from_front != kFree) add_intervals(group, state, used.from_front);
       if (used.from_back != kFree) add_intervals(group, state, used.from_back);
     }
@@ -223,7 +223,7 @@ void SafeIntervals::add_unending_interval(const Group& group, State state, Time 
 
 SafeIntervals::Range SafeIntervals::slots_of_copy(const Group& group, State state,
                                                   std::uint8_t copy) const {
-  const ChainUsed& used = chains_used_[group.chain];
+  const ChainUsed& used = chains_used_[group.corridor];
   const int before =
       static_cast<int>(copy > used.from_front) + static_cast<int>(copy > used.from_back);
   const int copies =

@@ -177,7 +177,7 @@ class SafeIntervals {
   };
   // A corridor with a barred traversal. If no constraint bars a copy, it is kFree.
   struct ChainUsed {
-    int chain;
+    int corridor;
     std::uint8_t from_front = kFree;
     std::uint8_t from_back = kFree;
   };
@@ -189,8 +189,8 @@ class SafeIntervals {
     std::int32_t first_bar = 0;
     std::int32_t first_move = 0;  // the barred moves to the place come last
     std::int32_t end_move = 0;
-    std::int32_t chain = kNoCopies;  // of an inner place: in chains_used_
-    Place front = kNoPlace;          // the front of that corridor, if adjacent
+    std::int32_t corridor = kNoCopies;  // of an inner place: in chains_used_
+    Place front = kNoPlace;             // the front of that corridor, if adjacent
   };
 
   template <class PlaceOf, class Arrive>
@@ -242,15 +242,15 @@ class SafeIntervals {
   }
   // The slots of `state` that a move from `from` may lead into.
   Range slots_entered(const Group& to, int from_slot, Place from, State state) const {
-    if (to.chain == kNoCopies) return slots(to, state);
-    const ChainUsed& chain = chains_used_[to.chain];
+    if (to.corridor == kNoCopies) return slots(to, state);
+    const ChainUsed& corridor = chains_used_[to.corridor];
     // A neighbor with copies is an inner place of the same corridor.
     if (has_copies(from)) return slots_of_copy(to, state, interval(from_slot).copy);
-    return slots_of_copy(to, state, from == to.front ? chain.from_front : chain.from_back);
+    return slots_of_copy(to, state, from == to.front ? corridor.from_front : corridor.from_back);
   }
   Range slots_of_copy(const Group& group, State state, std::uint8_t copy) const;
   bool has_copies(Place place) const {
-    return !unconstrained(place) && groups_[group_of_[place]].chain != kNoCopies;
+    return !unconstrained(place) && groups_[group_of_[place]].corridor != kNoCopies;
   }
   std::uint8_t copy_of(int slot) const { return slot < states_ ? kFree : interval(slot).copy; }
 
@@ -282,7 +282,7 @@ class SafeIntervals {
   void keep_traversal(const Constraint& constraint);
   bool leaves_at_front(const Constraint& constraint) const;
   bool leaves_at_back(const Constraint& constraint) const;
-  ChainUsed& chain_used(int chain);
+  ChainUsed& chain_used(int corridor);
   Group& group(Place place);
   void group_inner_places();
   void group_bars();
@@ -298,8 +298,8 @@ class SafeIntervals {
   std::vector<std::int32_t> group_of_;  // by place
   std::vector<Group> groups_;
   std::vector<SafeInterval> intervals_;
-  std::vector<Bar> bars_;            // by place, kind, begin
-  std::optional<Corridors> chains_;  // made for the first barred traversal
+  std::vector<Bar> bars_;               // by place, kind, begin
+  std::optional<Corridors> corridors_;  // made for the first barred traversal
   std::vector<ChainUsed> chains_used_;
   Place only_rest_ = kNoPlace;
   Time latest_rest_ = kNever;

@@ -61,10 +61,6 @@
 namespace grove::detail {
 namespace {
 
-StopSet bit(int stop) {
-  return StopSet{1} << stop;
-}
-
 bool holds(StopSet set, int stop) {
   return (set & bit(stop)) != 0;
 }
@@ -91,12 +87,12 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
       start_(instance.agent(agent).start),
       start_place_(instance.world().place(start_)),
       destination_(instance.agent(agent).goal),
-      completions_(port_matrix(instance, agent, distances),
-                   distances.array(ArrayKind::kSequenceTable, static_cast<std::size_t>(agent)),
-                   [&instance, &distances, agent] {
-                     return direct_legs(instance, agent, port_matrix(instance, agent, distances));
-                   }) {
-  ports_ = completions_.matrix().ports;
+      cost_to_go_(port_matrix(instance, agent, distances),
+                  distances.array(ArrayKind::kSequenceTable, static_cast<std::size_t>(agent)),
+                  [&instance, &distances, agent] {
+                    return direct_legs(instance, agent, port_matrix(instance, agent, distances));
+                  }) {
+  ports_ = cost_to_go_.matrix().ports;
   const World& world = instance.world();
   const Agent& who = instance.agent(agent);
   for (std::size_t stop = 0; stop < who.stops.size(); ++stop) {
@@ -172,7 +168,7 @@ Time AgentStops::turn(State state, int port) const {
 
 SequenceStages::SequenceStages(AgentStops& stops, SequenceClass work)
     : stops_(stops),
-      completions_(&stops.cost_to_go()),
+      cost_to_go_(&stops.cost_to_go()),
       class_(std::move(work)),
       free_(stops.all() & ~checked_set(class_.prefix, stops.all())),
       first_free_(free_ & ~class_.forbidden_next),
@@ -180,13 +176,13 @@ SequenceStages::SequenceStages(AgentStops& stops, SequenceClass work)
                          std::popcount(free_) > 1),
       stride_(static_cast<std::size_t>(stops.count())) {
   own_ = stops.cost_to_go().of_class(class_);
-  if (own_) completions_ = &*own_;
+  if (own_) cost_to_go_ = &*own_;
 }
 
 SequenceStages::SequenceStages(AgentStops& stops, SequenceClass work, CostToGo& cost_to_go)
     : SequenceStages(stops, std::move(work)) {
   own_.reset();
-  completions_ = &cost_to_go;
+  cost_to_go_ = &cost_to_go;
 }
 
 bool SequenceStages::plausible() const {
@@ -197,8 +193,8 @@ bool SequenceStages::plausible() const {
 }
 
 SequenceStages::StageId SequenceStages::first_stage() {
-  if (built_beyond_ == completions_->beyond()) return first_stage_;
-  built_beyond_ = completions_->beyond();
+  if (built_beyond_ == cost_to_go_->beyond()) return first_stage_;
+  built_beyond_ = cost_to_go_->beyond();
   stages_.clear();
   after_.clear();
   onward_.clear();
@@ -232,7 +228,7 @@ SequenceStages::PortCosts SequenceStages::onward_costs(StopSet left, int stop) c
   const int ports = stops_.ports();
   const int first = stop * ports;
   left &= ~bit(stop);
-  const CostToGo& cost_to_go = *completions_;
+  const CostToGo& cost_to_go = *cost_to_go_;
   PortCosts costs;
   costs.fill(kNever);
   if (left == 0 || (left != free_ && (left & ~free_) == 0)) {

@@ -17,7 +17,7 @@
 #include "model/plan.h"
 #include "sequencing/cost_to_go.h"
 #include "sequencing/rtsp.h"
-#include "sequencing/sequence_dag.h"
+#include "sequencing/stop_set_index.h"
 
 namespace grove::detail {
 
@@ -80,8 +80,8 @@ class AgentStops {
   Time turn(State state, int port) const;
 
   // Costs to go over all sequences, not only those of a class.
-  const CostToGo& cost_to_go() const { return completions_; }
-  CostToGo& cost_to_go() { return completions_; }
+  const CostToGo& cost_to_go() const { return cost_to_go_; }
+  CostToGo& cost_to_go() { return cost_to_go_; }
 
  private:
   std::size_t port_count() const { return places_.size() * static_cast<std::size_t>(ports_); }
@@ -108,7 +108,7 @@ class AgentStops {
   std::vector<Time> longest_legs_;  // by port, then port
   int ports_ = 1;
   DistanceView to_rest_;
-  CostToGo completions_;
+  CostToGo cost_to_go_;
 };
 
 // Stages of one agent under one sequence class, numbered in the order in which the search reaches
@@ -147,8 +147,8 @@ class SequenceStages {
   AgentStops& stops() { return stops_; }
   const AgentStops& stops() const { return stops_; }
   const SequenceClass& sequence_class() const { return class_; }
-  const CostToGo& cost_to_go() const { return *completions_; }
-  CostToGo& cost_to_go() { return *completions_; }
+  const CostToGo& cost_to_go() const { return *cost_to_go_; }
+  CostToGo& cost_to_go() { return *cost_to_go_; }
 
   // Returns false if the class is empty or if a stop or the place of rest is unreachable.
   bool plausible() const;
@@ -230,7 +230,7 @@ class SequenceStages {
 
   AgentStops& stops_;
   std::optional<CostToGo> own_;  // of the class, unless those of all sequences serve it
-  CostToGo* completions_;
+  CostToGo* cost_to_go_;
   SequenceClass class_;
   StopSet free_;            // stops that are not in the prefix
   StopSet first_free_;      // of these, the stops that may be the first

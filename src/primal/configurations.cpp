@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "primal/splitmix64.h"
+#include "model/random.h"
 
 namespace grove::detail {
 namespace {

@@ -51,7 +51,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/plan_of_path.h"
+#include "model/plan.h"
 
 namespace grove::detail {
 namespace {

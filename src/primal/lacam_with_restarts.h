@@ -34,7 +34,7 @@ class LacamWithRestarts {
   // (visit_orders.h). `problem` must outlive this. Throws std::invalid_argument if an order is not
   // complete.
   LacamWithRestarts(const Problem& problem, std::span<const Sequence> orders, std::uint64_t seed,
-                    std::int64_t first_steps = Tuning().first_joint_steps);
+                    std::int64_t first_steps = Tuning().lacam_first_steps);
   ~LacamWithRestarts();
   LacamWithRestarts(LacamWithRestarts&&) noexcept;
   LacamWithRestarts& operator=(LacamWithRestarts&&) noexcept;

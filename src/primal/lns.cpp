@@ -15,13 +15,14 @@
 // for which these would pay. The cheapest path is found first and then replaced by the path of
 // least penalised cost.
 //
-// *Acceptance.* LNS soon ends in a local optimum. After neighborhoods_before_worse iterations per
+// *Acceptance.* LNS soon ends in a local optimum. After kRecordDeviationStart iterations per
 // agent without improvement, it also accepts plans that cost a little more than the best one so
-// far: worse_plans times (best cost - sum of individual costs), because escaping takes more where
-// congestion costs more. Until then no higher cost is accepted, because a plan that still improves
-// quickly would improve more slowly: random-32-32-20, 200 agents, ten seconds, 5,202 to 5,238
-// instead of 5,149. Nor is one accepted while the best cost exceeds the sum of individual costs by
-// more than worse_plans_loss times that sum: instances so dense improve for the whole run.
+// far: record_deviation times (best cost - sum of individual costs), because escaping takes more
+// where congestion costs more. Until then no higher cost is accepted, because a plan that still
+// improves quickly would improve more slowly: random-32-32-20, 200 agents, ten seconds, 5,202 to
+// 5,238 instead of 5,149. Nor is one accepted while the best cost exceeds the sum of individual
+// costs by more than record_deviation_max_loss times that sum: instances so dense improve for the
+// whole run.
 //
 // *Cutoff.* The cutoff of a call is the old cost (plus what acceptance allows), less the new paths
 // so far, less the individual costs of the agents still to be planned. Above it the iteration fails
@@ -49,6 +50,15 @@
 namespace grove::detail {
 namespace {
 
+constexpr double kRepairLabels = 2000;  // base of the label limit per repaired agent
+// Multiple of the mean number of labels of successful calls that is added.
+constexpr double kRepairLabelsFactor = 16;
+constexpr double kRepairDecay = 0.98;  // decay of the statistics of repair operators per iteration
+// One iteration in this number uses a random repair operator.
+constexpr int kRepairExplorationPeriod = 10;
+// Failed iterations per agent before worse plans are accepted.
+constexpr std::int64_t kRecordDeviationStart = 1;
+
 constexpr std::int64_t kMostFirstLabels = std::int64_t{1} << 40;
 
 }  // namespace
@@ -56,8 +66,8 @@ constexpr std::int64_t kMostFirstLabels = std::int64_t{1} << 40;
 void LargeNeighborhoodSearch::step(const Limits& limits) {
   ++steps_;
   const std::vector<AgentIndex>& agents = neighborhoods_.choose();
-  RepairOperator& way = choose_repair();
-  const std::int64_t work_before = router_.work();
+  RepairOperator& repair = choose_repair();
+  const std::int64_t work_before = low_level_.work();
   Cost old_cost = 0;
   old_paths_.clear();
   for (AgentIndex agent : agents) {
@@ -65,43 +75,44 @@ void LargeNeighborhoodSearch::step(const Limits& limits) {
     old_paths_.push_back(paths_.take(agent));
   }
   const Cost others = paths_.cost();
-  if (!plan_anew(agents, old_cost + worse_allowed(others + old_cost), way, limits)) restore(agents);
+  if (!replan(agents, old_cost + worse_allowed(others + old_cost), repair, limits)) restore(agents);
   const Cost gain = std::max<Cost>(0, others + old_cost - paths_.cost());
   neighborhoods_.reward(gain);
-  const std::int64_t work = router_.work() - work_before;
-  way.gain = tuning_.way_memory * way.gain + static_cast<double>(gain);
-  way.work = tuning_.way_memory * way.work + static_cast<double>(work);
+  const std::int64_t work = low_level_.work() - work_before;
+  repair.gain = kRepairDecay * repair.gain + static_cast<double>(gain);
+  repair.work = kRepairDecay * repair.work + static_cast<double>(work);
 }
 
 LargeNeighborhoodSearch::RepairOperator& LargeNeighborhoodSearch::choose_repair() {
-  const std::span<RepairOperator> ways(
-      repair_operators_.data(), repair_operators_.size() - (router_.prices() == nullptr ? 1 : 0));
-  if (random_.below(tuning_.neighborhoods_per_trial) == 0) return ways[random_.below(ways.size())];
+  const std::span<RepairOperator> repairs(
+      repair_operators_.data(),
+      repair_operators_.size() - (low_level_.prices() == nullptr ? 1 : 0));
+  if (random_.below(kRepairExplorationPeriod) == 0) return repairs[random_.below(repairs.size())];
   return *std::ranges::max_element(
-      ways, {}, [](const RepairOperator& way) { return (way.gain + 1) / way.work; });
+      repairs, {}, [](const RepairOperator& repair) { return (repair.gain + 1) / repair.work; });
 }
 
 // By how much the next plan may exceed `cost`, the cost of the current plan.
 Cost LargeNeighborhoodSearch::worse_allowed(Cost cost) {
   if (cost < least_) {
     least_ = cost;
-    in_vain_ = 0;
+    failures_ = 0;
   }
-  if (++in_vain_ <= tuning_.neighborhoods_before_worse * std::ssize(paths_.paths())) return 0;
+  if (++failures_ <= kRecordDeviationStart * std::ssize(paths_.paths())) return 0;
   const auto loss = static_cast<double>(least_ - own_costs_);
-  if (loss > tuning_.worse_plans_loss * static_cast<double>(own_costs_)) return 0;
-  const double more = tuning_.worse_plans * loss;
+  if (loss > tuning_.record_deviation_max_loss * static_cast<double>(own_costs_)) return 0;
+  const double more = tuning_.record_deviation * loss;
   return std::max<Cost>(0, least_ + static_cast<Cost>(more + random_.unit()) - cost);
 }
 
 // Returns false if the agents, planned in this order, find no paths of total cost `most` or less.
-bool LargeNeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, Cost most,
-                                        RepairOperator& way, const Limits& limits) {
+bool LargeNeighborhoodSearch::replan(const std::vector<AgentIndex>& agents, Cost most,
+                                     RepairOperator& repair, const Limits& limits) {
   Cost left = most;
-  for (AgentIndex agent : agents) left -= router_.individual_cost(agent);
+  for (AgentIndex agent : agents) left -= low_level_.individual_cost(agent);
   for (AgentIndex agent : agents) {
-    const Cost cutoff = left + router_.individual_cost(agent);
-    if (!find(agent, cutoff, way, limits)) return false;
+    const Cost cutoff = left + low_level_.individual_cost(agent);
+    if (!find(agent, cutoff, repair, limits)) return false;
     paths_.put(agent, std::move(path_));
     path_.clear();
     left = cutoff - paths_.cost(agent);
@@ -109,25 +120,25 @@ bool LargeNeighborhoodSearch::plan_anew(const std::vector<AgentIndex>& agents, C
   return true;
 }
 
-bool LargeNeighborhoodSearch::find(AgentIndex agent, Cost cutoff, RepairOperator& way,
+bool LargeNeighborhoodSearch::find(AgentIndex agent, Cost cutoff, RepairOperator& repair,
                                    const Limits& limits) {
-  const double of_others =
-      tuning_.replan_labels + tuning_.replan_labels_of_found * way.labels / way.found;
+  const double of_others = kRepairLabels + kRepairLabelsFactor * repair.labels / repair.found;
   const PathQuery query{
       .cutoff = static_cast<Time>(cutoff),
-      .label_limit = way.found > 0 ? static_cast<std::int64_t>(of_others) : way.first_labels,
+      .label_limit = repair.found > 0 ? static_cast<std::int64_t>(of_others) : repair.first_labels,
       .reservations = &paths_.reservations(),
-      .inflation_percent = way.inflation_percent,
+      .inflation_percent = repair.inflation_percent,
       .known_sequences = true};
-  const std::int64_t before = router_.expanded();
-  if (router_.find(agent, query, limits, path_) != PathOutcome::kFound) {
-    if (way.found <= 0 && way.first_labels < kMostFirstLabels) way.first_labels *= 2;
+  const std::int64_t before = low_level_.expanded();
+  if (low_level_.find(agent, query, limits, path_) != PathOutcome::kFound) {
+    if (repair.found <= 0 && repair.first_labels < kMostFirstLabels) repair.first_labels *= 2;
     return false;
   }
-  if (way.priced)
-    router_.improve(agent, paths_.reservations(), static_cast<Time>(cutoff), limits, path_);
-  way.labels = tuning_.way_memory * way.labels + static_cast<double>(router_.expanded() - before);
-  way.found = tuning_.way_memory * way.found + 1;
+  if (repair.priced)
+    low_level_.improve(agent, paths_.reservations(), static_cast<Time>(cutoff), limits, path_);
+  repair.labels =
+      kRepairDecay * repair.labels + static_cast<double>(low_level_.expanded() - before);
+  repair.found = kRepairDecay * repair.found + 1;
   return true;
 }
 

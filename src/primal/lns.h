@@ -22,13 +22,13 @@ namespace grove::detail {
 class LargeNeighborhoodSearch {
  public:
   // All references must outlive this.
-  LargeNeighborhoodSearch(const Problem& problem, PrimalLowLevel& router, PlannedPaths& paths,
+  LargeNeighborhoodSearch(const Problem& problem, PrimalLowLevel& low_level, PlannedPaths& paths,
                           Random& random, const Tuning& tuning)
-      : router_(router),
+      : low_level_(low_level),
         paths_(paths),
         random_(random),
         tuning_(tuning),
-        neighborhoods_(problem, router, paths, random, tuning) {}
+        neighborhoods_(problem, low_level, paths, random, tuning) {}
 
   // One iteration. All agents must have paths. They also have paths afterwards, even if a limit is
   // reached.
@@ -45,7 +45,7 @@ class LargeNeighborhoodSearch {
 
  private:
   // A way to plan one agent: exactly, greedily, or at least penalised cost (only with a dual
-  // solution). The statistics are sums that decay by way_memory; choose_repair() selects by them.
+  // solution). The statistics are sums that decay; choose_repair() selects by them.
   struct RepairOperator {
     int inflation_percent;
     bool priced;
@@ -58,12 +58,12 @@ class LargeNeighborhoodSearch {
 
   RepairOperator& choose_repair();
   Cost worse_allowed(Cost cost);
-  bool plan_anew(const std::vector<AgentIndex>& agents, Cost most, RepairOperator& way,
-                 const Limits& limits);
-  bool find(AgentIndex agent, Cost cutoff, RepairOperator& way, const Limits& limits);
+  bool replan(const std::vector<AgentIndex>& agents, Cost most, RepairOperator& repair,
+              const Limits& limits);
+  bool find(AgentIndex agent, Cost cutoff, RepairOperator& repair, const Limits& limits);
   void restore(const std::vector<AgentIndex>& agents);
 
-  PrimalLowLevel& router_;
+  PrimalLowLevel& low_level_;
   PlannedPaths& paths_;
   Random& random_;
   const Tuning& tuning_;
@@ -72,7 +72,7 @@ class LargeNeighborhoodSearch {
       RepairOperator{0, false}, RepairOperator{30, false}, RepairOperator{0, true}};
   Cost own_costs_ = 0;
   Cost least_ = kInfiniteCost;  // least plan cost since begin()
-  std::int64_t in_vain_ = 0;    // iterations since least_ improved
+  std::int64_t failures_ = 0;   // iterations since least_ improved
   std::vector<Path> old_paths_;
   Path path_;
   std::int64_t steps_ = 0;

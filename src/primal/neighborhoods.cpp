@@ -14,10 +14,20 @@
 #include <algorithm>
 #include <numeric>
 
-#include "primal/blocking_agents.h"
+#include "primal/planned_paths.h"
 
 namespace grove::detail {
 namespace {
+
+constexpr std::int64_t kMaxNeighborhood = 8;  // agents of a neighbourhood
+// Failures per agent after which the maximum size grows by itself.
+constexpr std::int64_t kGrowthFailures = 2;
+constexpr std::int64_t kMaxGrowth = 4;  // maximum factor of this growth
+constexpr double kDestroyDecay = 0.99;  // decay of the weights of destroy operators per iteration
+// Probability of an operator without gain, approximately.
+constexpr double kDestroyMinProbability = 0.02;
+constexpr int kAgentBasedTries = 8;  // tries to fill an agent-based neighbourhood
+constexpr Time kMapBasedWindow = 8;  // time steps before and after in a map-based neighbourhood
 
 // A path of the dual solution is tried with delays of 0 to kLate - 1 steps.
 constexpr Time kLate = 3;
@@ -27,9 +37,9 @@ constexpr Time kLate = 3;
 const std::vector<AgentIndex>& Neighborhoods::choose() {
   const int agents = problem_.instance.agent_count();
   chosen_.clear();
-  const std::int64_t spread = most_wanted() - tuning_.fewest_replanned;
+  const std::int64_t spread = most_wanted() - tuning_.min_neighborhood;
   wanted_ = std::min<std::int64_t>(
-      agents, tuning_.fewest_replanned + random_.below(std::max<std::int64_t>(spread, 0) + 1));
+      agents, tuning_.min_neighborhood + random_.below(std::max<std::int64_t>(spread, 0) + 1));
   kind_ = choose_kind();
   if (kind_ == kAgentBased) add_delayed();
   if (kind_ == kMapBased) add_around_spot();
@@ -39,34 +49,33 @@ const std::vector<AgentIndex>& Neighborhoods::choose() {
   return chosen_;
 }
 
-// Upper limit of the size. It grows after neighborhoods_in_vain failures per agent, because larger
+// Upper limit of the size. It grows after kGrowthFailures failures per agent, because larger
 // neighbourhoods may gain where small ones no longer do (variable neighbourhood search: Mladenovic
 // and Hansen 1997).
 std::int64_t Neighborhoods::most_wanted() const {
-  const std::int64_t times =
-      1 + in_vain_ / (tuning_.neighborhoods_in_vain * problem_.instance.agent_count());
-  return tuning_.most_replanned * std::min<std::int64_t>(times, tuning_.times_more_replanned);
+  const std::int64_t times = 1 + failures_ / (kGrowthFailures * problem_.instance.agent_count());
+  return kMaxNeighborhood * std::min<std::int64_t>(times, kMaxGrowth);
 }
 
 Neighborhoods::Kind Neighborhoods::choose_kind() {
   const int kinds = this->kinds();
   const double sum = std::accumulate(weights_.begin(), weights_.begin() + kinds, 0.0);
-  double at = random_.unit() * sum * (1 + kinds * tuning_.least_kind);
+  double at = random_.unit() * sum * (1 + kinds * kDestroyMinProbability);
   for (int kind = 0; kind < kinds; ++kind) {
-    at -= weights_[static_cast<std::size_t>(kind)] + sum * tuning_.least_kind;
+    at -= weights_[static_cast<std::size_t>(kind)] + sum * kDestroyMinProbability;
     if (at < 0) return static_cast<Kind>(kind);
   }
   return kRandom;
 }
 
 void Neighborhoods::reward(Cost gain) {
-  in_vain_ = gain > 0 ? 0 : in_vain_ + 1;
+  failures_ = gain > 0 ? 0 : failures_ + 1;
   double& weight = weights_[kind_];
-  weight = tuning_.kind_memory * weight + (1 - tuning_.kind_memory) * static_cast<double>(gain);
+  weight = kDestroyDecay * weight + (1 - kDestroyDecay) * static_cast<double>(gain);
 }
 
 void Neighborhoods::add(AgentIndex agent) {
-  if (agent == ReservationTable::kNobody || full()) return;
+  if (agent == ReservationTable::kNoAgent || full()) return;
   if (std::ranges::find(chosen_, agent) == chosen_.end()) chosen_.push_back(agent);
 }
 
@@ -76,13 +85,13 @@ void Neighborhoods::add_anyone() {
 
 void Neighborhoods::add_delayed() {
   const AgentIndex agent = some_delayed_agent();
-  if (agent == ReservationTable::kNobody) return;
+  if (agent == ReservationTable::kNoAgent) return;
   add(agent);
-  add_those_in_the_way(agent, router_.individual_path(agent), 0);
-  const Time delay = paths_.cost(agent) - router_.individual_cost(agent);
-  for (int tries = 0; tries < tuning_.delayed_starts && !full(); ++tries) {
+  add_those_in_the_way(agent, low_level_.individual_path(agent), 0);
+  const Time delay = paths_.cost(agent) - low_level_.individual_cost(agent);
+  for (int tries = 0; tries < kAgentBasedTries && !full(); ++tries) {
     const AgentIndex member = chosen_[random_.below(chosen_.size())];
-    add_those_in_the_way(member, router_.individual_path(member), random_.below(delay + 1));
+    add_those_in_the_way(member, low_level_.individual_path(member), random_.below(delay + 1));
   }
 }
 
@@ -90,14 +99,14 @@ AgentIndex Neighborhoods::some_delayed_agent() {
   Cost sum = 0;
   const int agents = problem_.instance.agent_count();
   for (AgentIndex agent = 0; agent < agents; ++agent)
-    sum += paths_.cost(agent) - router_.individual_cost(agent);
-  if (sum <= 0) return ReservationTable::kNobody;
+    sum += paths_.cost(agent) - low_level_.individual_cost(agent);
+  if (sum <= 0) return ReservationTable::kNoAgent;
   Cost at = random_.below(sum);
   for (AgentIndex agent = 0; agent < agents; ++agent) {
-    at -= paths_.cost(agent) - router_.individual_cost(agent);
+    at -= paths_.cost(agent) - low_level_.individual_cost(agent);
     if (at < 0) return agent;
   }
-  return ReservationTable::kNobody;
+  return ReservationTable::kNoAgent;
 }
 
 // Adds the agents with which `agent` would collide on `path`, begun `late` steps late.
@@ -112,20 +121,20 @@ void Neighborhoods::add_those_in_the_way(AgentIndex agent, const Path& path, Tim
 void Neighborhoods::add_by_reduced_cost() {
   update_reduced_costs();
   const AgentIndex agent = some_overpaying_agent();
-  if (agent == ReservationTable::kNobody) return;
+  if (agent == ReservationTable::kNoAgent) return;
   add(agent);
   add_those_in_the_way(agent, wanted_path(agent), 0);
-  for (int tries = 0; tries < tuning_.delayed_starts && !full(); ++tries) {
+  for (int tries = 0; tries < kAgentBasedTries && !full(); ++tries) {
     const AgentIndex member = chosen_[random_.below(chosen_.size())];
     add_those_in_the_way(member, wanted_path(member), random_.below(kLate));
   }
 }
 
 void Neighborhoods::update_reduced_costs() {
-  const DualSolution& list = *router_.prices();
+  const DualSolution& list = *low_level_.prices();
   const auto agents = paths_.paths().size();
-  if (seen_prices_ != router_.price_changes()) {
-    seen_prices_ = router_.price_changes();
+  if (seen_prices_ != low_level_.price_changes()) {
+    seen_prices_ = low_level_.price_changes();
     reduced_cost_.resize(agents);
     seen_editions_.assign(agents, 0);
   }
@@ -139,7 +148,7 @@ void Neighborhoods::update_reduced_costs() {
 
 AgentIndex Neighborhoods::some_overpaying_agent() {
   const ScaledCost sum = std::accumulate(reduced_cost_.begin(), reduced_cost_.end(), ScaledCost{0});
-  if (sum <= 0) return ReservationTable::kNobody;
+  if (sum <= 0) return ReservationTable::kNoAgent;
   ScaledCost at = random_.below(sum);
   AgentIndex agent = 0;
   while ((at -= reduced_cost_[agent]) >= 0) ++agent;
@@ -147,8 +156,8 @@ AgentIndex Neighborhoods::some_overpaying_agent() {
 }
 
 const Path& Neighborhoods::wanted_path(AgentIndex agent) const {
-  const Path& path = router_.prices()->paths[agent];
-  return path.empty() ? router_.individual_path(agent) : path;
+  const Path& path = low_level_.prices()->paths[agent];
+  return path.empty() ? low_level_.individual_path(agent) : path;
 }
 
 // Adds the visitors of places in breadth-first order around a random position of a random agent's
@@ -174,7 +183,7 @@ void Neighborhoods::add_around_spot() {
 
 void Neighborhoods::add_visitors(Place place, Time time) {
   for (const ReservationTable::Stay& stay : paths_.reservations().stays(place))
-    if (stay.first <= time + tuning_.spot_steps && stay.last >= time - tuning_.spot_steps)
+    if (stay.first <= time + kMapBasedWindow && stay.last >= time - kMapBasedWindow)
       add(stay.agent);
 }
 

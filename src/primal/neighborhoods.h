@@ -21,9 +21,9 @@ namespace grove::detail {
 class Neighborhoods {
  public:
   // All references must outlive this.
-  Neighborhoods(const Problem& problem, const PrimalLowLevel& router, const PlannedPaths& paths,
+  Neighborhoods(const Problem& problem, const PrimalLowLevel& low_level, const PlannedPaths& paths,
                 Random& random, const Tuning& tuning)
-      : problem_(problem), router_(router), paths_(paths), random_(random), tuning_(tuning) {}
+      : problem_(problem), low_level_(low_level), paths_(paths), random_(random), tuning_(tuning) {}
 
   // The next neighbourhood, in random order. All agents must have paths. Valid until the next call.
   const std::vector<AgentIndex>& choose();
@@ -40,7 +40,7 @@ class Neighborhoods {
   void add(AgentIndex agent);
   bool full() const { return std::ssize(chosen_) >= wanted_; }
   // Number of operators that can be used: kReducedCost needs a dual solution.
-  int kinds() const { return router_.prices() == nullptr ? kReducedCost : kKinds; }
+  int kinds() const { return low_level_.prices() == nullptr ? kReducedCost : kKinds; }
   void add_anyone();
   void add_delayed();
   AgentIndex some_delayed_agent();
@@ -53,14 +53,14 @@ class Neighborhoods {
   void add_visitors(Place place, Time time);
 
   const Problem& problem_;
-  const PrimalLowLevel& router_;
+  const PrimalLowLevel& low_level_;
   const PlannedPaths& paths_;
   Random& random_;
   const Tuning& tuning_;
   std::array<double, kKinds> weights_{1, 1, 1, 1};
   Kind kind_ = kRandom;
   std::int64_t wanted_ = 0;
-  std::int64_t in_vain_ = 0;  // neighbourhoods since the last cost reduction
+  std::int64_t failures_ = 0;  // neighbourhoods since the last cost reduction
   std::vector<AgentIndex> chosen_;
   int seen_prices_ = 0;                      // PrimalLowLevel::price_changes() of reduced_cost_
   std::vector<ScaledCost> reduced_cost_;     // by agent: of its path

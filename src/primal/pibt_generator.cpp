@@ -20,8 +20,8 @@ namespace grove::detail {
 PibtGenerator::PibtGenerator(const World& world, std::vector<VisitStages>& agents)
     : world_(world),
       agents_(agents),
-      now_(world.place_count(), kNobody),
-      later_(world.place_count(), kNobody),
+      now_(world.place_count(), kNoAgent),
+      later_(world.place_count(), kNoAgent),
       to_(agents.size(), kNoState),
       swaps_(world, agents, now_, to_) {}
 
@@ -34,14 +34,14 @@ std::span<const State> PibtGenerator::step(std::span<const Standing> from,
   std::ranges::fill(to_, kNoState);
   for (std::size_t agent = 0; agent < from.size(); ++agent)
     now_[world_.place(from[agent].state)] = static_cast<AgentIndex>(agent);
-  const bool done = obey(orders) && std::ranges::all_of(priority, [&](AgentIndex agent) {
+  const bool done = apply(orders) && std::ranges::all_of(priority, [&](AgentIndex agent) {
                       return to_[agent] != kNoState || push(agent);
                     });
   clear();
   return done ? std::span<const State>(to_) : std::span<const State>();
 }
 
-bool PibtGenerator::obey(std::span<const LacamConstraint> orders) {
+bool PibtGenerator::apply(std::span<const LacamConstraint> orders) {
   return std::ranges::all_of(orders, [&](const LacamConstraint& order) {
     if (collides(order.agent, order.state)) return false;
     move(order.agent, order.state);
@@ -63,15 +63,15 @@ bool PibtGenerator::push(AgentIndex agent) {
 bool PibtGenerator::try_candidates(AgentIndex agent, std::size_t first) {
   const std::size_t end = candidates_.size();
   const AgentIndex partner = swaps_.partner(agent, candidates_[first].state, from_);
-  if (partner != kNobody)
+  if (partner != kNoAgent)
     std::reverse(candidates_.begin() + static_cast<std::ptrdiff_t>(first), candidates_.end());
   for (std::size_t i = first; i < end; ++i) {
     const State state = candidates_[i].state;
     if (collides(agent, state)) continue;
     move(agent, state);
     const AgentIndex there = now_[world_.place(state)];
-    if (there != kNobody && to_[there] == kNoState && !push(there)) continue;
-    if (partner != kNobody && i == first) pull(partner, from_[agent].state);
+    if (there != kNoAgent && to_[there] == kNoState && !push(there)) continue;
+    if (partner != kNoAgent && i == first) pull(partner, from_[agent].state);
     return true;
   }
   return false;
@@ -80,7 +80,7 @@ bool PibtGenerator::try_candidates(AgentIndex agent, std::size_t first) {
 // Moves an agent to a state that its neighbour leaves, if the agent has not decided and the place
 // is free.
 void PibtGenerator::pull(AgentIndex agent, State state) {
-  if (to_[agent] == kNoState && later_[world_.place(state)] == kNobody) move(agent, state);
+  if (to_[agent] == kNoState && later_[world_.place(state)] == kNoAgent) move(agent, state);
 }
 
 // Appends the agent's candidates to candidates_, best first.
@@ -97,7 +97,7 @@ void PibtGenerator::rank_candidates(AgentIndex agent) {
   for (State state : world_.moves(from.state)) {
     if (!visits.may_enter(from.stage, state)) continue;
     const AgentIndex there = now_[world_.place(state)];
-    add(state, there != kNobody && there != agent);
+    add(state, there != kNoAgent && there != agent);
   }
   std::sort(candidates_.begin() + first, candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.key < b.key; });
@@ -105,9 +105,9 @@ void PibtGenerator::rank_candidates(AgentIndex agent) {
 
 bool PibtGenerator::collides(AgentIndex agent, State state) const {
   const Place place = world_.place(state);
-  if (later_[place] != kNobody) return true;
+  if (later_[place] != kNoAgent) return true;
   const AgentIndex there = now_[place];
-  return there != kNobody && there != agent && to_[there] != kNoState &&
+  return there != kNoAgent && there != agent && to_[there] != kNoState &&
          world_.place(to_[there]) == world_.place(from_[agent].state);
 }
 
@@ -117,9 +117,9 @@ void PibtGenerator::move(AgentIndex agent, State state) {
 }
 
 void PibtGenerator::clear() {
-  for (const Standing& from : from_) now_[world_.place(from.state)] = kNobody;
+  for (const Standing& from : from_) now_[world_.place(from.state)] = kNoAgent;
   for (State state : to_)
-    if (state != kNoState) later_[world_.place(state)] = kNobody;
+    if (state != kNoState) later_[world_.place(state)] = kNoAgent;
 }
 
 }  // namespace grove::detail

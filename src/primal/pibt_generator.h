@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "model/random.h"
 #include "primal/configurations.h"
-#include "primal/splitmix64.h"
 #include "primal/swaps.h"
 
 namespace grove::detail {
@@ -31,14 +31,14 @@ class PibtGenerator {
                               std::span<const LacamConstraint> orders, SplitMix64& dice);
 
  private:
-  static constexpr AgentIndex kNobody = Swaps::kNobody;
+  static constexpr AgentIndex kNoAgent = Swaps::kNoAgent;
 
   struct Candidate {
     State state;
     std::int64_t key;
   };
 
-  bool obey(std::span<const LacamConstraint> orders);
+  bool apply(std::span<const LacamConstraint> orders);
   bool push(AgentIndex agent);
   bool try_candidates(AgentIndex agent, std::size_t first);
   void pull(AgentIndex agent, State state);

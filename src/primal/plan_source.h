@@ -13,13 +13,13 @@ enum class PlanSource : std::uint8_t {
   kTree,                 // a conflict-free constraint-tree node
   kStart,                // start plan, or incumbent of a checkpoint
   kPrioritizedPlanning,  // prioritised planning
-  kConfigurations,       // LaCAM
+  kLacam,                // LaCAM
   kLns,                  // large neighbourhood search
   kJointSearch,          // A* over joint states
 };
 inline constexpr PlanSource kLastPlanSource = PlanSource::kJointSearch;
-inline constexpr std::array<std::string_view, 6> kPlanSources{
-    "tree", "start", "priorities", "configurations", "neighborhood", "joint"};
+inline constexpr std::array<std::string_view, 6> kPlanSources{"tree",  "start", "prioritized",
+                                                              "lacam", "lns",   "joint"};
 static_assert(kPlanSources.size() == static_cast<std::size_t>(kLastPlanSource) + 1);
 
 // The name of a source in files and logs.

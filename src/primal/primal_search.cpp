@@ -4,13 +4,13 @@
 //
 // *Rounds.* LNS improves a plan quickly at first and then stalls in a local optimum. Other seeds
 // end in other optima. So a new round begins with prioritised planning when LNS has worked without
-// success for as long as the round took to reach its best plan, and for stall_neighborhoods
+// success for as long as the round took to reach its best plan, and for kStallNeighborhoods
 // iterations at least.
 //
 // *Definition.* W is the work of individual planning of all agents (meeting_work_).
 //
 // *First plan.* Prioritised planning has a head start: one attempt, of at most
-// planning_head_start*W. On instances that are not dense it ends within 1.5 W, with plans much
+// pp_head_start*W. On instances that are not dense it ends within 1.5 W, with plans much
 // cheaper than those of LaCAM (LaCAM: 1.1 to 3.5 times the sum of individual costs). After the head
 // start, prioritised planning and LaCAM share the work equally until one of them has a plan. A
 // low-level call of prioritised planning that takes long is postponed and repeated with twice the
@@ -31,12 +31,12 @@
 // finds cheaper plans. LNS follows, because it changes too few agents at a time to resolve a jam:
 // warehouse-10-20-10-2-1 with 900 agents improves from 206,729 to 115,468 in six seconds; LNS only
 // improved from 204,322 to 197,747 in four. Prioritised planning mostly fails there: once there is
-// a plan and prioritised planning has done long_planning*W, it gets 1/9 of the work
-// (others_to_planning).
+// a plan and prioritised planning has done pp_long_attempt*W, it gets 1/9 of the work
+// (kOtherWorkPerLatePlanningWork).
 //
 // *Tree search.* The tree search waits for that cheaper plan, but no longer than its root takes.
-// The root examines all pairs of agents, so its work is estimated as min(long_planning,
-// W/meeting_of_root_work)*W.
+// The root examines all pairs of agents, so its work is estimated as min(pp_long_attempt,
+// W/root_work_per_individual_planning)*W.
 //
 // *Agent order.* The first order is by individual cost, lowest first. An agent may not come to rest
 // where an agent planned earlier still passes, so low-cost agents planned late would wait for
@@ -44,7 +44,7 @@
 // 64x64 cells and den312d, 100 agents, 300 tasks: first plans cost 0.7 to 8 % more than the sum of
 // individual costs; in random order 8 to 14 %, highest cost first 12 to 18 %. Planning each agent
 // that must visit another agent's destination before that agent: 0.5 instead of 0.2 % (500 agents,
-// 3,000 tasks, warehouse). Later rounds sort by cost with noise (order_spread).
+// 3,000 tasks, warehouse). Later rounds sort by cost with noise (kOrderNoise).
 //
 // *Dual solutions* of the Lagrangian bound guide only LNS. A plan by prioritised planning with
 // penalties, or from the paths of the dual solution, is cheaper than one without (3,976 instead of
@@ -70,6 +70,19 @@
 namespace grove::detail {
 namespace {
 
+// LaCAM steps within which a first plan is expected.
+constexpr std::int64_t kLacamExpectedSteps = 4096;
+// Rounds of guided search without a better plan before LNS takes over.
+constexpr int kGuidedRoundsWithoutGain = 4;
+// Guided search runs while the plan costs this part more than the individual costs.
+constexpr double kMinLossForGuidance = 0.1;
+// Work of the other heuristics per work of a long prioritised planning.
+constexpr std::int64_t kOtherWorkPerLatePlanningWork = 8;
+constexpr std::int64_t kStallNeighborhoods = 200;  // failed neighbourhoods before a new round
+// The same per agent; the maximum of both counts.
+constexpr std::int64_t kStallNeighborhoodsPerAgent = 10;
+constexpr double kOrderNoise = 0.5;  // noise on the costs by which later rounds sort agents
+
 constexpr std::int64_t kEndless = std::numeric_limits<std::int64_t>::max();
 constexpr std::uint64_t kSeeds = std::uint64_t{1} << 32;
 
@@ -83,21 +96,21 @@ class PrimalSearch::Impl {
         tuning_(tuning),
         seed_(seed),
         // LaCAM lets an agent enter a place in the step in which another agent leaves it.
-        may_configure_(techniques.has(Technique::kConfigurations) && problem.instance.may_follow()),
+        may_configure_(techniques.has(Technique::kLacam) && problem.instance.may_follow()),
         may_guide_(may_configure_),
         agents_(problem.instance.agent_count()),
         random_(seed),
-        router_(problem, stops),
+        low_level_(problem, stops),
         paths_(problem.instance),
         planned_(problem.instance),
-        planning_(problem.instance.world(), router_, planned_, random_, tuning_),
-        neighborhoods_(problem, router_, paths_, random_, tuning_) {}
+        planning_(problem.instance.world(), low_level_, planned_, random_, tuning_),
+        neighborhoods_(problem, low_level_, paths_, random_, tuning_) {}
 
   std::optional<Plan> step(const Limits& limits);
   void adopt(const Plan& plan);
   void use(std::shared_ptr<const DualSolution> prices) {
-    if (prices && prices.get() != router_.prices() && is_near(prices->bound()))
-      router_.use(std::move(prices));
+    if (prices && prices.get() != low_level_.prices() && is_near(prices->bound()))
+      low_level_.use(std::move(prices));
   }
 
   PlanSource source() const { return source_; }
@@ -106,16 +119,16 @@ class PrimalSearch::Impl {
   }
   bool expects_plan() const {
     if (!may_configure_ || optimal()) return false;
-    if (best_ == kInfiniteCost) return joint_steps_ < tuning_.joint_steps_to_plan;
-    const std::int64_t meetings =
-        std::min(tuning_.long_planning, meeting_work_ / tuning_.meeting_of_root_work);
+    if (best_ == kInfiniteCost) return joint_steps_ < kLacamExpectedSteps;
+    const std::int64_t meetings = std::min(
+        tuning_.pp_long_attempt, meeting_work_ / tuning_.root_work_per_individual_planning);
     const bool plans = planning_now_ && first_round_;
     return (plans && planning_work_ < meetings * meeting_work_) ||
            (guided_ && guided_work_ < meetings * meeting_work_);
   }
   bool optimal() const { return met_ == agents_ && own_costs_are_least_ && best_ <= own_costs_; }
   std::int64_t work() const {
-    return router_.work() + (paths_.steps_moved() + planned_.steps_moved()) / work::kStepsMoved +
+    return low_level_.work() + (paths_.steps_moved() + planned_.steps_moved()) / work::kStepsMoved +
            joint_steps_ * agents_ + guided_work_;
   }
   std::int64_t work_at_last_plan() const { return work_at_last_plan_; }
@@ -124,16 +137,16 @@ class PrimalSearch::Impl {
             planning_.attempts(),
             joint_steps_ + guided_joint_steps_,
             neighborhoods_.steps(),
-            router_.calls(),
-            router_.expanded()};
+            low_level_.calls(),
+            low_level_.expanded()};
   }
 
  private:
-  // Is the best plan within priced_gap of `bound`? With a larger gap, a dual solution predicts
-  // poorly which places and times are congested.
+  // Is the best plan within lagrangian_lns_max_gap of `bound`? With a larger gap, a dual solution
+  // predicts poorly which places and times are congested.
   bool is_near(ScaledCost bound) const {
     return static_cast<double>(best_) * Penalties::kUnit <=
-           (1 + tuning_.priced_gap) * static_cast<double>(bound);
+           (1 + tuning_.lagrangian_lns_max_gap) * static_cast<double>(bound);
   }
   void keep_best();
   bool may_tell(const Limits& limits) const;
@@ -161,7 +174,7 @@ class PrimalSearch::Impl {
   bool may_guide_;  // LaCAM with traffic; at most once per search
   const int agents_;
   Random random_;
-  PrimalLowLevel router_;
+  PrimalLowLevel low_level_;
   PlannedPaths paths_;    // the plan that LNS improves, or no paths
   PlannedPaths planned_;  // of prioritised planning
   PrioritizedPlanning planning_;
@@ -185,7 +198,7 @@ class PrimalSearch::Impl {
   std::int64_t steps_ = 0;
   std::int64_t joint_steps_ = 0;
   std::int64_t work_at_last_plan_ = 0;
-  std::int64_t rounds_in_vain_ = 0;  // of traffic-guided LaCAM, without a cheaper plan
+  std::int64_t rounds_without_gain_ = 0;  // of traffic-guided LaCAM, without a cheaper plan
   std::int64_t guided_work_ = 0;
   std::int64_t guided_joint_steps_ = 0;
   // State of the current round.
@@ -215,7 +228,7 @@ std::optional<Plan> PrimalSearch::Impl::step(const Limits& limits) {
   if (best_ == told_ || !may_tell(limits)) return std::nullopt;
   told_ = best_;
   work_when_told_ = work();
-  return router_.plan(best_paths_);
+  return low_level_.plan(best_paths_);
 }
 
 void PrimalSearch::Impl::keep_best() {
@@ -234,7 +247,7 @@ void PrimalSearch::Impl::keep_best() {
 // work. So when many agents improve by small steps, only some of the plans are returned.
 bool PrimalSearch::Impl::may_tell(const Limits& limits) const {
   return source_ != PlanSource::kLns || optimal() || limits.stop_requested() ||
-         work() - work_when_told_ >= tuning_.work_to_tell * best_;
+         work() - work_when_told_ >= tuning_.lns_report_work * best_;
 }
 
 void PrimalSearch::Impl::advance(const Limits& limits) {
@@ -256,11 +269,11 @@ void PrimalSearch::Impl::advance(const Limits& limits) {
 
 void PrimalSearch::Impl::meet(const Limits& limits) {
   const std::int64_t before = work();
-  const bool met = router_.meet(met_, limits);
+  const bool met = low_level_.meet(met_, limits);
   meeting_work_ += work() - before;
   if (!met) return;
-  own_costs_are_least_ = own_costs_are_least_ && router_.knows_best(met_);
-  own_costs_ += router_.individual_cost(met_++);
+  own_costs_are_least_ = own_costs_are_least_ && low_level_.knows_best(met_);
+  own_costs_ += low_level_.individual_cost(met_++);
   if (met_ < agents_) return;
   begin_round(true);
   if (adopted_) put_all(*std::exchange(adopted_, std::nullopt), PlanSource::kStart);
@@ -269,8 +282,8 @@ void PrimalSearch::Impl::meet(const Limits& limits) {
 void PrimalSearch::Impl::begin_round(bool first) {
   std::vector<std::pair<double, AgentIndex>> keys;
   for (AgentIndex agent = 0; agent < agents_; ++agent) {
-    const double spread = first ? 0 : tuning_.order_spread * (random_.unit() - 0.5);
-    keys.emplace_back((1 + spread) * router_.individual_cost(agent), agent);
+    const double spread = first ? 0 : kOrderNoise * (random_.unit() - 0.5);
+    keys.emplace_back((1 + spread) * low_level_.individual_cost(agent), agent);
   }
   std::ranges::sort(keys);
   std::vector<AgentIndex> order;
@@ -278,7 +291,7 @@ void PrimalSearch::Impl::begin_round(bool first) {
   planning_.begin(std::move(order));
   planning_now_ = true;
   first_round_ = first;
-  patience_ = tuning_.planning_head_start * meeting_work_;
+  patience_ = tuning_.pp_head_start * meeting_work_;
   planning_work_ = 0;
   other_work_ = 0;
   round_began_ = work();
@@ -288,9 +301,9 @@ bool PrimalSearch::Impl::planning_is_due() const {
   if (!planning_now_) return false;
   if (!is_raced()) return true;
   const bool ahead =
-      planning_.failures() == 0 && planning_work_ < tuning_.planning_head_start * meeting_work_;
-  const bool takes_long = improving_ && planning_work_ > tuning_.long_planning * meeting_work_;
-  return ahead || planning_work_ <= other_work_ / (takes_long ? tuning_.others_to_planning : 1);
+      planning_.failures() == 0 && planning_work_ < tuning_.pp_head_start * meeting_work_;
+  const bool takes_long = improving_ && planning_work_ > tuning_.pp_long_attempt * meeting_work_;
+  return ahead || planning_work_ <= other_work_ / (takes_long ? kOtherWorkPerLatePlanningWork : 1);
 }
 
 void PrimalSearch::Impl::plan(const Limits& limits) {
@@ -316,13 +329,13 @@ void PrimalSearch::Impl::configure(const Limits& limits) {
   using Outcome = LacamWithRestarts::Outcome;
   if (!configurations_)
     configurations_ = std::make_unique<LacamWithRestarts>(problem_, own_orders(), seed_,
-                                                          tuning_.first_joint_steps);
+                                                          tuning_.lacam_first_steps);
   const std::int64_t before = configurations_->steps();
   const Outcome outcome =
       configurations_->run(limits, std::max<std::int64_t>(1, tuning_.primal_step_work / agents_));
   joint_steps_ += configurations_->steps() - before;
   if (outcome == Outcome::kFound) {
-    put_all(*configurations_->plan(), PlanSource::kConfigurations);
+    put_all(*configurations_->plan(), PlanSource::kLacam);
   }
   // Where memory is short it is left to others.
   const bool lost =
@@ -332,8 +345,8 @@ void PrimalSearch::Impl::configure(const Limits& limits) {
 }
 
 void PrimalSearch::Impl::begin_guiding(const Plan& plan) {
-  const double crowded = (1 + tuning_.guided_loss) * static_cast<double>(own_costs_);
-  if (!may_guide_ || !may_configure_ || static_cast<double>(plan.cost) < crowded) return;
+  const double min_cost_to_guide = (1 + kMinLossForGuidance) * static_cast<double>(own_costs_);
+  if (!may_guide_ || !may_configure_ || static_cast<double>(plan.cost) < min_cost_to_guide) return;
   may_guide_ = false;
   guided_ = std::make_unique<TrafficGuidedLacam>(problem_, own_orders(),
                                                  static_cast<double>(own_costs_) / agents_,
@@ -347,24 +360,25 @@ void PrimalSearch::Impl::guide(const Limits& limits) {
   guided_work_ = guided_->work();
   guided_joint_steps_ = guided_->joint_steps();
   if (outcome == Outcome::kWorking || limits.stop_requested()) return;
-  ++rounds_in_vain_;
+  ++rounds_without_gain_;
   if (outcome == Outcome::kFound) {
     const Plan& plan = guided_->plan();
     if (plan.cost < paths_.cost()) {
-      put_all(plan, PlanSource::kConfigurations);
-      rounds_in_vain_ = 0;
+      put_all(plan, PlanSource::kLacam);
+      rounds_without_gain_ = 0;
     }
     guided_->learn(plan);
   }
   // Where memory is short it is left to others.
-  if (outcome == Outcome::kStopped || rounds_in_vain_ >= tuning_.guided_rounds) guided_.reset();
+  if (outcome == Outcome::kStopped || rounds_without_gain_ >= kGuidedRoundsWithoutGain)
+    guided_.reset();
 }
 
 // The sequences of the individual paths, with distinct last stops (separate_ends()).
 std::vector<Sequence> PrimalSearch::Impl::own_orders() const {
   std::vector<Sequence> orders;
   for (AgentIndex agent = 0; agent < agents_; ++agent)
-    orders.push_back(router_.individual_order(agent));
+    orders.push_back(low_level_.individual_order(agent));
   separate_ends(problem_.instance, orders);
   return orders;
 }
@@ -387,8 +401,7 @@ void PrimalSearch::Impl::improve(const Limits& limits) {
 }
 
 bool PrimalSearch::Impl::stalled() const {
-  const std::int64_t least =
-      std::max(tuning_.stall_neighborhoods, tuning_.stall_neighborhoods_per_agent * agents_);
+  const std::int64_t least = std::max(kStallNeighborhoods, kStallNeighborhoodsPerAgent * agents_);
   return neighborhoods_.steps() - round_improved_step_ >= least &&
          work() - round_improved_ >= round_improved_ - round_began_;
 }

@@ -18,7 +18,7 @@
 namespace grove::detail {
 
 // Finds a first plan by prioritised planning, interleaved with LaCAM where that takes long (only
-// with Technique::kConfigurations). Then it improves the plan by large neighbourhood search, and
+// with Technique::kLacam). Then it improves the plan by large neighbourhood search, and
 // restarts with another agent order when that stalls. The schedule is at the head of
 // primal_search.cpp. Works in small steps, so that one thread can do other work in between.
 // Deterministic: the same seed, steps, adopted plans and dual solutions make the same plans, limits
@@ -51,14 +51,15 @@ class PrimalSearch {
   void adopt(const Plan& plan);
 
   // Sets the dual solution that guides large neighbourhood search. Ignored if it is null, if it is
-  // the current one, or if the best plan costs more than 1 + priced_gap times its bound.
+  // the current one, or if the best plan costs more than 1 + lagrangian_lns_max_gap times its
+  // bound.
   void use(std::shared_ptr<const DualSolution> prices);
 
   // Cost of the cheapest plan that was returned or adopted or is about to be returned. Returns
   // nullopt if there is none.
   std::optional<Cost> best_cost() const;
   // Whether a plan is likely soon. Without a plan: LaCAM has not failed and has made fewer than
-  // joint_steps_to_plan steps. With a plan, a much cheaper one is expected while prioritised
+  // kLacamExpectedSteps steps. With a plan, a much cheaper one is expected while prioritised
   // planning of the first round, or traffic-guided LaCAM, has done less work than the root of the
   // tree takes (estimate: head of primal_search.cpp). Always false without LaCAM.
   bool expects_plan() const;

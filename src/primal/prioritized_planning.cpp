@@ -9,7 +9,7 @@
 // denser instances than random orders). Two agents that enclose each other would alternate for
 // ever, so after as many failures as there are agents the order is shuffled.
 //
-// *Partial re-planning.* If the current order took many labels (planning_labels_to_keep), a first
+// *Partial re-planning.* If the current order took many labels (pp_resume_labels), a first
 // failure of an agent does not restart it. Only the agents that block its individual path are
 // planned again, after it. If the agent fails again, planning restarts. The plans cost a little
 // more: on room-64-64-8, 100 agents, 300 tasks, scenarios 2, 3 and 5, 0.4 to 3 %, and they are
@@ -31,10 +31,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "primal/blocking_agents.h"
+#include "primal/planned_paths.h"
 
 namespace grove::detail {
 namespace {
+
+constexpr std::int64_t kPlanningLabels = 200'000;  // base of the label limit per call
+// Multiple of the maximum number of labels of successful calls that is added.
+constexpr std::int64_t kPlanningLabelsFactor = 8;
 
 constexpr int kGreedPercent = 30;
 
@@ -57,28 +61,28 @@ void PrioritizedPlanning::begin_again() {
 
 std::int64_t PrioritizedPlanning::label_limit() const {
   const std::int64_t draws = failures_ / static_cast<std::int64_t>(order_.size());
-  return (tuning_.planning_labels + tuning_.planning_labels_of_found * labels_of_found_)
+  return (kPlanningLabels + kPlanningLabelsFactor * labels_of_found_)
          << std::min<std::int64_t>(draws, 30);
 }
 
 std::int64_t PrioritizedPlanning::most_exact_labels() const {
-  return tuning_.planning_exact_labels + tuning_.planning_exact_labels_of_found * labels_of_exact_ /
-                                             std::max(found_exactly_, std::int64_t{1});
+  return tuning_.pp_exact_labels + tuning_.pp_exact_labels_factor * labels_of_exact_ /
+                                       std::max(found_exactly_, std::int64_t{1});
 }
 
 PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
                                                        std::int64_t patience) {
   if (next_ == order_.size()) return Outcome::kDone;
   const AgentIndex agent = order_[next_];
-  const std::int64_t before = router_.expanded();
+  const std::int64_t before = low_level_.expanded();
   const std::int64_t most =
       greedily_ ? label_limit() : std::min(label_limit(), most_exact_labels());
   const PathQuery query{.label_limit = std::min(patience, most),
                         .reservations = &paths_.reservations(),
                         .inflation_percent = greedily_ ? kGreedPercent : 0,
                         .known_sequences = true};
-  const PathOutcome outcome = router_.find(agent, query, limits, path_);
-  const std::int64_t labels = router_.expanded() - before;
+  const PathOutcome outcome = low_level_.find(agent, query, limits, path_);
+  const std::int64_t labels = low_level_.expanded() - before;
   labels_of_order_ += labels;
   if (outcome == PathOutcome::kFound) {
     note_labels(labels);
@@ -95,7 +99,7 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
   }
   ++failures_;
   greedily_ = false;
-  if (labels_of_order_ < tuning_.planning_labels_to_keep || has_failed_[agent])
+  if (labels_of_order_ < tuning_.pp_resume_labels || has_failed_[agent])
     begin_with_next();
   else
     remove_blocking_agents(agent);
@@ -107,8 +111,8 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
 void PrioritizedPlanning::remove_blocking_agents(AgentIndex agent) {
   has_failed_[agent] = true;
   std::vector<bool> gone(order_.size(), false);
-  for_each_blocking_agent(world_, paths_.reservations(), agent, router_.individual_path(agent), 0,
-                          [&](AgentIndex other) {
+  for_each_blocking_agent(world_, paths_.reservations(), agent, low_level_.individual_path(agent),
+                          0, [&](AgentIndex other) {
                             gone[other] = true;
                             return true;
                           });

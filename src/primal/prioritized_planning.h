@@ -25,9 +25,9 @@ class PrioritizedPlanning {
   };
 
   // All references must outlive this.
-  PrioritizedPlanning(const World& world, PrimalLowLevel& router, PlannedPaths& paths,
+  PrioritizedPlanning(const World& world, PrimalLowLevel& low_level, PlannedPaths& paths,
                       Random& random, const Tuning& tuning)
-      : world_(world), router_(router), paths_(paths), random_(random), tuning_(tuning) {}
+      : world_(world), low_level_(low_level), paths_(paths), random_(random), tuning_(tuning) {}
 
   // Removes all paths and starts with `order`. All agents must have individual paths
   // (PrimalLowLevel::meet()).
@@ -51,7 +51,7 @@ class PrioritizedPlanning {
   void note_labels(std::int64_t labels);
 
   const World& world_;
-  PrimalLowLevel& router_;
+  PrimalLowLevel& low_level_;
   PlannedPaths& paths_;
   Random& random_;
   const Tuning& tuning_;

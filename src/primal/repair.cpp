@@ -10,7 +10,6 @@
 #include <deque>
 
 #include "model/random.h"
-#include "primal/blocking_agents.h"
 #include "primal/planned_paths.h"
 #include "primal/primal_low_level.h"
 
@@ -29,7 +28,7 @@ class Repair {
         agents_(problem.instance.agent_count()),
         limits_(limits),
         random_(seed),
-        router_(problem, stops),
+        low_level_(problem, stops),
         paths_(problem.instance) {}
 
   std::optional<Plan> run(const std::vector<Path>& paths) {
@@ -42,7 +41,7 @@ class Repair {
     std::int64_t left = kFailuresPerAgent * agents_;
     while (!queue_.empty()) {
       const AgentIndex agent = queue_.front();
-      if (!router_.meet(agent, limits_)) return std::nullopt;
+      if (!low_level_.meet(agent, limits_)) return std::nullopt;
       if (plan(agent)) {
         queue_.pop_front();
         continue;
@@ -51,17 +50,17 @@ class Repair {
       remove_blocking_agents(agent, ++failures_);
     }
     for (AgentIndex agent = 0; agent < agents_; ++agent)
-      if (!router_.meet(agent, limits_)) return std::nullopt;
-    return router_.plan(paths_.paths());
+      if (!low_level_.meet(agent, limits_)) return std::nullopt;
+    return low_level_.plan(paths_.paths());
   }
 
  private:
   bool plan(AgentIndex agent) {
-    const PathQuery query{.label_limit = kLabels + kLabelsOfOwn * router_.individual_cost(agent),
+    const PathQuery query{.label_limit = kLabels + kLabelsOfOwn * low_level_.individual_cost(agent),
                           .reservations = &paths_.reservations(),
                           .known_sequences = true};
     Path path;
-    if (router_.find(agent, query, limits_, path) != PathOutcome::kFound) return false;
+    if (low_level_.find(agent, query, limits_, path) != PathOutcome::kFound) return false;
     paths_.put(agent, std::move(path));
     return true;
   }
@@ -73,11 +72,12 @@ class Repair {
       if (std::ranges::find(gone, other) == gone.end()) gone.push_back(other);
       return true;
     };
-    for_each_blocking_agent(world, paths_.reservations(), agent, router_.individual_path(agent), 0,
-                            note);
+    for_each_blocking_agent(world, paths_.reservations(), agent, low_level_.individual_path(agent),
+                            0, note);
     // After many failures, removing these agents is not sufficient.
     if (failures > agents_ / 2 || gone.empty())
-      for_each_blocking_agent(world, paths_.reservations(), agent, router_.individual_path(agent),
+      for_each_blocking_agent(world, paths_.reservations(), agent,
+                              low_level_.individual_path(agent),
                               static_cast<Time>(1 + random_.below(kLatest)), note);
     if (gone.empty()) gone = some_planned();
     random_.shuffle(gone);
@@ -100,7 +100,7 @@ class Repair {
   const int agents_;
   const Limits& limits_;
   Random random_;
-  PrimalLowLevel router_;
+  PrimalLowLevel low_level_;
   PlannedPaths paths_;
   std::deque<AgentIndex> queue_;
   std::int64_t failures_ = 0;
@@ -115,12 +115,12 @@ std::optional<Plan> repaired(const Problem& problem, AgentStopsCache& stops,
 }
 
 Cost sum_of_individual_costs(const Problem& problem, AgentStopsCache& stops, const Limits& limits) {
-  PrimalLowLevel router(problem, stops);
+  PrimalLowLevel low_level(problem, stops);
   Cost sum = 0;
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
-    if (router.meet(agent, limits))
-      sum += router.knows_best(agent) ? router.individual_cost(agent)
-                                      : stops.of(agent).cost_to_go().relaxed_bound();
+    if (low_level.meet(agent, limits))
+      sum += low_level.knows_best(agent) ? low_level.individual_cost(agent)
+                                         : stops.of(agent).cost_to_go().relaxed_bound();
   return sum;
 }
 

@@ -30,19 +30,19 @@ namespace grove::detail {
 
 AgentIndex Swaps::partner(AgentIndex agent, State wish, std::span<const Standing> from) const {
   const State here = from[agent].state;
-  if (!world_.is_plain() || wish == here || !is_possible({wish, here}, from)) return kNobody;
+  if (!world_.is_plain() || wish == here || !is_possible({wish, here}, from)) return kNoAgent;
   const AgentIndex ahead = now_[wish];
-  if (ahead != kNobody && to_[ahead] == kNoState &&
+  if (ahead != kNoAgent && to_[ahead] == kNoState &&
       need(agent, ahead, {here, wish}, from) != Need::kNone)
     return ahead;
   for (State cell : world_.neighbors(here)) {
     const AgentIndex behind = now_[cell];
-    if (behind == kNobody || cell == wish) continue;
+    if (behind == kNoAgent || cell == wish) continue;
     const Need reason = need(behind, agent, {here, wish}, from);
     if (reason == Need::kToPass || (reason == Need::kToGetAtEnd && to_[behind] != kNoState))
       return behind;
   }
-  return kNobody;
+  return kNoAgent;
 }
 
 bool Swaps::nearer(AgentIndex agent, std::span<const Standing> from, State a, State b) const {
@@ -78,7 +78,7 @@ bool Swaps::is_possible(Pair pair, std::span<const Standing> from) const {
 // Is this a dead end of one cell where an agent rests?
 bool Swaps::is_plugged(State cell, std::span<const Standing> from) const {
   const AgentIndex there = now_[cell];
-  return world_.neighbors(cell).size() == 1 && there != kNobody &&
+  return world_.neighbors(cell).size() == 1 && there != kNoAgent &&
          agents_[there].may_rest(from[there].stage, cell);
 }
 

@@ -13,7 +13,7 @@ namespace grove::detail {
 // configuration. One thread at a time.
 class Swaps {
  public:
-  static constexpr AgentIndex kNobody = -1;
+  static constexpr AgentIndex kNoAgent = -1;
 
   // All references must outlive this. `now`: by place, the agent that is there. `to`: by agent, the
   // next state, or kNoState while it is not decided.
@@ -22,7 +22,7 @@ class Swaps {
       : world_(world), agents_(agents), now_(now), to_(to) {}
 
   // The agent that `agent`, which prefers to move to `wish`, should pull along backwards instead,
-  // so that the two can swap at a junction behind `agent`. Returns kNobody if there is none. A
+  // so that the two can swap at a junction behind `agent`. Returns kNoAgent if there is none. A
   // partner whose next state is decided cannot be pulled; then `agent` only backs off.
   AgentIndex partner(AgentIndex agent, State wish, std::span<const Standing> from) const;
 

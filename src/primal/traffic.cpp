@@ -21,7 +21,7 @@ Traffic::Traffic(const World& world, double usual, const Tuning& tuning)
   for (Place place = 0; place < world.place_count(); ++place)
     first_.push_back(first_.back() + world.neighbors(place).size());
   moving_.resize(first_.back(), 0);
-  price_back_.resize(first_.back(), kStep);
+  edge_cost_.resize(first_.back(), kStep);
 }
 
 Traffic::Move Traffic::move(Place from, Place to) const {
@@ -43,13 +43,13 @@ void Traffic::add(const Path& path, double weight) {
   }
 }
 
-void Traffic::set_prices() {
+void Traffic::update_edge_costs() {
   for (Place place = 0; place < world_.place_count(); ++place)
     for (Move back = first_[place]; back < first_[place + 1]; ++back) {
-      const double dearness =
-          (tuning_.traffic_there * there_[place] + tuning_.traffic_against * moving_[back]) /
-          usual_;
-      price_back_[back] = static_cast<Time>(kStep * (1 + std::min(dearness, kMostDearness)));
+      const double congestion_cost = (tuning_.vertex_congestion_weight * there_[place] +
+                                      tuning_.contraflow_weight * moving_[back]) /
+                                     usual_;
+      edge_cost_[back] = static_cast<Time>(kStep * (1 + std::min(congestion_cost, kMostDearness)));
     }
 }
 
@@ -59,38 +59,37 @@ void Traffic::visit_before(State state, Visit visit) const {
   const auto states = world_.moves_to(state);
   const Place place = world_.place(state);
   if (world_.is_plain()) {
-    for (std::size_t i = 0; i < states.size(); ++i)
-      visit(states[i], price_back_[first_[place] + i]);
+    for (std::size_t i = 0; i < states.size(); ++i) visit(states[i], edge_cost_[first_[place] + i]);
     return;
   }
   for (const State before : states) {
     const Place from = world_.place(before);
-    visit(before, from == place ? kStep : price_back_[move(place, from)]);
+    visit(before, from == place ? kStep : edge_cost_[move(place, from)]);
   }
 }
 
 // Dijkstra's algorithm with one bucket per cost modulo kBuckets.
 DistanceField Traffic::field(DistanceView distance) {
-  DistanceField dearness(static_cast<std::size_t>(world_.state_count()), kNever);
+  DistanceField congestion_cost(static_cast<std::size_t>(world_.state_count()), kNever);
   std::size_t left = 0;
-  const auto reach = [&](State state, Time dear) {
-    if (dear >= dearness[state]) return;
-    dearness[state] = dear;
-    buckets_[static_cast<std::size_t>(dear) % kBuckets].push_back(state);
+  const auto reach = [&](State state, Time cost) {
+    if (cost >= congestion_cost[state]) return;
+    congestion_cost[state] = cost;
+    buckets_[static_cast<std::size_t>(cost) % kBuckets].push_back(state);
     ++left;
   };
   for (State state = 0; state < world_.state_count(); ++state)
     if (distance[state] == 0) reach(state, 0);
-  for (Time dear = 0; left > 0; ++dear) {
-    std::vector<State>& bucket = buckets_[static_cast<std::size_t>(dear) % kBuckets];
+  for (Time cost = 0; left > 0; ++cost) {
+    std::vector<State>& bucket = buckets_[static_cast<std::size_t>(cost) % kBuckets];
     for (; !bucket.empty(); --left) {
       const State state = bucket.back();
       bucket.pop_back();
-      if (dearness[state] != dear) continue;
-      visit_before(state, [&](State before, Time price) { reach(before, dear + price); });
+      if (congestion_cost[state] != cost) continue;
+      visit_before(state, [&](State before, Time price) { reach(before, cost + price); });
     }
   }
-  return dearness;
+  return congestion_cost;
 }
 
 }  // namespace grove::detail

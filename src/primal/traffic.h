@@ -19,15 +19,15 @@ namespace grove::detail {
 class Traffic {
  public:
   // `world` and `tuning` must outlive this. `usual`: the amount of traffic that raises the cost
-  // of a step by traffic_there (traffic on the place) or traffic_against (in the opposite
-  // direction) times its cost without traffic.
+  // of a step by vertex_congestion_weight (traffic on the place) or contraflow_weight (in the
+  // opposite direction) times its cost without traffic.
   Traffic(const World& world, double usual, const Tuning& tuning);
 
   // Multiplies all counts by `left`.
   void fade(double left);
   void add(const Path& path, double weight);
   // Computes the costs that field() uses from the current counts.
-  void set_prices();
+  void update_edge_costs();
 
   // The least cost, congestion included, in units of 1 / kStep step, from every state to a state
   // that is 0 in `distance`; kNever if there is no path. O(states).
@@ -47,10 +47,10 @@ class Traffic {
   const World& world_;
   const double usual_;
   const Tuning& tuning_;
-  std::vector<Move> first_;       // by place
-  std::vector<double> there_;     // by place: steps that end there
-  std::vector<double> moving_;    // by move
-  std::vector<Time> price_back_;  // by move: cost of the reverse move
+  std::vector<Move> first_;      // by place
+  std::vector<double> there_;    // by place: steps that end there
+  std::vector<double> moving_;   // by move
+  std::vector<Time> edge_cost_;  // by move: cost of the reverse move
   std::vector<std::vector<State>> buckets_;
 };
 

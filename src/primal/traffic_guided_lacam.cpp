@@ -51,7 +51,7 @@ void TrafficGuidedLacam::learn(const Plan& plan) {
     traffic_.add(path, weight);
     work_ += static_cast<std::int64_t>(path.size()) / work::kStepsMoved;
   }
-  traffic_.set_prices();
+  traffic_.update_edge_costs();
   next_field_ = fields_.begin();
   lacam_.reset();
 }
@@ -80,7 +80,7 @@ TrafficGuidedLacam::Outcome TrafficGuidedLacam::search(const Limits& limits, std
   if (!lacam_) {
     const LegFields fields = leg_fields();
     lacam_ = std::make_unique<Lacam>(problem_, orders_, dice_.next(), &fields);
-    steps_left_ = tuning_.first_joint_steps;
+    steps_left_ = tuning_.lacam_first_steps;
   }
   const std::int64_t allowed = std::clamp<std::int64_t>(slice / agents, 1, steps_left_);
   std::int64_t unused = allowed;

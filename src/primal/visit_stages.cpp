@@ -56,7 +56,7 @@ VisitStages::Entry VisitStages::entry(StopSet left) const {
   DistanceView to_next = guide_targets_.to_rest;
   std::int64_t onward = 0;
   Place from = kNoPlace;
-  const auto go_on = [&](DistanceView to) {
+  const auto extend_to = [&](DistanceView to) {
     if (from == kNoPlace)
       to_next = to;
     else
@@ -64,10 +64,10 @@ VisitStages::Entry VisitStages::entry(StopSet left) const {
   };
   for (Stop stop : order_) {
     if ((left >> stop & 1) == 0) continue;
-    go_on(guide_targets_.to_stop[stop]);
+    extend_to(guide_targets_.to_stop[stop]);
     from = places_[stop];
   }
-  go_on(guide_targets_.to_rest);
+  extend_to(guide_targets_.to_rest);
   return {left, to_next, static_cast<Time>(std::min<std::int64_t>(onward, kNever - 1))};
 }
 

@@ -10,7 +10,7 @@
 
 #include "search/problem.h"
 #include "sequencing/sequence.h"
-#include "sequencing/sequence_dag.h"
+#include "sequencing/stop_set_index.h"
 
 namespace grove::detail {
 

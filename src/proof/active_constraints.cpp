@@ -11,70 +11,74 @@
 namespace grove::detail {
 namespace {
 
-using Kind = CertificateDemand::Kind;
-constexpr AgentIndex kAnybody = -1;
+using Kind = CertificateConstraint::Kind;
+constexpr AgentIndex kAllAgents = -1;
 
-CertificateDemand own(AgentIndex agent, std::int32_t place, std::int32_t time) {
+CertificateConstraint own(AgentIndex agent, std::int32_t place, std::int32_t time) {
   return {agent, Kind::kRest, place, 1, time, time};
 }
 
-CertificateDemand others(std::int32_t place, std::int32_t time) {
-  return own(kAnybody, place, time);
+CertificateConstraint others(std::int32_t place, std::int32_t time) {
+  return own(kAllAgents, place, time);
 }
 
-bool is_for_ever(const CertificateDemand& demand) {
-  return demand.kind == Kind::kVertexOrEdge && demand.end == CertificateDemand::kForEver;
+bool is_for_ever(const CertificateConstraint& constraint) {
+  return constraint.kind == Kind::kVertexOrEdge &&
+         constraint.end == CertificateConstraint::kForEver;
 }
 
 }  // namespace
 
-CertificateDemand demand_of(const CertificateLate& side) {
+CertificateConstraint constraint_of(const CertificateLate& side) {
   return {side.agent, Kind::kNoRest, kSomeGoal, 0, side.time, side.time};
 }
 
-bool ActiveConstraints::has(const CertificateDemand& demand) const {
-  if (times(demand) > 0) return true;
-  return is_for_ever(demand) &&
-         times(others(demand.p, demand.begin)) > times(own(demand.agent, demand.p, demand.begin));
+bool ActiveConstraints::has(const CertificateConstraint& constraint) const {
+  if (times(constraint) > 0) return true;
+  return is_for_ever(constraint) &&
+         times(others(constraint.p, constraint.begin)) >
+             times(own(constraint.agent, constraint.p, constraint.begin));
 }
 
-bool ActiveConstraints::has_side(const CertificateDemand& side) const {
+bool ActiveConstraints::has_side(const CertificateConstraint& side) const {
   // A "rest" of a lemma implies nothing for other agents, so it does not count here.
   if (side.kind == Kind::kRest) return times(own(side.agent, side.p, side.begin)) > 0;
   return has(side);
 }
 
-bool ActiveConstraints::is_of(const CertificateDemand& demand,
-                              const CertificateDemand& side) const {
-  if (side.kind == Kind::kRest && is_for_ever(demand))
-    return demand.p == side.p && demand.begin == side.begin && demand.agent != side.agent;
-  if (side.p != kSomeGoal) return demand == side;
+bool ActiveConstraints::is_of(const CertificateConstraint& constraint,
+                              const CertificateConstraint& side) const {
+  if (side.kind == Kind::kRest && is_for_ever(constraint))
+    return constraint.p == side.p && constraint.begin == side.begin &&
+           constraint.agent != side.agent;
+  if (side.p != kSomeGoal) return constraint == side;
   // A constraint that nothing else imposes must be that on the goal.
-  return demand.kind == Kind::kNoRest && demand.agent == side.agent && demand.end == side.end &&
-         !has(demand);
+  return constraint.kind == Kind::kNoRest && constraint.agent == side.agent &&
+         constraint.end == side.end && !has(constraint);
 }
 
-std::size_t ActiveConstraints::Hash::operator()(const CertificateDemand& demand) const {
-  std::uint64_t hash = static_cast<std::uint64_t>(demand.kind);
-  for (const std::int32_t value : {demand.agent, demand.p, demand.q, demand.begin, demand.end})
+std::size_t ActiveConstraints::Hash::operator()(const CertificateConstraint& constraint) const {
+  std::uint64_t hash = static_cast<std::uint64_t>(constraint.kind);
+  for (const std::int32_t value :
+       {constraint.agent, constraint.p, constraint.q, constraint.begin, constraint.end})
     hash = hash_combine(hash, static_cast<std::uint64_t>(value));
   return hash;
 }
 
-void ActiveConstraints::count(const CertificateDemand& side, int more) {
+void ActiveConstraints::count(const CertificateConstraint& side, int more) {
   count_one(side, more);
   if (side.kind != Kind::kRest) return;
   count_one(own(side.agent, side.p, side.begin), more);
   count_one(others(side.p, side.begin), more);
 }
 
-void ActiveConstraints::count_one(const CertificateDemand& demand, int more) {
-  const auto found = counts_.try_emplace(demand, 0).first;
+void ActiveConstraints::count_one(const CertificateConstraint& constraint, int more) {
+  const auto found = counts_.try_emplace(constraint, 0).first;
   if ((found->second += more) == 0) counts_.erase(found);
 }
 
-int ActiveConstraints::times(const CertificateDemand& demand) const {
-  const auto found = counts_.find(demand);
+int ActiveConstraints::times(const CertificateConstraint& constraint) const {
+  const auto found = counts_.find(constraint);
   return found == counts_.end() ? 0 : found->second;
 }
 

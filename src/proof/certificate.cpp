@@ -17,19 +17,82 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
-#include "proof/certificate_output.h"
-#include "proof/lemma_choice.h"
-#include "proof/lemma_writer.h"
+#include "conflicts/conflict.h"
+#include "model/instance.h"
+#include "model/omega.h"
+#include "planning/constraint.h"
+#include "proof/certificate_file.h"
 #include "proof/proof_forest.h"
 #include "proof/proof_parts.h"
 #include "proof/proof_records.h"
-#include "proof/proof_text.h"
+#include "proof/split_tree.h"
+#include "search/proof_log.h"
 
 namespace grove::detail {
 namespace {
+
+std::string until(Time end) {
+  return end >= kNever ? "inf" : fmt::to_string(end);
+}
+
+// "3 bar 17 4 4"
+std::string proof_text(const AgentConstraint& constraint, const Instance& instance) {
+  const Constraint& c = constraint.constraint;
+  const auto text = [&](std::string_view what, auto... values) {
+    std::string line = fmt::format("{} {}", constraint.agent, what);
+    ((line += fmt::format(" {}", values)), ...);
+    return line;
+  };
+  const auto task = [&] { return instance.agent(constraint.agent).stops[c.from]; };
+  switch (c.kind) {
+    case ConstraintKind::kVertexOrEdge:
+      if (c.is_move()) return text("move", c.from, c.cell, std::max(c.begin, 0), until(c.end));
+      return text("bar", c.cell, std::max(c.begin, 0), until(c.end));
+    case ConstraintKind::kNoRestBy:
+      return text("norest", c.cell, c.end);
+    case ConstraintKind::kRestBy:
+      return text("rest", c.cell, c.end);
+    case ConstraintKind::kNoTraversal:
+      return text("pass", c.from, c.cell, c.begin, until(c.end));
+    case ConstraintKind::kStopIs:
+      return text("stop", c.begin, task());
+    case ConstraintKind::kStopIsNot:
+      return text("nostop", c.begin, task());
+  }
+  return {};
+}
+
+// "split 3 bar 17 4 4 | 5 bar 17 4 4"
+std::string proof_text(const Split& split, const Instance& instance) {
+  return fmt::format("split {} | {}", proof_text(split[0], instance),
+                     proof_text(split[1], instance));
+}
+
+// "place 17 4 512"
+std::string proof_text(const RowMultiplier& charged) {
+  const auto& [row, charge] = charged;
+  switch (row.kind) {
+    case RelaxedRow::Kind::kPlace:
+      return fmt::format("place {} {} {}", row.a, row.time, charge);
+    case RelaxedRow::Kind::kEdge:
+      return fmt::format("edge {} {} {} {}", row.a, row.b, row.time, charge);
+    case RelaxedRow::Kind::kFinish:
+      return fmt::format("finish {} {} {} {} {}", row.a, row.time, row.b, row.time_b, charge);
+  }
+  return {};
+}
+
+// A number, or "inf".
+std::string proof_text(Cost cost) {
+  return cost >= kInfiniteCost ? "inf" : fmt::to_string(cost);
+}
 
 // Collects the lemmas that are needed.
 class Choosing : public ForestVisitor {
@@ -52,6 +115,48 @@ class Choosing : public ForestVisitor {
 
  private:
   const Cost bound_;
+};
+
+// Writes the lemmas that are needed from a proof log, and numbers them.
+class LemmaWriter : public ProofLog {
+ public:
+  // All arguments must outlive this.
+  LemmaWriter(const Instance& instance, const std::unordered_set<ProofKey>& needed,
+              CertificateOutput& output)
+      : instance_(instance), needed_(needed), output_(output) {}
+
+  void lemma(const ProofLemma& lemma, ProofKey root, std::span<const ProofSplit> splits) override {
+    const ProofKey key = lemma.key();
+    if (!needed_.contains(key)) return;
+    if (!numbers_.emplace(key, std::ssize(numbers_)).second) return;
+    output_.line(fmt::format("lemma {} {}", proof_text(lemma.bound), fmt::join(lemma.agents, " ")));
+    for (const AgentConstraint& constraint : lemma.constraints)
+      output_.line("demand " + proof_text(constraint, instance_));
+    if (splits.empty()) return output_.line("joint");
+    ProofEntries entries;
+    for (const ProofSplit& split : splits) entries[split.node].split = split;
+    SplitTree tree(entries);
+    tree.value(root, 0);
+    tree.walk(
+        root, 0, lemma.bound, [&](const ProofEntry*) { output_.line("leaf"); },
+        [&](const ProofEntry& entry) { output_.line(proof_text(entry.split->split, instance_)); });
+  }
+
+  void tree(const ProofTree& /*tree*/) override {}
+  void split(const ProofSplit& /*split*/) override {}
+  void bound(ProofKey /*node*/, Cost /*cost*/, Cost /*bound*/,
+             std::span<const ProofExcess> /*excesses*/) override {}
+  void prices(Cost /*bound*/, std::span<const RowMultiplier> /*rows*/) override {}
+  void joint(Cost /*bound*/) override {}
+
+  std::int64_t number(ProofKey key) const { return numbers_.at(key); }
+  std::int64_t count() const { return std::ssize(numbers_); }
+
+ private:
+  const Instance& instance_;
+  const std::unordered_set<ProofKey>& needed_;
+  CertificateOutput& output_;
+  std::unordered_map<ProofKey, std::int64_t> numbers_;
 };
 
 class TreeWriter : public ForestVisitor {

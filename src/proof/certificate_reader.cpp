@@ -46,7 +46,7 @@ class Reader {
     end_line();
     visitor_.end();
     if (lines_.next() != LineStream::Next::kNone)
-      fail("found more behind it", "nothing after 'end'");
+      fail("found more after it", "nothing after 'end'");
   }
 
  private:
@@ -128,9 +128,9 @@ class Reader {
   }
   std::int32_t time() { return small("a time", kTimes); }
   // A time interval: begin, end.
-  void span(CertificateDemand& demand) {
-    demand.begin = time();
-    demand.end = take_inf() ? CertificateDemand::kForEver : small("a time or inf", kTimes);
+  void span(CertificateConstraint& constraint) {
+    constraint.begin = time();
+    constraint.end = take_inf() ? CertificateConstraint::kForEver : small("a time or inf", kTimes);
   }
   // An agent with a goal, and a time.
   CertificateLate late() {
@@ -189,34 +189,34 @@ class Reader {
     if (found != expected) fail_at(found, expected + ", the checksum of this instance");
   }
 
-  CertificateDemand demand() {
-    using DemandKind = CertificateDemand::Kind;
-    CertificateDemand demand;
-    demand.agent = agent();
-    demand.kind = static_cast<DemandKind>(
+  CertificateConstraint constraint() {
+    using CertificateKind = CertificateConstraint::Kind;
+    CertificateConstraint constraint;
+    constraint.agent = agent();
+    constraint.kind = static_cast<CertificateKind>(
         one_of({"bar", "move", "norest", "rest", "pass", "stop", "nostop"}));
-    switch (demand.kind) {
-      case DemandKind::kVertexOrEdge:
-        demand.p = place();
-        span(demand);
+    switch (constraint.kind) {
+      case CertificateKind::kVertexOrEdge:
+        constraint.p = place();
+        span(constraint);
         break;
-      case DemandKind::kMove:
-      case DemandKind::kPass:
-        demand.p = place();
-        demand.q = place();
-        span(demand);
+      case CertificateKind::kMove:
+      case CertificateKind::kPass:
+        constraint.p = place();
+        constraint.q = place();
+        span(constraint);
         break;
-      case DemandKind::kNoRest:
-      case DemandKind::kRest:
-        demand.p = place();
-        demand.begin = demand.end = time();
+      case CertificateKind::kNoRest:
+      case CertificateKind::kRest:
+        constraint.p = place();
+        constraint.begin = constraint.end = time();
         break;
-      case DemandKind::kStop:
-      case DemandKind::kNoStop:
-        demand.p = small("the number of a stop", tasks_);
-        demand.q = task();
+      case CertificateKind::kStop:
+      case CertificateKind::kNoStop:
+        constraint.p = small("the number of a stop", tasks_);
+        constraint.q = task();
     }
-    return demand;
+    return constraint;
   }
 
   // Takes the rest of a lemma after the word "lemma", and the line after its proof.
@@ -233,11 +233,11 @@ class Reader {
     while (words_->starts_with("demand ")) {
       keyword("demand");
       const std::string_view rest = *words_;
-      const CertificateDemand found = demand();
+      const CertificateConstraint found = constraint();
       if (!std::ranges::binary_search(whose, found.agent))
-        fail_at(rest, "a demand on an agent of the lemma");
+        fail_at(rest, "a constraint on an agent of the lemma");
       end_line();
-      visitor_.demand(found);
+      visitor_.constraint(found);
       take_line();
     }
     take_proof_from_here();
@@ -279,9 +279,9 @@ class Reader {
   }
 
   void take_split() {
-    const CertificateDemand one = demand();
+    const CertificateConstraint one = constraint();
     keyword("|");
-    const CertificateDemand other = demand();
+    const CertificateConstraint other = constraint();
     end_line();
     visitor_.split(one, other);
   }

@@ -15,7 +15,7 @@
 
 namespace grove::detail {
 
-struct CertificateDemand {
+struct CertificateConstraint {
   enum class Kind : std::uint8_t { kVertexOrEdge, kMove, kNoRest, kRest, kPass, kStop, kNoStop };
   static constexpr std::int32_t kForEver = -1;
 
@@ -26,7 +26,7 @@ struct CertificateDemand {
   std::int32_t begin = 0;
   std::int32_t end = 0;
 
-  friend auto operator<=>(const CertificateDemand&, const CertificateDemand&) = default;
+  friend auto operator<=>(const CertificateConstraint&, const CertificateConstraint&) = default;
 };
 
 // One side of "later".
@@ -47,9 +47,10 @@ class CertificateVisitor {
   virtual void following(bool /*may_follow*/) {}
   // All callbacks up to proven() belong to this lemma.
   virtual void lemma(Cost /*bound*/, std::span<const AgentIndex> /*agents*/) {}
-  virtual void demand(const CertificateDemand& /*of_lemma*/) {}
+  virtual void constraint(const CertificateConstraint& /*of_lemma*/) {}
   virtual void theorem(Cost /*bound*/) {}
-  virtual void split(const CertificateDemand& /*one*/, const CertificateDemand& /*other*/) {}
+  virtual void split(const CertificateConstraint& /*one*/, const CertificateConstraint& /*other*/) {
+  }
   virtual void later(const CertificateLate& /*one*/, const CertificateLate& /*other*/,
                      LemmaNumber /*lemma*/) {}
   virtual void leaf(std::span<const LemmaNumber> /*lemmas*/) {}

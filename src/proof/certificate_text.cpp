@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "io/input_error.h"
-#include "proof/certificate_bytes.h"
+#include "proof/certificate_file.h"
 #include "proof/certificate_reader.h"
 
 namespace grove::detail {
@@ -23,7 +23,7 @@ std::string text_of(const std::filesystem::path& path) {
     text.append(block, count);
     if (text.size() > kMostBytes)
       throw InputError(path.string(), "",
-                       fmt::format("is too large to be looked at; expected a certificate of at "
+                       fmt::format("is too large to be shown; expected a certificate of at "
                                    "most {} bytes, uncompressed",
                                    kMostBytes));
   }
@@ -38,7 +38,8 @@ class Summary : public CertificateVisitor {
 
   void following(bool may_follow) override { read_.may_follow = may_follow; }
   void theorem(Cost bound) override { read_.bound = bound; }
-  void split(const CertificateDemand& /*one*/, const CertificateDemand& /*other*/) override {
+  void split(const CertificateConstraint& /*one*/,
+             const CertificateConstraint& /*other*/) override {
     ++splits;
   }
   void later(const CertificateLate& /*one*/, const CertificateLate& /*other*/,
@@ -65,9 +66,9 @@ CertificateText read_certificate(const std::filesystem::path& path, const Instan
   };
   read_certificate_lines(path.string(), bytes, &instance, summary);
   if (summary.splits > most_splits)
-    throw InputError(path.string(), "",
-                     fmt::format("has {} splits; expected at most {}, which people can look at",
-                                 summary.splits, most_splits));
+    throw InputError(
+        path.string(), "",
+        fmt::format("has {} splits; expected at most {}", summary.splits, most_splits));
   return read;
 }
 

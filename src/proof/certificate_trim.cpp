@@ -41,8 +41,7 @@
 #include "io/input_error.h"
 #include "model/limits.h"
 #include "proof/active_constraints.h"
-#include "proof/certificate_bytes.h"
-#include "proof/certificate_output.h"
+#include "proof/certificate_file.h"
 #include "proof/certificate_reader.h"
 #include "proof/kept_parts.h"
 #include "proof/lemma_table.h"
@@ -52,11 +51,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Demands = std::vector<CertificateDemand>;  // ascending
-using Needs = std::optional<Demands>;            // nullopt: perhaps all active constraints
+using Constraints = std::vector<CertificateConstraint>;  // ascending
+using Needs = std::optional<Constraints>;                // nullopt: perhaps all active constraints
 
-Demands united(const Demands& a, const Demands& b) {
-  Demands all;
+Constraints united(const Constraints& a, const Constraints& b) {
+  Constraints all;
   std::ranges::set_union(a, b, std::back_inserter(all));
   return all;
 }
@@ -71,8 +70,8 @@ class Deciding : public KeptParts {
   void lemma(Cost bound, std::span<const AgentIndex> agents) override {
     statement_ = {{agents.begin(), agents.end()}, bound, {}, 0};
   }
-  void demand(const CertificateDemand& of_lemma) override {
-    statement_.demands.push_back(of_lemma);
+  void constraint(const CertificateConstraint& of_lemma) override {
+    statement_.constraints.push_back(of_lemma);
     in_force_.add(of_lemma);
   }
   void theorem(Cost bound) override {
@@ -81,7 +80,7 @@ class Deciding : public KeptParts {
   }
   void proven() override {
     if (is_theorem_) return;
-    Demands& all = statement_.demands;
+    Constraints& all = statement_.constraints;
     std::ranges::sort(all);
     all.erase(std::unique(all.begin(), all.end()), all.end());
     if (needs_ && std::ranges::includes(all, *needs_)) all = std::move(*needs_);
@@ -127,23 +126,24 @@ class Deciding : public KeptParts {
   }
   // Whether the proof below a side proves the node, now that the side is not active.
   bool proves_the_node() const {
-    return needs_ && std::ranges::all_of(*needs_, [&](const CertificateDemand& demand) {
-             return in_force_.has(demand);
+    return needs_ && std::ranges::all_of(*needs_, [&](const CertificateConstraint& constraint) {
+             return in_force_.has(constraint);
            });
   }
   // Returns the needs of a split of which both sides stay. needs_ holds those of its second side.
   Needs needs_of(const Level& level) const {
     if (!level.first || !needs_) return std::nullopt;
-    Demands all =
+    Constraints all =
         united(without(*level.first, level.fork.sides[0]), without(*needs_, level.fork.sides[1]));
     if (!level.fork.why) return all;
-    return united(all, lemmas_[lemmas_[*level.fork.why].same_as].demands);
+    return united(all, lemmas_[lemmas_[*level.fork.why].same_as].constraints);
   }
-  Demands without(const Demands& demands, const CertificateDemand& side) const {
-    Demands rest;
-    std::ranges::copy_if(demands, std::back_inserter(rest), [&](const CertificateDemand& demand) {
-      return !in_force_.is_of(demand, side);
-    });
+  Constraints without(const Constraints& constraints, const CertificateConstraint& side) const {
+    Constraints rest;
+    std::ranges::copy_if(constraints, std::back_inserter(rest),
+                         [&](const CertificateConstraint& constraint) {
+                           return !in_force_.is_of(constraint, side);
+                         });
     return rest;
   }
 
@@ -152,7 +152,7 @@ class Deciding : public KeptParts {
     needs_.reset();
     if (!leaf.by_lemmas) return;
     needs_.emplace();
-    for (const LemmaNumber name : leaf.names) needs_ = united(*needs_, lemmas_[name].demands);
+    for (const LemmaNumber name : leaf.names) needs_ = united(*needs_, lemmas_[name].constraints);
   }
   void kept_joint() override { needs_.reset(); }
   void kept_prices() override { needs_.reset(); }
@@ -259,15 +259,15 @@ class Writing : public Decided {
 
   void line(std::string_view text) override { text_ = text; }
   void head() override { put(text_); }
-  void demand(const CertificateDemand& of_lemma) override {
-    if (std::erase(demands_, of_lemma) > 0) put(text_);
+  void constraint(const CertificateConstraint& of_lemma) override {
+    if (std::erase(constraints_, of_lemma) > 0) put(text_);
   }
   void end() override { put(text_); }
 
  private:
   void begin_lemma(LemmaNumber number) override {
     is_needed_ = needed_.at(number);
-    demands_ = lemmas_[number].demands;
+    constraints_ = lemmas_[number].constraints;
     put(text_);
   }
   void begin_theorem() override {
@@ -301,9 +301,9 @@ class Writing : public Decided {
   const std::vector<bool>& needed_;
   std::vector<LemmaNumber> numbers_;  // by lemma: its new number, if it is needed
   CertificateOutput& output_;
-  std::string_view text_;  // of the current line
-  bool is_needed_ = true;  // whether the current lemma or theorem is needed
-  Demands demands_;        // constraints of the lemma that are not yet written
+  std::string_view text_;    // of the current line
+  bool is_needed_ = true;    // whether the current lemma or theorem is needed
+  Constraints constraints_;  // constraints of the lemma that are not yet written
 };
 
 // Reads the file once. Returns whether it is compressed. Checks the memory before each piece of

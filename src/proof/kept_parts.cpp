@@ -5,12 +5,12 @@
 
 namespace grove::detail {
 
-void KeptParts::split(const CertificateDemand& one, const CertificateDemand& other) {
+void KeptParts::split(const CertificateConstraint& one, const CertificateConstraint& other) {
   open({{one, other}, std::nullopt});
 }
 
 void KeptParts::later(const CertificateLate& one, const CertificateLate& other, LemmaNumber lemma) {
-  open({{demand_of(one), demand_of(other)}, lemma});
+  open({{constraint_of(one), constraint_of(other)}, lemma});
 }
 
 void KeptParts::leaf(std::span<const LemmaNumber> lemmas) {

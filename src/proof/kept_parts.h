@@ -18,13 +18,13 @@ namespace grove::detail {
 enum class Keep : std::uint8_t { kBoth, kFirst, kSecond };
 
 struct Fork {
-  std::array<CertificateDemand, 2> sides;
+  std::array<CertificateConstraint, 2> sides;
   std::optional<LemmaNumber> why;  // only of "later": its lemma
 };
 
 class KeptParts : public CertificateVisitor {
  public:
-  void split(const CertificateDemand& one, const CertificateDemand& other) final;
+  void split(const CertificateConstraint& one, const CertificateConstraint& other) final;
   void later(const CertificateLate& one, const CertificateLate& other, LemmaNumber lemma) final;
   void leaf(std::span<const LemmaNumber> lemmas) final;
   void joint() final;

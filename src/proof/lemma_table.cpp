@@ -3,8 +3,8 @@
 //
 // A leaf is proven by lemmas alone if agents that cost at least 0 each, and in groups at least what
 // the lemmas say, cost enough together. This is a covering problem, as where a search chooses the
-// lemmas to name (lemma_choice.h), with only the lower bound 0 on each agent. Only lemmas without a
-// common agent are added up here, because every checker finds that sum.
+// lemmas to name (proof_records.h), with only the lower bound 0 on each agent. Only lemmas without
+// a common agent are added up here, because every checker finds that sum.
 //
 // If the costs of agents are needed too, a leaf does not need a lemma that another one implies: a
 // lemma of a subset of its agents with a bound that is no less. The cost of the other agents is at
@@ -15,7 +15,7 @@
 #include <tuple>
 #include <utility>
 
-#include "proof/lemma_choice.h"
+#include "proof/proof_records.h"
 
 namespace grove::detail {
 namespace {
@@ -29,7 +29,7 @@ constexpr std::int64_t kNoSteps = 0;
 
 bool LemmaTable::Before::operator()(LemmaNumber a, LemmaNumber b) const {
   const auto key = [&](LemmaNumber lemma) {
-    return std::tie(table.lemmas_[lemma].agents, table.lemmas_[lemma].demands);
+    return std::tie(table.lemmas_[lemma].agents, table.lemmas_[lemma].constraints);
   };
   return key(a) < key(b);
 }
@@ -53,7 +53,7 @@ LemmaTable::Leaf LemmaTable::leaf(std::span<const LemmaNumber> named, Cost bound
   if (leaf.names.size() > kMostNames) return leaf;
   // Lemmas with most constraints are removed first.
   std::ranges::stable_sort(leaf.names, {},
-                           [&](LemmaNumber name) { return lemmas_[name].demands.size(); });
+                           [&](LemmaNumber name) { return lemmas_[name].constraints.size(); });
   std::vector<ProofExcess> excesses;
   Cost sum = 0;
   for (const LemmaNumber name : leaf.names) {

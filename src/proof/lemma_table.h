@@ -15,8 +15,8 @@ namespace grove::detail {
 struct TableLemma {
   std::vector<AgentIndex> agents;
   Cost bound = 0;
-  std::vector<CertificateDemand> demands;  // that its proof needs; ascending
-  LemmaNumber same_as = 0;                 // an earlier lemma that implies this one, or itself
+  std::vector<CertificateConstraint> constraints;  // that its proof needs; ascending
+  LemmaNumber same_as = 0;  // an earlier lemma that implies this one, or itself
 };
 
 class LemmaTable {

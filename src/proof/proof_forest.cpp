@@ -33,11 +33,11 @@ void ProofForest::visit(const Trees& trees, std::size_t agent, std::size_t numbe
   }
   if (agent == sequences.size()) return visit(*trees.front(), visitor);
   const Stop stop = sequences[agent][number];
-  const auto demand = [&](ConstraintKind kind) {
+  const auto constraint = [&](ConstraintKind kind) {
     const auto at = static_cast<Time>(number);
     return AgentConstraint{static_cast<AgentIndex>(agent), {kNoPlace, stop, at, at, kind}};
   };
-  visitor.split({demand(ConstraintKind::kStopIs), demand(ConstraintKind::kStopIsNot)});
+  visitor.split({constraint(ConstraintKind::kStopIs), constraint(ConstraintKind::kStopIsNot)});
   Trees of_it;
   Trees others;
   for (const ProofTree* tree : trees)

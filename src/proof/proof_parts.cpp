@@ -33,20 +33,20 @@ std::int64_t number(ProofKey key) {
   return static_cast<std::int64_t>(key);
 }
 
-void add(Numbers& numbers, const AgentConstraint& demand) {
-  const Constraint& c = demand.constraint;
-  numbers.insert(numbers.end(),
-                 {demand.agent, c.cell, c.from, c.begin, c.end, static_cast<std::int64_t>(c.kind)});
+void add(Numbers& numbers, const AgentConstraint& constraint) {
+  const Constraint& c = constraint.constraint;
+  numbers.insert(numbers.end(), {constraint.agent, c.cell, c.from, c.begin, c.end,
+                                 static_cast<std::int64_t>(c.kind)});
 }
 
 void add(Numbers& numbers, const ProofSplit& split) {
   numbers.insert(numbers.end(),
                  {number(split.node), number(split.lemma), split.costs[0], split.costs[1]});
-  for (const AgentConstraint& demand : split.split) add(numbers, demand);
+  for (const AgentConstraint& constraint : split.split) add(numbers, constraint);
 }
 
 [[noreturn]] void refuse_part(const std::filesystem::path& path) {
-  throw InputError(path.string(), "", "expected what a search wrote down for its proof");
+  throw InputError(path.string(), "", "expected the record of a search for its proof");
 }
 
 // Takes numbers back in the order in which they were added.
@@ -73,21 +73,21 @@ class Taking {
     for (std::int64_t left = count(); left > 0; --left) agents.push_back(small());
     return agents;
   }
-  AgentConstraint demand() {
-    AgentConstraint demand;
-    demand.agent = small();
-    demand.constraint = {small(), small(), small(), small(), ConstraintKind::kVertexOrEdge};
+  AgentConstraint constraint() {
+    AgentConstraint constraint;
+    constraint.agent = small();
+    constraint.constraint = {small(), small(), small(), small(), ConstraintKind::kVertexOrEdge};
     const auto kind = constraint_kind(static_cast<std::uint8_t>(number()));
     if (!kind) refuse();
-    demand.constraint.kind = *kind;
-    return demand;
+    constraint.constraint.kind = *kind;
+    return constraint;
   }
   ProofSplit split() {
     ProofSplit split;
     split.node = key();
     split.lemma = key();
     for (Cost& cost : split.costs) cost = number();
-    for (AgentConstraint& of_split : split.split) of_split = demand();
+    for (AgentConstraint& of_split : split.split) of_split = constraint();
     return split;
   }
 
@@ -149,7 +149,7 @@ void tell(std::int64_t kind, Taking taking, ProofLog& log) {
   lemma.bound = taking.number();
   lemma.agents = taking.agents();
   for (std::int64_t left = taking.count(); left > 0; --left)
-    lemma.demands.push_back(taking.demand());
+    lemma.constraints.push_back(taking.constraint());
   std::vector<ProofSplit> splits;
   while (!taking.is_over()) splits.push_back(taking.split());
   log.lemma(lemma, root, splits);
@@ -241,8 +241,8 @@ void ProofRecorder::lemma(const ProofLemma& lemma, ProofKey root,
                           std::span<const ProofSplit> splits) {
   Numbers numbers{number(root), lemma.bound, std::ssize(lemma.agents)};
   numbers.insert(numbers.end(), lemma.agents.begin(), lemma.agents.end());
-  numbers.push_back(std::ssize(lemma.demands));
-  for (const AgentConstraint& demand : lemma.demands) add(numbers, demand);
+  numbers.push_back(std::ssize(lemma.constraints));
+  for (const AgentConstraint& constraint : lemma.constraints) add(numbers, constraint);
   for (const ProofSplit& split : splits) add(numbers, split);
   stream_->add(kLemma, numbers);
 }

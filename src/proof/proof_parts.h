@@ -11,9 +11,10 @@
 
 namespace grove::detail {
 
-// Logs all calls to a compressed file, in order. Thread-safe. Buffers only some hundred kilobytes.
-// If the disk is full, it removes the file and logs nothing more: the search continues, and its
-// plan needs the space. A certificate without this file proves less, never too much.
+// Logs all calls to a compressed file, in order. Thread-safe. Buffers about 4 MB, nearly all of it
+// for the compression. If the disk is full, it removes the file and logs nothing more: the search
+// continues, and its plan needs the space. A certificate without this file proves less, never too
+// much.
 class ProofRecorder : public ProofLog {
  public:
   // Throws InputError if the file cannot be created.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Contents of proof logs, indexed by node: why the bounds of the searches hold.
+// Contents of proof logs, indexed by node: why the bounds of the searches hold. And the choice of
+// the lemmas that a leaf needs among those that it could name.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -43,5 +46,14 @@ class ProofRecords : public ProofLog {
   // them.
   void drop_what_lacks_lemmas();
 };
+
+// Returns the excess that `excesses` imply together (search/covering.h). `steps` limits the effort.
+// With 0 steps it only adds statements without a common agent.
+inline constexpr std::int64_t kCoveringSteps = 100'000;
+Cost covered(std::span<const ProofExcess> excesses, std::int64_t steps = kCoveringSteps);
+
+// Removes excesses one after another, the last ones first, as long as the rest covers `wanted`.
+void leave_out(std::vector<ProofExcess>& excesses, Cost wanted,
+               std::int64_t steps = kCoveringSteps);
 
 }  // namespace grove::detail

@@ -36,6 +36,8 @@
 namespace grove::detail {
 namespace {
 
+constexpr int kMaxBypasses = 64;  // bypasses per call
+
 // Hash of the pair of agents (the finaliser of SplitMix64, Steele et al. 2014).
 std::uint64_t priority(const Conflict& conflict, std::uint64_t seed) {
   std::uint64_t x = seed * 0x9e3779b97f4a7c15 + (static_cast<std::uint64_t>(conflict.first) << 32) +
@@ -53,7 +55,7 @@ Brancher::Brancher(const Problem& problem, const SearchOptions& options, PathPla
       options_(options),
       planner_(planner),
       memory_(memory),
-      prices_(planner, memory, options.tuning.price_labels),
+      prices_(planner, memory, options.tuning.strong_branching_labels),
       others_(problem.instance.world()),
       shown_(problem.instance.agent_count()) {}
 
@@ -73,8 +75,7 @@ Brancher::Outcome Brancher::branch(NodeView& view, Cost cutoff,
     const Split& split = chosen.split;
     for (int i = 0; i < 2; ++i)
       if (!evaluate_branch(task, split[i], branches_[i])) return Outcome::kStopped;
-    if (round < options_.tuning.bypasses &&
-        (bypass(view, branches_[0]) || bypass(view, branches_[1])))
+    if (round < kMaxBypasses && (bypass(view, branches_[0]) || bypass(view, branches_[1])))
       continue;
     ++splits_made_[static_cast<std::size_t>(split[1].constraint.kind)];
     branching_ = chosen;
@@ -147,26 +148,27 @@ Branching Brancher::earliest(const NodeView& view) {
 
 // Replans the agents of one branch of the split, with few conflicts with the other agents' paths.
 // This and the next two functions return false if a limit was reached.
-bool Brancher::evaluate_branch(const Task& task, const AgentConstraint& demand, Branch& side) {
+bool Brancher::evaluate_branch(const Task& task, const AgentConstraint& constraint, Branch& side) {
   side.open = true;
   side.increase = 0;
   side.conflicts = 0;
   side.paths.clear();
-  task.view.affected_agents(demand, side.agents);
+  task.view.affected_agents(constraint, side.agents);
   for (AgentIndex agent : side.agents) {
     others_.remove(task.view.path(agent));
     side.conflicts -= others_.conflicts_of(task.view.path(agent));
   }
-  const bool done = replan(task, demand, side);
+  const bool done = replan(task, constraint, side);
   for (const Path& path : side.paths) others_.remove(path);
   for (AgentIndex agent : side.agents) others_.add(task.view.path(agent));
   return done;
 }
 
-bool Brancher::replan(const Task& task, const AgentConstraint& demand, Branch& side) {
+bool Brancher::replan(const Task& task, const AgentConstraint& constraint, Branch& side) {
   for (AgentIndex agent : side.agents) {
     const Time cutoff = cutoff_for(task.view, agent, task.slack - side.increase);
-    if (!replan_one(task, agent, *constraint_on(agent, demand), cutoff, side.open)) return false;
+    if (!replan_one(task, agent, *constraint_on(agent, constraint), cutoff, side.open))
+      return false;
     if (!side.open) return true;
     side.increase += static_cast<Cost>(path_.size()) - 1 - task.view.cost_of(agent);
     side.conflicts += others_.conflicts_of(path_);
@@ -214,13 +216,13 @@ bool Brancher::bypass(NodeView& view, const Branch& side) {
   return true;
 }
 
-NodePtr Brancher::child(const NodeView& view, const NodePtr& parent, const AgentConstraint& demand,
-                        const Branch& side) const {
+NodePtr Brancher::child(const NodeView& view, const NodePtr& parent,
+                        const AgentConstraint& constraint, const Branch& side) const {
   std::vector<NewPath> paths;
   for (std::size_t i = 0; i < side.agents.size(); ++i)
     paths.push_back({side.agents[i], &side.paths[i]});
   NodeDelta change;
-  change.added = demand;
+  change.added = constraint;
   change.paths = paths;
   change.cost = view.node()->cost() + side.increase;
   const int conflicts = static_cast<int>(view.conflicts().size()) + side.conflicts;

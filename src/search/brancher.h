@@ -87,12 +87,12 @@ class Brancher {
   bool choose(const Task& task, std::span<const Split> fallback_splits, Branching& chosen);
   bool improve(Choice& choice, const Branching& by, const Task& task);
   Branching earliest(const NodeView& view);
-  bool evaluate_branch(const Task& task, const AgentConstraint& demand, Branch& side);
-  bool replan(const Task& task, const AgentConstraint& demand, Branch& side);
+  bool evaluate_branch(const Task& task, const AgentConstraint& constraint, Branch& side);
+  bool replan(const Task& task, const AgentConstraint& constraint, Branch& side);
   bool replan_one(const Task& task, AgentIndex agent, const Constraint& more, Time cutoff,
                   bool& found);
   bool bypass(NodeView& view, const Branch& side);
-  NodePtr child(const NodeView& view, const NodePtr& parent, const AgentConstraint& demand,
+  NodePtr child(const NodeView& view, const NodePtr& parent, const AgentConstraint& constraint,
                 const Branch& side) const;
 
   const Problem& problem_;

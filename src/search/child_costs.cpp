@@ -4,15 +4,15 @@
 namespace grove::detail {
 // Why there is a label limit: cells forbidden for ever act as time windows, with which the low
 // level is NP-hard, so that one call could use all the time.
-ChildCosts::Outcome ChildCosts::increase(NodeView& view, const AgentConstraint& demand, Cost slack,
-                                         const Limits& limits, Cost& increase) {
+ChildCosts::Outcome ChildCosts::increase(NodeView& view, const AgentConstraint& constraint,
+                                         Cost slack, const Limits& limits, Cost& increase) {
   increase = 0;
-  view.affected_agents(demand, disturbed_);
+  view.affected_agents(constraint, disturbed_);
   for (AgentIndex agent : disturbed_) {
     const Time cutoff = cutoff_for(view, agent, slack - increase);
     Time least = 0;
     const Outcome outcome =
-        cost(view, agent, *constraint_on(agent, demand), cutoff, most_labels_, limits, least);
+        cost(view, agent, *constraint_on(agent, constraint), cutoff, most_labels_, limits, least);
     if (outcome != Outcome::kDone) return outcome;
     if (least > cutoff) {
       increase = kInfiniteCost;

@@ -18,7 +18,8 @@ class ChildCosts {
  public:
   enum class Outcome : std::uint8_t {
     kDone,
-    kTooHard,  // the label limit was reached, now or at an earlier attempt
+    kTooHard,  // the label limit was reached, by this call or by an earlier call on the same
+               // subproblem
     kStopped,  // a limit was reached
   };
 
@@ -29,8 +30,8 @@ class ChildCosts {
 
   // Computes by how much the individual costs of the agents in scope rise in total if `demand` is
   // added; kInfiniteCost if by more than `slack`.
-  Outcome increase(NodeView& view, const AgentConstraint& demand, Cost slack, const Limits& limits,
-                   Cost& increase);
+  Outcome increase(NodeView& view, const AgentConstraint& constraint, Cost slack,
+                   const Limits& limits, Cost& increase);
 
   // Computes the cost of the agent under the additional constraint `more`. If it is above `cutoff`,
   // returns some value above `cutoff`. kTooHard only if the computation takes more than

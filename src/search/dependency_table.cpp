@@ -22,17 +22,18 @@ std::uint32_t hash_of(DependencyTable::Id first, DependencyTable::Id second) {
 
 }  // namespace
 
-std::array<std::size_t, 2> DependencyTable::rarest_two(const std::vector<Id>& situations) const {
+std::array<std::size_t, 2> DependencyTable::rarest_two(const std::vector<Id>& subproblems) const {
   std::vector<std::tuple<std::size_t, Id, std::size_t>> members;
-  for (std::size_t place = 0; place < situations.size(); ++place)
-    members.emplace_back(situations_.constraint_bytes(situations[place]), situations[place], place);
+  for (std::size_t place = 0; place < subproblems.size(); ++place)
+    members.emplace_back(subproblems_.constraint_bytes(subproblems[place]), subproblems[place],
+                         place);
   std::ranges::partial_sort(members, members.begin() + 2, std::greater());
   return {std::get<2>(members[0]), std::get<2>(members[1])};
 }
 
 template <class Item>
-std::vector<Item>& DependencyTable::Lists<Item>::at(Id situation) {
-  const std::size_t place = place_of(situation);
+std::vector<Item>& DependencyTable::Lists<Item>::at(Id subproblem) {
+  const std::size_t place = place_of(subproblem);
   if (place >= list_.size()) list_.resize(place + 1, -1);
   if (list_[place] < 0) {
     lists_.emplace_back();
@@ -88,7 +89,7 @@ bool DependencyTable::merge_pair(Id first, Id second, AgentIndex agent, Known kn
 void DependencyTable::Part::list(const Partner& partner, Id first) {
   auto& listed = partners.at(first);
   const auto known = std::ranges::find_if(listed, [&](const Partner& p) {
-    return p.agent == partner.agent && p.situation == partner.situation;
+    return p.agent == partner.agent && p.subproblem == partner.subproblem;
   });
   if (known != listed.end()) {
     known->excess = partner.excess;
@@ -107,34 +108,34 @@ void DependencyTable::partners(Id first, std::vector<Partner>& partners) const {
 
 // Returns -1 if there is no such group.
 std::int32_t DependencyTable::Part::find_group(Id rarest, Id next,
-                                               const std::vector<Id>& situations) const {
+                                               const std::vector<Id>& subproblems) const {
   for (const ListedGroup& listed : groups.of(rarest))
-    if (listed.situation == next && all_groups[listed.number].situations == situations)
+    if (listed.subproblem == next && all_groups[listed.number].subproblems == subproblems)
       return listed.number;
   return -1;
 }
 
-DependencyTable::Known DependencyTable::of_group(const std::vector<Id>& situations) const {
-  const auto [rarest, next] = rarest_two(situations);
-  return parts_.with(parts_.part_of(situations[rarest]), [&](const Part& part) {
-    const auto found = part.find_group(situations[rarest], situations[next], situations);
+DependencyTable::Known DependencyTable::of_group(const std::vector<Id>& subproblems) const {
+  const auto [rarest, next] = rarest_two(subproblems);
+  return parts_.with(parts_.part_of(subproblems[rarest]), [&](const Part& part) {
+    const auto found = part.find_group(subproblems[rarest], subproblems[next], subproblems);
     return found < 0 ? Known() : part.all_groups[found].known;
   });
 }
 
 bool DependencyTable::merge_group(const std::vector<AgentIndex>& agents,
-                                  const std::vector<Id>& situations, Known known) {
+                                  const std::vector<Id>& subproblems, Known known) {
   GROVE_ASSERT(
-      agents.size() > 2 && agents.size() == situations.size() && std::ranges::is_sorted(agents),
+      agents.size() > 2 && agents.size() == subproblems.size() && std::ranges::is_sorted(agents),
       "a group is its agents in ascending order, and their situations");
-  const auto [rarest, next] = rarest_two(situations);
-  const Id under = situations[rarest];
+  const auto [rarest, next] = rarest_two(subproblems);
+  const Id under = subproblems[rarest];
   return merge(under, [&](Part& part) {
-    const auto found = part.find_group(under, situations[next], situations);
+    const auto found = part.find_group(under, subproblems[next], subproblems);
     if (found < 0) {
       const auto number = static_cast<std::int32_t>(part.all_groups.size());
-      part.all_groups.push_back({agents, situations, known});
-      part.groups.at(under).push_back({agents[next], situations[next], number});
+      part.all_groups.push_back({agents, subproblems, known});
+      part.groups.at(under).push_back({agents[next], subproblems[next], number});
       return true;
     }
     Known& now = part.all_groups[found].known;

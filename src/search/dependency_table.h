@@ -38,19 +38,19 @@ class DependencyTable {
   // Several agents, in ascending order.
   struct Group {
     std::vector<AgentIndex> agents;
-    std::vector<Id> situations;
+    std::vector<Id> subproblems;
     Known known;
 
     // Does the group apply to a node whose subproblems are `now`, by AgentIndex?
     bool is_at(const std::vector<Id>& now) const {
-      return std::ranges::equal(situations, agents, {}, {},
+      return std::ranges::equal(subproblems, agents, {}, {},
                                 [&](AgentIndex agent) { return now[agent]; });
     }
   };
   // The other agent of a pair with positive excess.
   struct Partner {
     AgentIndex agent;
-    Id situation;
+    Id subproblem;
     Cost excess;
   };
 
@@ -60,7 +60,7 @@ class DependencyTable {
   }
 
   // `situations` numbers the subproblems and must outlive this object.
-  explicit DependencyTable(const SubproblemTable& situations) : situations_(situations) {}
+  explicit DependencyTable(const SubproblemTable& subproblems) : subproblems_(subproblems) {}
 
   Known of_pair(Id first, Id second) const;
   // `agent` is the agent of `second`. merge_pair() and merge_group() return true if the table
@@ -69,8 +69,8 @@ class DependencyTable {
   // Appends the partners of greater index with which the agent of `first` has positive excess.
   void partners(Id first, std::vector<Partner>& partners) const;
 
-  Known of_group(const std::vector<Id>& situations) const;
-  bool merge_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
+  Known of_group(const std::vector<Id>& subproblems) const;
+  bool merge_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& subproblems,
                    Known known);
   // Calls use(group) once for each group that applies to a node with the subproblems `now`, by
   // AgentIndex. `use` must not call this object, and must copy what it keeps. Returns the number of
@@ -78,10 +78,10 @@ class DependencyTable {
   template <class Use>
   std::int64_t groups_at(const std::vector<Id>& now, Use use) const {
     std::int64_t looked_at = 0;
-    for (const Id situation : now)
-      parts_.with(parts_.part_of(situation), [&](const Part& part) {
-        for (const ListedGroup& listed : part.groups.of(situation)) {
-          if (now[listed.agent] != listed.situation) continue;
+    for (const Id subproblem : now)
+      parts_.with(parts_.part_of(subproblem), [&](const Part& part) {
+        for (const ListedGroup& listed : part.groups.of(subproblem)) {
+          if (now[listed.agent] != listed.subproblem) continue;
           ++looked_at;
           const Group& group = part.all_groups[listed.number];
           if (group.is_at(now)) use(group);
@@ -103,19 +103,19 @@ class DependencyTable {
   template <class Item>
   class Lists {
    public:
-    std::span<const Item> of(Id situation) const {
-      const std::size_t place = place_of(situation);
+    std::span<const Item> of(Id subproblem) const {
+      const std::size_t place = place_of(subproblem);
       if (place >= list_.size() || list_[place] < 0) return {};
       return lists_[static_cast<std::size_t>(list_[place])];
     }
-    std::vector<Item>& at(Id situation);
+    std::vector<Item>& at(Id subproblem);
     std::size_t bytes() const {
       return list_.capacity() * sizeof(std::int32_t) + lists_.capacity() * sizeof(lists_.front());
     }
 
    private:
-    static std::size_t place_of(Id situation) {
-      return static_cast<std::size_t>(situation) / Sharded<int>::kParts;
+    static std::size_t place_of(Id subproblem) {
+      return static_cast<std::size_t>(subproblem) / Sharded<int>::kParts;
     }
 
     std::vector<std::int32_t> list_;  // by place: index in lists_; -1 if there is no list
@@ -123,7 +123,7 @@ class DependencyTable {
   };
   struct ListedGroup {
     AgentIndex agent;  // the one with the next rarest subproblem
-    Id situation;
+    Id subproblem;
     std::int32_t number;
   };
   struct Part {
@@ -136,7 +136,7 @@ class DependencyTable {
 
     void list(const Partner& partner, Id first);
     HashIndex::Number find(Id first, Id second) const;
-    std::int32_t find_group(Id rarest, Id next, const std::vector<Id>& situations) const;
+    std::int32_t find_group(Id rarest, Id next, const std::vector<Id>& subproblems) const;
     std::size_t bytes() const;
   };
 
@@ -147,9 +147,9 @@ class DependencyTable {
   // The places, in `situations`, of a group's rarest subproblem and of the next rarest: those with
   // the most bytes of constraints. (Not the newest: a subproblem received from another process is
   // new here, but need not be rare.) Ties go to the larger number, which is about the newer one.
-  std::array<std::size_t, 2> rarest_two(const std::vector<Id>& situations) const;
+  std::array<std::size_t, 2> rarest_two(const std::vector<Id>& subproblems) const;
 
-  const SubproblemTable& situations_;
+  const SubproblemTable& subproblems_;
   Sharded<Part> parts_;  // by the subproblem under which a pair or group is listed
   std::atomic<std::size_t> bytes_{0};
 };

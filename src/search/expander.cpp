@@ -49,7 +49,7 @@ Expander::Expander(const Problem& problem, AgentStopsCache& stops, const SearchO
       techniques_(options.techniques),
       proof_(options.proof),
       planner_(problem, stops, std::move(planner), options.repeatable),
-      memory_(planner_, std::move(memory), options.tuning.path_set_nodes),
+      memory_(planner_, std::move(memory), options.tuning.mdd_nodes),
       view_(problem, options, memory_),
       brancher_(problem, options, planner_, memory_),
       dependencies_(problem, options, planner_, memory_),
@@ -77,7 +77,7 @@ Expansion Expander::expand(const NodePtr& node, Cost cutoff, const Limits& limit
     expansion.plan = plan(*node);
     return expansion;
   }
-  if (techniques_.has(Technique::kDependencies) && !node->is_bounded()) {
+  if (techniques_.has(Technique::kWdg) && !node->is_bounded()) {
     Cost bound = 0;
     switch (dependencies_.find_bound(node, view_, cutoff, bounding_effort, limits, bound)) {
       case WdgHeuristic::Outcome::kStopped:
@@ -149,8 +149,8 @@ double Expander::whole_work() const {
   const ExpansionCounts done = counts();
   return static_cast<double>(planner_.work() + done.group_work) +
          work::kPerOptimalNode * static_cast<double>(done.optimal_nodes) +
-         work::kPerJointPair * static_cast<double>(done.joint_pairs) +
-         work::kPerSituation * static_cast<double>(done.situations) +
+         work::kPerJointPair * static_cast<double>(done.joint_mdd_nodes) +
+         work::kPerSituation * static_cast<double>(done.subproblems) +
          work::kPerGroup * static_cast<double>(done.groups) +
          work::kPerStepSeen * static_cast<double>(done.path_steps);
 }
@@ -162,16 +162,16 @@ ExpansionCounts Expander::counts() const {
   counts.pair_expansions = dependencies_.expansions();
   counts.optimal_nodes =
       planner_.optimal_nodes() + brancher_.optimal_nodes() + dependencies_.optimal_nodes();
-  counts.joint_pairs = dependencies_.joint_pairs();
+  counts.joint_mdd_nodes = dependencies_.joint_mdd_nodes();
   counts.group_states = dependencies_.joint_groups().states();
   counts.group_work = dependencies_.joint_groups().work();
-  counts.situations = memory_.asked();
+  counts.subproblems = memory_.asked();
   counts.groups = memory_.groups_asked();
   counts.path_steps = view_.steps() + dependencies_.steps();
   std::ranges::copy(brancher_.splits(), counts.splits.begin());
   counts.bypasses = brancher_.bypasses();
-  counts.prices_asked = brancher_.prices().asked();
-  counts.prices_known = brancher_.prices().known();
+  counts.branching_cost_queries = brancher_.prices().asked();
+  counts.branching_cost_hits = brancher_.prices().known();
   counts.sets_asked = memory_.sets_asked();
   counts.sets_known = memory_.sets_known();
   return counts;

@@ -39,20 +39,20 @@ struct ExpansionCounts {
   std::int64_t low_level_calls = 0;
   std::int64_t low_level_expanded = 0;  // labels
   std::int64_t pair_expansions = 0;
-  std::int64_t optimal_nodes = 0;  // MDD nodes built or searched for conflicts
-  std::int64_t joint_pairs = 0;    // pairs of MDD nodes compared (joint MDDs)
-  std::int64_t group_states = 0;   // states examined by joint search of pairs and groups
-  std::int64_t group_work = 0;     // work of joint search, in the unit of work.h
-  std::int64_t situations = 0;     // look-ups of subproblems
-  std::int64_t groups = 0;         // groups looked up
-  std::int64_t path_steps = 0;     // path steps searched for conflicts
+  std::int64_t optimal_nodes = 0;    // MDD nodes built or searched for conflicts
+  std::int64_t joint_mdd_nodes = 0;  // pairs of MDD nodes compared (joint MDDs)
+  std::int64_t group_states = 0;     // states examined by joint search of pairs and groups
+  std::int64_t group_work = 0;       // work of joint search, in the unit of work.h
+  std::int64_t subproblems = 0;      // look-ups of subproblems
+  std::int64_t groups = 0;           // groups looked up
+  std::int64_t path_steps = 0;       // path steps searched for conflicts
   // Branching: splits by the kind of their second constraint (brancher.h), bypasses, strong
   // branching costs requested and answered from the cache. Then MDDs requested and answered from
   // the cache.
   std::array<std::int64_t, kConstraintKinds> splits{};
   std::int64_t bypasses = 0;
-  std::int64_t prices_asked = 0;
-  std::int64_t prices_known = 0;
+  std::int64_t branching_cost_queries = 0;
+  std::int64_t branching_cost_hits = 0;
   std::int64_t sets_asked = 0;
   std::int64_t sets_known = 0;
 

@@ -46,7 +46,7 @@ std::optional<std::string> unreachable_cell(const Problem& problem) {
     const Agent& agent = instance.agent(i);
     const auto no_way = [&](DistanceView to) { return to[agent.start] == kNever; };
     const auto told = [&](Place place) {
-      return fmt::format("agent '{}' cannot reach {}: there is no way from its start", agent.id,
+      return fmt::format("agent '{}' cannot reach {}: there is no path from its start", agent.id,
                          instance.world().name(place));
     };
     for (const TaskIndex task : agent.stops)
@@ -68,11 +68,10 @@ std::optional<std::string> no_order(const Problem& problem, AgentIndex index) {
       if (const Place there = problem.instance.task(b).cell;
           !leads(here, problem.distances.to_task(b)) && !leads(there, problem.distances.to_task(a)))
         return fmt::format(
-            "agent '{}' cannot visit both {} and {}: no way leads from one to the "
-            "other",
-            agent.id, world.name(here), world.name(there));
+            "agent '{}' cannot visit both {} and {}: no path leads from one to the other", agent.id,
+            world.name(here), world.name(there));
     if (agent.goal && !leads(here, problem.distances.to_rest(index)))
-      return fmt::format("agent '{}' cannot go on from {} to its goal {}: there is no way",
+      return fmt::format("agent '{}' cannot continue from {} to its goal {}: there is no path",
                          agent.id, world.name(here), world.name(*agent.goal));
   }
   return std::nullopt;
@@ -122,7 +121,7 @@ std::optional<std::string> no_room_to_rest(const Problem& problem) {
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
     if (!problem.instance.agent(agent).is_idle() && !matching.place(agent))
       return fmt::format(
-          "the agents cannot all end on different cells: none is left for agent '{}'",
+          "the agents cannot all end on distinct cells: no cell is left for agent '{}'",
           problem.instance.agent(agent).id);
   return std::nullopt;
 }
@@ -160,7 +159,7 @@ std::optional<std::string> stuck_in(const Problem& problem, const std::vector<Pl
     const Agent& agent = *agents[r];
     for (Cell cell : required_cells(instance, agent))
       if (place[cell] < r || place[cell] > length - (count - r))
-        return fmt::format("agent '{}' cannot get to {}: other agents fill the corridor", agent.id,
+        return fmt::format("agent '{}' cannot reach {}: other agents fill the corridor", agent.id,
                            instance.world().name(cell));
     if (!agent.goal) continue;
     if (place[*agent.goal] < last_goal)

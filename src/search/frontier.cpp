@@ -73,7 +73,7 @@ NodePtr Frontier::take_by_estimate(Omega omega, Cost lower_bound, double per_con
 }
 
 NodePtr Frontier::take_locked(std::map<Cost, std::vector<Open>>::iterator best) {
-  in_hand_.reserve(in_hand_.size() + 1);
+  in_progress_.reserve(in_progress_.size() + 1);
   std::size_t& taken = taken_[best->first];  // nothing has changed if this throws
   std::ranges::pop_heap(best->second, order_in(best->first));
   NodePtr node = std::move(best->second.back().node);
@@ -81,7 +81,7 @@ NodePtr Frontier::take_locked(std::map<Cost, std::vector<Open>>::iterator best) 
   if (best->second.empty()) open_.erase(best);
   --open_count_;
   ++taken;
-  in_hand_.push_back(node);
+  in_progress_.push_back(node);
   return node;
 }
 
@@ -91,7 +91,7 @@ std::vector<NodePtr> Frontier::take_for_transfer(std::size_t count, bool keeps_n
   const std::lock_guard lock(mutex_);
   std::vector<NodePtr> spare;
   spare.reserve(std::min(count, open_count_));
-  in_hand_.reserve(in_hand_.size() + std::min(count, open_count_));
+  in_progress_.reserve(in_progress_.size() + std::min(count, open_count_));
   for (auto& [rank, heap] : open_) {
     const bool is_kept = keeps_next && rank == open_.begin()->first;
     const std::size_t half = (heap.size() + (is_kept ? 0 : 1)) / 2;
@@ -100,7 +100,7 @@ std::vector<NodePtr> Frontier::take_for_transfer(std::size_t count, bool keeps_n
     taken_[rank] += here;
     open_count_ -= here;
     for (auto it = heap.end() - static_cast<std::ptrdiff_t>(here); it != heap.end(); ++it)
-      in_hand_.push_back(spare.emplace_back(std::move(it->node)));
+      in_progress_.push_back(spare.emplace_back(std::move(it->node)));
     heap.erase(heap.end() - static_cast<std::ptrdiff_t>(here), heap.end());
     if (spare.size() == count) break;
   }
@@ -108,7 +108,7 @@ std::vector<NodePtr> Frontier::take_for_transfer(std::size_t count, bool keeps_n
   return spare;
 }
 
-void Frontier::settle(const NodePtr& node) {
+void Frontier::complete(const NodePtr& node) {
   const std::lock_guard lock(mutex_);
   release_locked(node);
 }
@@ -121,11 +121,11 @@ void Frontier::reinsert(NodePtr node) {
 
 void Frontier::release_locked(const NodePtr& node) {
   const auto it = taken_.find(rank(node));
-  GROVE_ASSERT(it != taken_.end() && std::ranges::count(in_hand_, node) > 0,
+  GROVE_ASSERT(it != taken_.end() && std::ranges::count(in_progress_, node) > 0,
                "what is settled or given back was taken");
   if (--it->second == 0) taken_.erase(it);
-  std::swap(*std::ranges::find(in_hand_, node), in_hand_.back());
-  in_hand_.pop_back();
+  std::swap(*std::ranges::find(in_progress_, node), in_progress_.back());
+  in_progress_.pop_back();
 }
 
 std::size_t Frontier::prune(Cost bound) {
@@ -180,16 +180,16 @@ void Frontier::abandon() {
   const std::lock_guard lock(mutex_);
   for (auto& [bound, nodes] : open_)
     for (Open& open : nodes) open.node.abandon();
-  for (NodePtr& node : in_hand_) node.abandon();
-  in_hand_.clear();
+  for (NodePtr& node : in_progress_) node.abandon();
+  in_progress_.clear();
   open_.clear();
   open_count_ = 0;
 }
 
 Frontier::Snapshot Frontier::snapshot() const {
   const std::lock_guard lock(mutex_);
-  Snapshot snapshot{in_hand_, evicted_};
-  snapshot.live.reserve(in_hand_.size() + open_count_);
+  Snapshot snapshot{in_progress_, evicted_};
+  snapshot.live.reserve(in_progress_.size() + open_count_);
   for (const auto& [bound, heap] : open_)
     for (const Open& open : heap) snapshot.live.push_back(open.node);
   return snapshot;
@@ -222,7 +222,7 @@ std::vector<Frontier::Level> Frontier::levels(std::size_t most) const {
 
 std::size_t Frontier::live() const {
   const std::lock_guard lock(mutex_);
-  return open_count_ + in_hand_.size();
+  return open_count_ + in_progress_.size();
 }
 
 }  // namespace grove::detail

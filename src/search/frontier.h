@@ -16,8 +16,8 @@
 namespace grove::detail {
 
 // Best-first queue: least bound, then fewest conflicts, then newest (depth first on plateaus). A
-// taken node counts as live until settle(), so bound() is valid while any number of workers expand.
-// When memory is short, evict() drops nodes: bound() keeps their least bound, and restart()
+// taken node counts as live until complete(), so bound() is valid while any number of workers
+// expand. When memory is short, evict() drops nodes: bound() keeps their least bound, and restart()
 // searches again from the roots. The proof is at the head of frontier.cpp. Thread-safe; each method
 // holds one mutex. push() and take() find the bound in O(log(distinct bounds)) and the node in
 // O(log(open nodes of that bound)); methods on many nodes hold the mutex for as long as it takes to
@@ -26,7 +26,7 @@ namespace grove::detail {
 class Frontier {
  public:
   void push(NodePtr node);
-  // Takes the best open node; returns nullptr if none is open. The caller must settle() or
+  // Takes the best open node; returns nullptr if none is open. The caller must complete() or
   // reinsert() it.
   NodePtr take();
   // Like take(), but selects by estimated plan cost (EES): among the open nodes whose bound is
@@ -35,11 +35,11 @@ class Frontier {
   NodePtr take_by_estimate(Omega omega, Cost lower_bound, double per_conflict);
   // Takes up to `count` open nodes for transfer to another frontier. For each bound, best first, it
   // takes about the worse half of the open nodes; with `keeps_next` it leaves the node that take()
-  // would return. The caller must settle() each node once the other frontier counts it; until then
-  // the node stays taken and counts in bound().
+  // would return. The caller must complete() each node once the other frontier counts it; until
+  // then the node stays taken and counts in bound().
   std::vector<NodePtr> take_for_transfer(std::size_t count, bool keeps_next);
   // Completes a taken node: it was pruned, or replaced by its children (push those first).
-  void settle(const NodePtr& node);
+  void complete(const NodePtr& node);
   // Returns a taken node to the open nodes, unexpanded.
   void reinsert(NodePtr node);
   // Drops every open node whose bound is at least `bound`, the cost of an incumbent. Returns the
@@ -101,7 +101,7 @@ class Frontier {
   mutable std::mutex mutex_;
   std::map<Cost, std::vector<Open>> open_;  // heaps, by rank
   std::map<Cost, std::size_t> taken_;       // number of taken nodes of each rank
-  std::vector<NodePtr> in_hand_;            // the taken nodes; few
+  std::vector<NodePtr> in_progress_;        // the taken nodes; few
   Cost evicted_ = kInfiniteCost;
   Cost proven_ = -1;  // bound proven before the last restart; -1 if there was no restart
   std::size_t open_count_ = 0;

@@ -45,7 +45,7 @@ bool GlobalBounds::post(Plan plan) {
   claim.plan = std::move(plan);
   if (const auto violations = check(instance_, claim, 1); !violations.empty())
     throw std::logic_error(fmt::format("internal error: a plan of the search is wrong at {}: {}",
-                                       violations[0].place, violations[0].message));
+                                       violations[0].json_pointer, violations[0].message));
 
   const std::lock_guard lock(mutex_);
   if (incumbent_ && incumbent_->cost <= claim.plan->cost) return false;

@@ -38,8 +38,8 @@ class SituationsAt {
     ids_.resize(constraints_.size());
     for (std::size_t agent = 0; agent < ids_.size(); ++agent) {
       canonical(constraints_[agent]);
-      ids_[agent] = memory_.situations.id(static_cast<AgentIndex>(agent),
-                                          *node.tree().orders[agent], constraints_[agent]);
+      ids_[agent] = memory_.subproblems.id(static_cast<AgentIndex>(agent),
+                                           *node.tree().orders[agent], constraints_[agent]);
     }
     return ids_;
   }
@@ -53,10 +53,10 @@ class SituationsAt {
 // Collects the known bounds of one node after the other, each bound once.
 class Collector {
  public:
-  explicit Collector(SharedCache& memory) : memory_(memory), situations_(memory) {}
+  explicit Collector(SharedCache& memory) : memory_(memory), subproblems_(memory) {}
 
   void look_at(const Node& node, std::int32_t place, std::vector<GroupBound>& findings) {
-    const std::vector<Id>& ids = situations_.of(node);
+    const std::vector<Id>& ids = subproblems_.of(node);
     is_new_.resize(ids.size());
     for (std::size_t agent = 0; agent < ids.size(); ++agent)
       is_new_[agent] = seen_.insert(ids[agent]).second;
@@ -77,7 +77,7 @@ class Collector {
 
  private:
   SharedCache& memory_;
-  SituationsAt situations_;
+  SituationsAt subproblems_;
   std::set<Id> seen_;
   std::vector<bool> is_new_;  // by AgentIndex: whether no earlier node has this subproblem
 };
@@ -108,7 +108,7 @@ std::vector<GroupBound> group_bounds_of(std::span<const NodePtr> nodes, SharedCa
 
 void merge(std::span<const GroupBound> findings, std::span<const NodePtr> nodes,
            SharedCache& memory) {
-  SituationsAt situations(memory);
+  SituationsAt subproblems(memory);
   const Node* at = nullptr;  // the node whose subproblems are in `ids`
   std::vector<Id> ids;
   std::vector<Id> key;
@@ -117,7 +117,7 @@ void merge(std::span<const GroupBound> findings, std::span<const NodePtr> nodes,
     const Node* node = nodes[static_cast<std::size_t>(finding.node)].get();
     if (!node) continue;
     require_agents(finding, node->tree().orders.size());
-    if (node != at) ids = situations.of(*node);
+    if (node != at) ids = subproblems.of(*node);
     at = node;
     key.clear();
     for (const AgentIndex agent : finding.agents) key.push_back(ids[agent]);

@@ -30,6 +30,9 @@
 namespace grove::detail {
 namespace {
 
+// Nodes of one agent's graph; a larger graph is not built.
+constexpr std::size_t kMaxAgentGraphNodes = 32'000;
+
 constexpr std::int64_t kStatesAtOnce = 16;
 constexpr std::int64_t kTimedNodesPerWork = 2;  // see work.h
 constexpr std::size_t kMostBytes = std::size_t{1} << 28;
@@ -40,38 +43,38 @@ std::int64_t JointGroups::work() const {
   return joint_work_ + planner_.timed_nodes() / kTimedNodesPerWork;
 }
 
-bool JointGroups::settle(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
-                         const Limits& limits, Known& known) {
+bool JointGroups::solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
+                        const Limits& limits, Known& known) {
   if (std::ssize(group) > tuning_.joint_group_agents) return true;
-  give_up_at_ = work() + tuning_.joint_group_work;
+  abort_at_ = work() + tuning_.joint_group_work;
   for (Cost more = 1; !known.exact && known.excess <= slack; more *= 2) {
     const Cost most = std::min(slack, known.excess + more);
-    const Outcome outcome = settle_up_to(most, view, group, limits, known);
+    const Outcome outcome = solve_up_to(most, view, group, limits, known);
     if (outcome == Outcome::kStopped) return false;
-    if (outcome == Outcome::kGivenUp) return true;
+    if (outcome == Outcome::kAborted) return true;
   }
   return true;
 }
 
-JointGroups::Outcome JointGroups::settle_up_to(Cost most, const NodeView& view,
-                                               std::span<const AgentIndex> group,
-                                               const Limits& limits, Known& known) {
+JointGroups::Outcome JointGroups::solve_up_to(Cost most, const NodeView& view,
+                                              std::span<const AgentIndex> group,
+                                              const Limits& limits, Known& known) {
   Cost apart = 0;
   std::vector<AgentGraph> graphs(group.size());
   for (std::size_t i = 0; i < group.size(); ++i) {
     const AgentIndex agent = group[i];
     const Cost most_cost = view.cost_of(agent) + most;
     apart += view.cost_of(agent);
-    if (most_cost >= kNever || work() >= give_up_at_) return Outcome::kGivenUp;
+    if (most_cost >= kNever || work() >= abort_at_) return Outcome::kAborted;
     const auto made = planner_.timed_graph(
         agent, view.order(agent), view.constraints(agent), static_cast<Time>(most_cost),
-        static_cast<std::size_t>(tuning_.joint_group_nodes), limits, graphs[i]);
+        static_cast<std::size_t>(kMaxAgentGraphNodes), limits, graphs[i]);
     if (made == TimeExpandedGraphs::Outcome::kStopped) return Outcome::kStopped;
-    if (made == TimeExpandedGraphs::Outcome::kTooLarge) return Outcome::kGivenUp;
+    if (made == TimeExpandedGraphs::Outcome::kTooLarge) return Outcome::kAborted;
   }
   EpeaStar search(instance_, std::move(graphs), kMostBytes, apart + known.excess);
   const Cost cutoff = apart + most + 1;
-  const std::int64_t most_work = give_up_at_ - work();
+  const std::int64_t most_work = abort_at_ - work();
   auto outcome = EpeaStar::Outcome::kWorking;
   while (outcome == EpeaStar::Outcome::kWorking && search.work() < most_work)
     outcome = search.run(kStatesAtOnce, cutoff, limits);
@@ -80,7 +83,7 @@ JointGroups::Outcome JointGroups::settle_up_to(Cost most, const NodeView& view,
   known.excess = std::max(known.excess, std::min(search.lower_bound(), cutoff) - apart);
   known.exact = search.paths().has_value();
   if (limits.stop_requested()) return Outcome::kStopped;
-  return outcome == EpeaStar::Outcome::kEnded ? Outcome::kSettled : Outcome::kGivenUp;
+  return outcome == EpeaStar::Outcome::kEnded ? Outcome::kSolved : Outcome::kAborted;
 }
 
 }  // namespace grove::detail

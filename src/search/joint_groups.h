@@ -27,24 +27,24 @@ class JointGroups {
   // the constraints of the node of `view`, than their paths there. The agents are in the scope of
   // `view` and in ascending order. Stops at an excess above `slack`. Returns false if a limit was
   // reached.
-  bool settle(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
-              const Limits& limits, Known& known);
+  bool solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
+             const Limits& limits, Known& known);
 
   // Joint states expanded so far, and the effort of all calls in the unit of search/work.h.
   std::int64_t states() const { return states_; }
   std::int64_t work() const;
 
  private:
-  enum class Outcome : std::uint8_t { kSettled, kGivenUp, kStopped };
-  Outcome settle_up_to(Cost most, const NodeView& view, std::span<const AgentIndex> group,
-                       const Limits& limits, Known& known);
+  enum class Outcome : std::uint8_t { kSolved, kAborted, kStopped };
+  Outcome solve_up_to(Cost most, const NodeView& view, std::span<const AgentIndex> group,
+                      const Limits& limits, Known& known);
 
   const Instance& instance_;
   const Tuning& tuning_;
   PathPlanner& planner_;
   std::int64_t states_ = 0;
   std::int64_t joint_work_ = 0;
-  std::int64_t give_up_at_ = 0;  // a value of work()
+  std::int64_t abort_at_ = 0;  // a value of work()
 };
 
 }  // namespace grove::detail

@@ -41,10 +41,10 @@ class Facts {
            DependencyTable::Known excess) {
     LearnedBound fact{{}, cost, excess};
     for (const SubproblemTable::Id id : ids) {
-      AgentSubproblem situation = memory_.situations.situation(id);
-      const Tree* tree = trees_.of(*situation.order);
+      AgentSubproblem subproblem = memory_.subproblems.subproblem(id);
+      const Tree* tree = trees_.of(*subproblem.order);
       if (tree == nullptr) return;
-      fact.agents.push_back({tree->number, situation.agent, std::move(situation.constraints)});
+      fact.agents.push_back({tree->number, subproblem.agent, std::move(subproblem.constraints)});
     }
     facts_.push_back(std::move(fact));
   }
@@ -97,7 +97,7 @@ std::vector<LearnedBound> facts_of(const NewEntries& news, const SharedCache& me
   for (const auto& [id, known] : news.costs) facts.add(std::array{id}, known, {});
   for (const auto& pair : news.pairs)
     facts.add(std::array{pair.first, pair.second}, {}, pair.known);
-  for (const auto& group : news.groups) facts.add(group.situations, {}, group.known);
+  for (const auto& group : news.groups) facts.add(group.subproblems, {}, group.known);
   return facts.all();
 }
 
@@ -109,11 +109,12 @@ void merge(LearnedBound fact, const TreeIndex& trees, SharedCache& memory) {
     const Tree* tree = trees.numbered(number);
     if (tree == nullptr) return;
     require(agent >= 0 && static_cast<std::size_t>(agent) < tree->orders.size());
-    ids.push_back(memory.situations.id({tree->orders[agent].get(), agent, std::move(constraints)}));
+    ids.push_back(
+        memory.subproblems.id({tree->orders[agent].get(), agent, std::move(constraints)}));
     agents.push_back(agent);
   }
   if (ids.size() == 1)
-    memory.situations.merge(ids[0], fact.cost);
+    memory.subproblems.merge(ids[0], fact.cost);
   else if (ids.size() == 2)
     memory.excesses.merge_pair(ids[0], ids[1], agents[1], fact.excess);
   else

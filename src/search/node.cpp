@@ -102,9 +102,10 @@ void Node::constraints(std::vector<std::vector<Constraint>>& constraints) const 
   std::vector<AgentIndex> agents(constraints.size());
   std::iota(agents.begin(), agents.end(), AgentIndex{0});
   for (const Node* node = this; !node->is_root(); node = node->parent_.get())
-    for_each_implied_constraint(
-        node->added_, agents,
-        [&](AgentIndex agent, const Constraint& demand) { constraints[agent].push_back(demand); });
+    for_each_implied_constraint(node->added_, agents,
+                                [&](AgentIndex agent, const Constraint& constraint) {
+                                  constraints[agent].push_back(constraint);
+                                });
 }
 
 GoalSequence goals_in_order(const Problem& problem, AgentIndex agent, const Sequence& sequence) {

@@ -27,15 +27,16 @@ void NodeView::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
 
 // Updates only agents whose constraints differ from those at the last node; most have the same.
 void NodeView::look_at_constraints() {
-  node_->constraints(demands_);
-  for (auto* by_agent : {&kept_.demands, &kept_.constraints}) by_agent->resize(demands_.size());
-  kept_.situations.resize(demands_.size());
+  node_->constraints(constraints_);
+  for (auto* by_agent : {&kept_.node_constraints, &kept_.constraints})
+    by_agent->resize(constraints_.size());
+  kept_.subproblems.resize(constraints_.size());
   for (const AgentIndex agent : scope_) {
-    if (demands_[agent] == kept_.demands[agent]) continue;
-    kept_.constraints[agent] = demands_[agent];
+    if (constraints_[agent] == kept_.node_constraints[agent]) continue;
+    kept_.constraints[agent] = constraints_[agent];
     canonical(kept_.constraints[agent]);
-    kept_.situations[agent] = {};
-    std::swap(demands_[agent], kept_.demands[agent]);  // last: the rest may throw
+    kept_.subproblems[agent] = {};
+    std::swap(constraints_[agent], kept_.node_constraints[agent]);  // last: the rest may throw
   }
 }
 
@@ -44,9 +45,9 @@ void NodeView::find_conflicts() {
   for (const AgentIndex agent : scope_) steps_ += std::ssize(paths_[agent]);
 }
 
-SubproblemTable::Id NodeView::situation(AgentIndex agent) {
+SubproblemTable::Id NodeView::subproblem(AgentIndex agent) {
   GROVE_ASSERT(is_in_scope(agent), "of others nothing is kept up to date");
-  Kept::KnownSituation& known = kept_.situations[agent];
+  Kept::KnownSituation& known = kept_.subproblems[agent];
   const AgentSequencing& order = this->order(agent);
   if (known.order != &order || known.numbering != memory_.numbering())
     known = {&order, memory_.numbering(), memory_.id(agent, order, kept_.constraints[agent])};
@@ -66,10 +67,10 @@ const Conflict* NodeView::conflict_between(AgentIndex a, AgentIndex b) const {
   return found == conflicts_.end() ? nullptr : &*found;
 }
 
-void NodeView::affected_agents(const AgentConstraint& demand,
+void NodeView::affected_agents(const AgentConstraint& constraint,
                                std::vector<AgentIndex>& agents) const {
   agents.clear();
-  for_each_implied_constraint(demand, scope_, [&](AgentIndex agent, const Constraint& c) {
+  for_each_implied_constraint(constraint, scope_, [&](AgentIndex agent, const Constraint& c) {
     if (!satisfies(problem_.instance.world(), paths_[agent], c, problem_.corridors))
       agents.push_back(agent);
   });

@@ -32,9 +32,9 @@ class NodeView {
     };
     // By AgentIndex. Entries of agents in scope belong to the current node, others to an earlier
     // node.
-    std::vector<std::vector<Constraint>> constraints;  // in canonical order
-    std::vector<std::vector<Constraint>> demands;      // in the order of the node
-    std::vector<KnownSituation> situations;
+    std::vector<std::vector<Constraint>> constraints;       // in canonical order
+    std::vector<std::vector<Constraint>> node_constraints;  // in the order of the node
+    std::vector<KnownSituation> subproblems;
   };
 
   // All arguments must outlive this. `memory` may be shared with others of the same thread.
@@ -57,7 +57,7 @@ class NodeView {
     GROVE_ASSERT(is_in_scope(agent), "of others nothing is kept up to date");
     return kept_.constraints[agent];
   }
-  SubproblemTable::Id situation(AgentIndex agent);
+  SubproblemTable::Id subproblem(AgentIndex agent);
   // Its constraints and `more`, in canonical order. Valid until the next call.
   std::span<const Constraint> constraints_with(AgentIndex agent, const Constraint& more);
 
@@ -73,7 +73,7 @@ class NodeView {
   // Replaces `agents` by the agents in scope that must be re-planned under `demand`: agents whose
   // path violates an implied constraint, and every agent with an implied constraint on its
   // sequence.
-  void affected_agents(const AgentConstraint& demand, std::vector<AgentIndex>& agents) const;
+  void affected_agents(const AgentConstraint& constraint, std::vector<AgentIndex>& agents) const;
 
   // Replaces the paths of these agents by paths of the same cost that satisfy the node's
   // constraints.
@@ -98,7 +98,7 @@ class NodeView {
   std::vector<AgentIndex> scope_;
   std::vector<Path> paths_;  // by AgentIndex
   Kept kept_;
-  std::vector<std::vector<Constraint>> demands_;
+  std::vector<std::vector<Constraint>> constraints_;
   std::vector<Conflict> conflicts_;
   std::vector<AgentIndex> rerouted_;
   std::vector<Constraint> extended_;

@@ -15,8 +15,8 @@
 // *Shortcut.* The test examines all places, so it is skipped where there is room: if at least k + 3
 // places of a connected component have three neighbours or more, where k is the number of agents.
 // *Proof.* With m free places the component has at most k + m places. A path between crossings on
-// which an agent may be stuck, or which may separate crowds (crowd_reach.cpp), has at least m - 2
-// places with two neighbours. That leaves at most k + 2 others.
+// which an agent may be stuck, or which may separate crowds (reach_with_room.cpp), has at least m -
+// 2 places with two neighbours. That leaves at most k + 2 others.
 #include "search/pebble_motion.h"
 
 #include <fmt/format.h>
@@ -81,14 +81,14 @@ class Parts {
 };
 
 // The agents of one component.
-class Crowd {
+class ComponentAgents {
  public:
-  Crowd(const Instance& instance, std::vector<AgentIndex> agents, std::vector<Place> part,
-        Place root)
+  ComponentAgents(const Instance& instance, std::vector<AgentIndex> agents, std::vector<Place> part,
+                  Place root)
       : instance_(instance),
         agents_(std::move(agents)),
         board_(instance.world(), std::move(part), root),
-        start_(static_cast<std::size_t>(board_.size()), kNobody) {
+        start_(static_cast<std::size_t>(board_.size()), kNoAgent) {
     for (const AgentIndex agent : agents_)
       start_[board_.node(start(instance.agent(agent)))] = agent;
     reach_ = reach_of(board_, start_, instance.may_follow());
@@ -98,10 +98,10 @@ class Crowd {
     for (const AgentIndex agent : agents_)
       if (const auto place = out_of_reach(instance_.agent(agent)))
         return fmt::format(
-            "agent '{}' cannot get to {}: the agents have too little room to let it pass",
+            "agent '{}' cannot reach {}: the agents have too little room to let it pass",
             instance_.agent(agent).id, instance_.world().name(*place));
     if (all_have_goals() && !reach_->has(goals()))
-      return "the agents cannot all get to their goals: to be in this order there they would have "
+      return "the agents cannot all reach their goals: to be there in this order they would have "
              "to "
              "pass each other, and there is too little room";
     return std::nullopt;
@@ -125,7 +125,7 @@ class Crowd {
         agents_, [&](AgentIndex agent) { return instance_.agent(agent).goal.has_value(); });
   }
   PebbleConfiguration goals() const {
-    PebbleConfiguration goals(start_.size(), kNobody);
+    PebbleConfiguration goals(start_.size(), kNoAgent);
     for (const AgentIndex agent : agents_) goals[board_.node(*instance_.agent(agent).goal)] = agent;
     return goals;
   }
@@ -138,19 +138,19 @@ class Crowd {
 };
 
 std::vector<AgentIndex> agents_by_place(const Instance& instance) {
-  std::vector<AgentIndex> on(static_cast<std::size_t>(instance.world().place_count()), kNobody);
+  std::vector<AgentIndex> on(static_cast<std::size_t>(instance.world().place_count()), kNoAgent);
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
     on[instance.world().place(instance.agent(agent).start)] = agent;
   return on;
 }
 
 // `on`: by place.
-Crowd crowd_on(const std::vector<Place>& part, const Instance& instance,
-               const std::vector<AgentIndex>& on) {
+ComponentAgents agents_on(const std::vector<Place>& part, const Instance& instance,
+                          const std::vector<AgentIndex>& on) {
   std::vector<AgentIndex> agents;
   Place root = part.front();
   for (const Place place : part)
-    if (const AgentIndex agent = on[place]; agent != kNobody)
+    if (const AgentIndex agent = on[place]; agent != kNoAgent)
       agents.push_back(agent);
     else
       root = place;
@@ -167,7 +167,7 @@ std::optional<std::string> pebble_motion_infeasibility(const Instance& instance)
   for (const Agent& agent : instance.agents()) {
     if (!parts.is_tight(instance.world().place(agent.start), part)) continue;
     if (on.empty()) on = agents_by_place(instance);
-    if (auto reason = crowd_on(part, instance, on).infeasibility()) return reason;
+    if (auto reason = agents_on(part, instance, on).infeasibility()) return reason;
   }
   return std::nullopt;
 }

@@ -10,11 +10,11 @@ namespace {
 
 // Appends the sequence class that a tree fixes for an agent, as constraints.
 void add_order(AgentIndex agent, const AgentSequencing& order,
-               std::vector<AgentConstraint>& demands) {
+               std::vector<AgentConstraint>& constraints) {
   const SequenceClass& sequences = order.sequences;
   const auto add = [&](std::size_t number, Stop stop, ConstraintKind kind) {
     const auto at = static_cast<Time>(number);
-    demands.push_back({agent, {kNoPlace, stop, at, at, kind}});
+    constraints.push_back({agent, {kNoPlace, stop, at, at, kind}});
   };
   for (std::size_t number = 0; number < sequences.prefix.size(); ++number)
     add(number, sequences.prefix[number], ConstraintKind::kStopIs);
@@ -41,7 +41,8 @@ ProofKey proof_key(const Node& node) {
   for (const Node* at = &node; !at->is_root(); at = at->parent())
     if (at->added().agent >= 0) added.push_back(&at->added());
   ProofKey key = proof_key(node.tree());
-  for (const AgentConstraint* demand : added | std::views::reverse) key = proof_key(key, *demand);
+  for (const AgentConstraint* constraint : added | std::views::reverse)
+    key = proof_key(key, *constraint);
   return key;
 }
 
@@ -55,7 +56,7 @@ ProofKey proof_key(ProofKey parent, const AgentConstraint& added) {
 ProofKey ProofLemma::key() const {
   ProofKey key = hash_combine(2, static_cast<std::uint64_t>(bound));
   for (const AgentIndex agent : agents) key = hash_combine(key, static_cast<std::uint64_t>(agent));
-  for (const AgentConstraint& demand : demands) key = proof_key(key, demand);
+  for (const AgentConstraint& constraint : constraints) key = proof_key(key, constraint);
   return key;
 }
 
@@ -64,9 +65,9 @@ ProofLemma lemma_at(const NodeView& view, std::span<const AgentIndex> group, Cos
   lemma.agents.assign(group.begin(), group.end());
   for (const AgentIndex agent : group) {
     lemma.bound += view.cost_of(agent);
-    add_order(agent, view.order(agent), lemma.demands);
-    for (const Constraint& demand : view.constraints(agent))
-      lemma.demands.push_back({agent, demand});
+    add_order(agent, view.order(agent), lemma.constraints);
+    for (const Constraint& constraint : view.constraints(agent))
+      lemma.constraints.push_back({agent, constraint});
   }
   lemma.bound = std::min(kInfiniteCost, lemma.bound + excess);
   return lemma;

@@ -31,8 +31,8 @@ ProofKey proof_key(ProofKey parent, const AgentConstraint& added);
 // True for the split "one agent comes to rest later, or the other does". It is valid if these two
 // cannot both arrive in time.
 inline bool splits_on_costs(const Split& split) {
-  return std::ranges::all_of(split, [](const AgentConstraint& demand) {
-    return demand.constraint.kind == ConstraintKind::kNoRestBy;
+  return std::ranges::all_of(split, [](const AgentConstraint& constraint) {
+    return constraint.constraint.kind == ConstraintKind::kNoRestBy;
   });
 }
 
@@ -55,7 +55,7 @@ struct ProofSplit {
 // at least `bound`.
 struct ProofLemma {
   std::vector<AgentIndex> agents;  // in ascending order
-  std::vector<AgentConstraint> demands;
+  std::vector<AgentConstraint> constraints;
   Cost bound = 0;
 
   // Key of the statement, whatever its proof.

@@ -10,9 +10,9 @@
 
 namespace grove::detail {
 
-// By node of a graph: the agent there, or kNobody.
+// By node of a graph: the agent there, or kNoAgent.
 using PebbleConfiguration = std::vector<AgentIndex>;
-inline constexpr AgentIndex kNobody = -1;
+inline constexpr AgentIndex kNoAgent = -1;
 
 // The configurations reachable from one configuration, at any cost and by any moves of the agents.
 class ReachableConfigurations {
@@ -30,8 +30,8 @@ std::unique_ptr<ReachableConfigurations> reach_of(const PebbleGraph& board,
                                                   const PebbleConfiguration& start,
                                                   bool may_follow);
 
-// The two cases of reach_of(). The arguments are at the heads of crowd_reach.cpp (with room) and
-// packed_reach.cpp (without).
+// The two cases of reach_of(). The arguments are at the heads of reach_with_room.cpp (with room)
+// and reach_without_room.cpp (without).
 std::unique_ptr<ReachableConfigurations> reachable_with_room(const PebbleGraph& board,
                                                              const PebbleConfiguration& start,
                                                              bool may_follow);

@@ -15,12 +15,12 @@ void SharedCache::merge(const CacheDelta& found) {
   const bool keeps = keeps_new_entries_;
   NewEntries news;
   for (const auto& [id, known] : found.costs)
-    if (situations.merge(id, known) && keeps) news.costs.emplace_back(id, known);
+    if (subproblems.merge(id, known) && keeps) news.costs.emplace_back(id, known);
   for (const auto& [id, set] : found.sets) path_sets.add(id, set);
   for (const auto& p : found.pairs)
     if (excesses.merge_pair(p.first, p.second, p.agent, p.known) && keeps) news.pairs.push_back(p);
   for (const auto& g : found.groups)
-    if (excesses.merge_group(g.agents, g.situations, g.known) && keeps) news.groups.push_back(g);
+    if (excesses.merge_group(g.agents, g.subproblems, g.known) && keeps) news.groups.push_back(g);
   if (!keeps) return;
   const std::lock_guard lock(news_mutex_);
   std::ranges::move(news.costs, std::back_inserter(news_.costs));
@@ -42,7 +42,7 @@ void WorkerCache::turn_to(std::shared_ptr<SharedCache> common) {
 
 SubproblemTable::Known WorkerCache::known(Id id) const {
   const auto found = found_.costs.find(id);
-  return found == found_.costs.end() ? common_->situations.known(id) : found->second;
+  return found == found_.costs.end() ? common_->subproblems.known(id) : found->second;
 }
 
 const Mdd* WorkerCache::paths(Id id, AgentIndex agent, const AgentSequencing& order,
@@ -78,17 +78,17 @@ void WorkerCache::partners(Id first, std::vector<DependencyTable::Partner>& part
       partners.push_back({p.agent, p.second, p.known.excess});
 }
 
-DependencyTable::Known WorkerCache::of_group(const std::vector<Id>& situations) const {
+DependencyTable::Known WorkerCache::of_group(const std::vector<Id>& subproblems) const {
   ++groups_asked_;
-  DependencyTable::Known known = common_->excesses.of_group(situations);
+  DependencyTable::Known known = common_->excesses.of_group(subproblems);
   for (const DependencyTable::Group& group : found_.groups)
-    if (group.situations == situations) known = DependencyTable::join(known, group.known);
+    if (group.subproblems == subproblems) known = DependencyTable::join(known, group.known);
   return known;
 }
 
 void WorkerCache::merge_group(const std::vector<AgentIndex>& agents,
-                              const std::vector<Id>& situations, DependencyTable::Known known) {
-  found_.groups.push_back({agents, situations, known});
+                              const std::vector<Id>& subproblems, DependencyTable::Known known) {
+  found_.groups.push_back({agents, subproblems, known});
 }
 
 }  // namespace grove::detail

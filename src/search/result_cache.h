@@ -51,9 +51,9 @@ struct SharedCache {
   struct Successor {};
   explicit SharedCache(Successor /*successor*/) : follows_another(true) {}
 
-  SubproblemTable situations;
+  SubproblemTable subproblems;
   MddCache path_sets;
-  DependencyTable excesses{situations};
+  DependencyTable excesses{subproblems};
   // If true, an earlier cache was full, so results in this one may be dropped before they are of
   // use.
   const bool follows_another = false;
@@ -69,7 +69,7 @@ struct SharedCache {
 
   // Drops MDDs if there are too many; they can be computed again.
   void trim() { path_sets.trim(); }
-  std::size_t bytes() const { return situations.bytes() + path_sets.bytes() + excesses.bytes(); }
+  std::size_t bytes() const { return subproblems.bytes() + path_sets.bytes() + excesses.bytes(); }
 
  private:
   static std::int64_t next_number();
@@ -105,7 +105,7 @@ class WorkerCache {
   // As the methods of SubproblemTable.
   Id id(AgentIndex agent, const AgentSequencing& order, std::span<const Constraint> constraints) {
     ++asked_;
-    return common_->situations.id(agent, order, constraints);
+    return common_->subproblems.id(agent, order, constraints);
   }
   // Subproblem queries so far, and groups that were examined for an answer.
   std::int64_t asked() const { return asked_; }
@@ -126,8 +126,8 @@ class WorkerCache {
   DependencyTable::Known of_pair(Id first, Id second) const;
   void merge_pair(Id first, Id second, AgentIndex agent, DependencyTable::Known known);
   void partners(Id first, std::vector<DependencyTable::Partner>& partners) const;
-  DependencyTable::Known of_group(const std::vector<Id>& situations) const;
-  void merge_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& situations,
+  DependencyTable::Known of_group(const std::vector<Id>& subproblems) const;
+  void merge_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& subproblems,
                    DependencyTable::Known known);
   template <class Use>
   void groups_at(const std::vector<Id>& now, Use use) const {

@@ -17,7 +17,7 @@ struct Rule {
 
 constexpr std::array kRules = {
     Rule{Technique::kTarget, target_split},
-    Rule{Technique::kTraversal, corridor_split},
+    Rule{Technique::kCorridor, corridor_split},
 };
 
 }  // namespace

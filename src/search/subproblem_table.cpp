@@ -42,11 +42,11 @@ std::string& key_begun(AgentIndex agent, const AgentSequencing& order) {
 }
 
 AgentSubproblem situation_of(std::string_view key) {
-  AgentSubproblem situation;
-  situation.order = taken_from<const AgentSequencing*>(key);
-  situation.agent = taken_from<AgentIndex>(key);
-  situation.constraints.bytes = key;
-  return situation;
+  AgentSubproblem subproblem;
+  subproblem.order = taken_from<const AgentSequencing*>(key);
+  subproblem.agent = taken_from<AgentIndex>(key);
+  subproblem.constraints.bytes = key;
+  return subproblem;
 }
 
 // Hashes values, not addresses, so that the tables have the same sizes in every run.
@@ -84,10 +84,10 @@ SubproblemTable::Id SubproblemTable::id(AgentIndex agent, const AgentSequencing&
   return id_of_key(order, key);
 }
 
-SubproblemTable::Id SubproblemTable::id(const AgentSubproblem& situation) {
-  std::string& key = key_begun(situation.agent, *situation.order);
-  key += situation.constraints.bytes;
-  return id_of_key(*situation.order, key);
+SubproblemTable::Id SubproblemTable::id(const AgentSubproblem& subproblem) {
+  std::string& key = key_begun(subproblem.agent, *subproblem.order);
+  key += subproblem.constraints.bytes;
+  return id_of_key(*subproblem.order, key);
 }
 
 SubproblemTable::Id SubproblemTable::id_of_key(const AgentSequencing& order, std::string_view key) {
@@ -113,7 +113,7 @@ SubproblemTable::Known SubproblemTable::known(Id id) const {
                      [&](const Part& part) { return part.entries[place_of(id)].known; });
 }
 
-AgentSubproblem SubproblemTable::situation(Id id) const {
+AgentSubproblem SubproblemTable::subproblem(Id id) const {
   return parts_.with(parts_.part_of(id), [&](const Part& part) {
     return situation_of(part.key(static_cast<Id>(place_of(id))));
   });

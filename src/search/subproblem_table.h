@@ -43,10 +43,10 @@ class SubproblemTable {
   // Number of a subproblem, which is added if it is new. `constraints` must be in canonical order,
   // see canonical(). `order` must outlive this object.
   Id id(AgentIndex agent, const AgentSequencing& order, std::span<const Constraint> constraints);
-  Id id(const AgentSubproblem& situation);
+  Id id(const AgentSubproblem& subproblem);
 
   // The subproblem with this number.
-  AgentSubproblem situation(Id id) const;
+  AgentSubproblem subproblem(Id id) const;
 
   // Size of its packed constraints in bytes. The more constraints, the fewer nodes share the
   // subproblem.

@@ -4,6 +4,17 @@
 #include <algorithm>
 
 namespace grove::detail {
+namespace {
+
+constexpr std::array kDeprecatedNames = {
+    NamedTechnique{Technique::kLacam, "configurations"},
+    NamedTechnique{Technique::kCorridor, "traversal"},
+    NamedTechnique{Technique::kWdg, "dependencies"},
+    NamedTechnique{Technique::kJointMdd, "joint-paths"},
+    NamedTechnique{Technique::kLagrangianLns, "priced-plans"},
+};
+
+}  // namespace
 
 Techniques Techniques::defaults() {
   Techniques set;
@@ -16,8 +27,11 @@ std::string_view name_of(Technique technique) {
 }
 
 std::optional<Technique> parse_technique(std::string_view name) {
-  const auto named = std::ranges::find(kTechniques, name, &NamedTechnique::name);
-  return named == kTechniques.end() ? std::nullopt : std::optional(named->technique);
+  if (const auto named = std::ranges::find(kTechniques, name, &NamedTechnique::name);
+      named != kTechniques.end())
+    return named->technique;
+  const auto old = std::ranges::find(kDeprecatedNames, name, &NamedTechnique::name);
+  return old == kDeprecatedNames.end() ? std::nullopt : std::optional(old->technique);
 }
 
 }  // namespace grove::detail

@@ -15,21 +15,21 @@ namespace grove::detail {
 // Each is explained at the head of the file that implements it.
 enum class Technique : std::uint8_t {
   kPrimal,           // prioritised planning and large neighbourhood search for incumbents
-  kConfigurations,   // LaCAM for first plans on dense instances
+  kLacam,            // LaCAM for first plans on dense instances
   kStrongBranching,  // split on the conflict that raises the bounds most
   kBypass,           // instead of splitting, take a path of equal cost with fewer conflicts
   kFewestConflicts,  // low level: among paths of equal cost, the fewest conflicts
   kTarget,           // split on the time from which an agent rests
-  kTraversal,        // split on which of two agents passes a corridor first
-  kDependencies,     // WDG: bound from pairs of agents that cannot both have their best paths
-  kJointPaths,       // find such pairs by their MDDs, without a search
+  kCorridor,         // split on which of two agents passes a corridor first
+  kWdg,              // WDG: bound from pairs of agents that cannot both have their best paths
+  kJointMdd,         // find such pairs by their MDDs, without a search
   kCostSplits,       // split on which of two such agents costs more
   kClusters,         // the same for groups that conflict although no pair of them must cost more
   kEstimates,        // w > 0 and no plan yet: every second node by estimated cost
   kJointSearch,      // A* over joint states, if there are few agents and places
   kLagrangian,       // Lagrangian bound, if there are many agents
   kJointGroups,      // A* over joint states of pairs and groups that splits do not solve
-  kPricedPlans,      // LNS: the Lagrangian multipliers choose which paths to re-plan, and where to
+  kLagrangianLns,    // LNS: the Lagrangian multipliers choose which paths to re-plan, and where to
 };
 
 struct NamedTechnique {
@@ -40,21 +40,21 @@ struct NamedTechnique {
 // All techniques.
 inline constexpr std::array kTechniques = {
     NamedTechnique{Technique::kPrimal, "primal"},
-    NamedTechnique{Technique::kConfigurations, "configurations"},
+    NamedTechnique{Technique::kLacam, "lacam"},
     NamedTechnique{Technique::kStrongBranching, "strong-branching"},
     NamedTechnique{Technique::kBypass, "bypass"},
     NamedTechnique{Technique::kFewestConflicts, "fewest-conflicts"},
     NamedTechnique{Technique::kTarget, "target"},
-    NamedTechnique{Technique::kTraversal, "traversal"},
-    NamedTechnique{Technique::kDependencies, "dependencies"},
-    NamedTechnique{Technique::kJointPaths, "joint-paths"},
+    NamedTechnique{Technique::kCorridor, "corridor"},
+    NamedTechnique{Technique::kWdg, "wdg"},
+    NamedTechnique{Technique::kJointMdd, "joint-mdd"},
     NamedTechnique{Technique::kCostSplits, "cost-splits"},
     NamedTechnique{Technique::kClusters, "clusters"},
     NamedTechnique{Technique::kEstimates, "estimates"},
     NamedTechnique{Technique::kJointSearch, "joint-search"},
     NamedTechnique{Technique::kLagrangian, "lagrangian"},
     NamedTechnique{Technique::kJointGroups, "joint-groups"},
-    NamedTechnique{Technique::kPricedPlans, "priced-plans"},
+    NamedTechnique{Technique::kLagrangianLns, "lagrangian-lns"},
 };
 
 // Former techniques. The options report that they were removed.
@@ -83,6 +83,7 @@ class Techniques {
 };
 
 std::string_view name_of(Technique technique);
+// Also accepts the deprecated names of before 0.1 ("configurations", ...), until 0.2.
 std::optional<Technique> parse_technique(std::string_view name);
 
 }  // namespace grove::detail

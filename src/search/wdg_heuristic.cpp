@@ -55,6 +55,12 @@
 #include <numeric>
 
 namespace grove::detail {
+namespace {
+
+constexpr std::ptrdiff_t kMaxGroupAgents = 6;     // agents of a group whose joint bound is computed
+constexpr std::int64_t kCoveringSteps = 100'000;  // group bounds examined per covering bound
+
+}  // namespace
 
 WdgHeuristic::WdgHeuristic(const Problem& problem, const SearchOptions& options,
                            PathPlanner& planner, WorkerCache& memory)
@@ -84,13 +90,12 @@ WdgHeuristic::Outcome WdgHeuristic::find_bound(const NodePtr& node, NodeView& vi
   }
   std::vector<GroupExcess> statements;
   collect(statements);
-  const auto dearest = std::ranges::max_element(statements, {}, &GroupExcess::excess);
+  const auto max_excess = std::ranges::max_element(statements, {}, &GroupExcess::excess);
   // A single statement that reaches the cutoff proves it without the others.
-  if (dearest != statements.end() && dearest->excess > slack)
-    statements = {*dearest};
+  if (max_excess != statements.end() && max_excess->excess > slack)
+    statements = {*max_excess};
   else
-    bound =
-        std::min(cutoff, node->cost() + covering_bound(statements, tuning_.covering_steps, limits));
+    bound = std::min(cutoff, node->cost() + covering_bound(statements, kCoveringSteps, limits));
   if (proof_ != nullptr && bound > node->bound()) log_bound(view, statements, bound);
   return Outcome::kDone;
 }
@@ -99,8 +104,8 @@ WdgHeuristic::Outcome WdgHeuristic::compute_weights(NodeView& view, Cost slack,
                                                     const Limits& limits) {
   // If an earlier cache was dropped because it was full, results of this call may be dropped as
   // well before a later call uses them. So there is no limit, and this call does all the work.
-  give_up_at_ = memory_.common()->follows_another ? std::numeric_limits<std::int64_t>::max()
-                                                  : work() + tuning_.bound_work;
+  abort_at_ = memory_.common()->follows_another ? std::numeric_limits<std::int64_t>::max()
+                                                : work() + tuning_.bound_work;
   const Outcome outcome = solve_conflicting(view, slack, 0, limits);
   if (outcome != Outcome::kDone || !techniques_.has(Technique::kClusters)) return outcome;
   return solve_groups(view, slack, limits);
@@ -112,14 +117,14 @@ bool WdgHeuristic::help(const NodePtr& node, NodeView& view, Cost cutoff, double
   if (slack < 0) return false;
   look_at(view);
   const std::int64_t before = work();
-  give_up_at_ = before + tuning_.bound_work;
+  abort_at_ = before + tuning_.bound_work;
   solve_conflicting(view, slack, share, limits);
   return work() > before;
 }
 
 void WdgHeuristic::look_at(NodeView& view) {
   for (AgentIndex agent = 0; agent < agents_; ++agent) {
-    situation_[agent] = view.situation(agent);
+    situation_[agent] = view.subproblem(agent);
     GROVE_ASSERT(may_cost(agent, view.cost_of(agent)),
                  "an agent's path at a node is a cheapest one in its situation");
   }
@@ -144,8 +149,8 @@ WdgHeuristic::Outcome WdgHeuristic::solve_conflicting(NodeView& view, Cost slack
   for (const auto& [a, b] : pairs) {
     Known known = this->known(a, b);
     if (known.exact || known.excess > slack || known.expansions > 0) continue;
-    if (work() >= give_up_at_) return Outcome::kUnfinished;
-    if (techniques_.has(Technique::kJointPaths) && known.excess == 0) {
+    if (work() >= abort_at_) return Outcome::kUnfinished;
+    if (techniques_.has(Technique::kJointMdd) && known.excess == 0) {
       const auto dependence = compare(view, a, b, limits);
       if (!dependence) return Outcome::kStopped;
       // (The comparison ignores following conflicts.)
@@ -168,8 +173,8 @@ std::optional<Dependence> WdgHeuristic::compare(NodeView& view, AgentIndex a, Ag
   const Mdd* of_b = optimal_paths(view, b, limits);
   if (!of_a || !of_b) return std::nullopt;
   if (of_a->empty() || of_b->empty()) return Dependence::kUnknown;
-  const Dependence dependence =
-      pair_dependency_.find(*of_a, *of_b, static_cast<std::size_t>(tuning_.compared_pairs), limits);
+  const Dependence dependence = pair_dependency_.find(
+      *of_a, *of_b, static_cast<std::size_t>(tuning_.joint_mdd_nodes), limits);
   if (limits.stop_requested()) return std::nullopt;
   return dependence;
 }
@@ -183,14 +188,14 @@ const Mdd* WdgHeuristic::optimal_paths(NodeView& view, AgentIndex agent, const L
 // Bounds the excess of every group that conflicts although no pair of it must cost more.
 WdgHeuristic::Outcome WdgHeuristic::solve_groups(NodeView& view, Cost slack, const Limits& limits) {
   for (const auto& group : groups_in_conflict(view)) {
-    if (group.size() < 3 || std::ssize(group) > tuning_.group_agents) continue;
-    const auto situations = key(group);
-    Known known = memory_.of_group(situations);
+    if (group.size() < 3 || std::ssize(group) > kMaxGroupAgents) continue;
+    const auto subproblems = key(group);
+    Known known = memory_.of_group(subproblems);
     if (known.exact || known.expansions > 0) continue;
-    if (work() >= give_up_at_) return Outcome::kUnfinished;
+    if (work() >= abort_at_) return Outcome::kUnfinished;
     if (!solve(view, group, slack, tuning_.group_expansions, limits, known))
       return Outcome::kStopped;
-    memory_.merge_group(group, situations, known);
+    memory_.merge_group(group, subproblems, known);
   }
   return Outcome::kDone;
 }
@@ -230,7 +235,7 @@ bool WdgHeuristic::solve(const NodeView& view, std::span<const AgentIndex> group
   if (!solve_by_splits(view.node(), group, slack, most_expansions, limits, known)) return false;
   if (known.exact || known.excess > slack || !techniques_.has(Technique::kJointGroups)) return true;
   const Cost by_splits = known.excess;
-  if (!joint_groups_.settle(view, group, slack, limits, known)) return false;
+  if (!joint_groups_.solve(view, group, slack, limits, known)) return false;
   if (proof_ != nullptr && known.excess > by_splits)
     log_lemma(view, group, known.excess, kNoProof, {});
   return true;
@@ -315,7 +320,7 @@ void WdgHeuristic::collect(std::vector<GroupExcess>& statements) {
     partners_.clear();
     memory_.partners(situation_[a], partners_);
     for (const DependencyTable::Partner& b : partners_)
-      if (situation_[b.agent] == b.situation) statements.push_back({{a, b.agent}, b.excess});
+      if (situation_[b.agent] == b.subproblem) statements.push_back({{a, b.agent}, b.excess});
   }
   memory_.groups_at(situation_, [&](const DependencyTable::Group& group) {
     if (group.known.excess > 0) statements.push_back({group.agents, group.known.excess});

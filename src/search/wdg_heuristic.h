@@ -62,7 +62,7 @@ class WdgHeuristic {
   // Counters since construction: expansions for pairs and groups, pairs of places compared in joint
   // MDDs, and below, the counters of the view and the brancher of pairs and groups.
   std::int64_t expansions() const { return expansions_; }
-  std::int64_t joint_pairs() const { return pair_dependency_.pairs(); }
+  std::int64_t joint_mdd_nodes() const { return pair_dependency_.pairs(); }
   std::int64_t steps() const { return pair_view_.steps(); }
   // As NodeView::exchange(), for the view of pairs and groups.
   void exchange(NodeView::Kept& kept) { pair_view_.exchange(kept); }
@@ -119,7 +119,7 @@ class WdgHeuristic {
   std::vector<ProofSplit> written_;  // of the current group, if a certificate is written
   std::vector<DependencyTable::Partner> partners_;
   std::int64_t expansions_ = 0;
-  std::int64_t give_up_at_ = 0;  // a value of work()
+  std::int64_t abort_at_ = 0;  // a value of work()
 };
 
 }  // namespace grove::detail

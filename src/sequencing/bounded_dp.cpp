@@ -28,7 +28,7 @@
 
 #include "sequencing/one_tree_relaxation.h"
 #include "sequencing/passed_stops.h"
-#include "sequencing/rtsp_backends.h"
+#include "sequencing/rtsp.h"
 #include "sequencing/sequence_class.h"
 #include "sequencing/sequence_dag.h"
 

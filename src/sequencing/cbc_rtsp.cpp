@@ -39,7 +39,7 @@
 #include <thread>
 #include <utility>
 
-#include "sequencing/rtsp_backends.h"
+#include "sequencing/rtsp.h"
 #include "sequencing/sequence_class.h"
 
 namespace grove::detail {
@@ -81,11 +81,11 @@ class StopTree : public CbcEventHandler {
 class StopLinear : public ClpEventHandler {
  public:
   explicit StopLinear(const Limits& limits) : limits_(&limits) {}
-  int event(Event) override { return limits_->stop_requested() ? kStoppedByEvent : kGoOn; }
+  int event(Event) override { return limits_->stop_requested() ? kStoppedByEvent : kContinue; }
   ClpEventHandler* clone() const override { return new StopLinear(*this); }
 
  private:
-  static constexpr int kGoOn = -1;
+  static constexpr int kContinue = -1;
   static constexpr int kStoppedByEvent = 5;
   const Limits* limits_;
 };

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "sequencing/stop_set.h"
+#include "sequencing/sequence.h"
 
 namespace grove::detail {
 namespace {
@@ -88,6 +88,21 @@ Time sequence_cost(const CostMatrix& matrix, const Sequence& sequence) {
     last = stop;
   }
   return add_costs(cost, matrix.to_end(last));
+}
+
+int common_parity(const CostMatrix& matrix) {
+  if (matrix.ports > 1) return -1;
+  const int n = matrix.stops();
+  const auto odd = [&](int row, int column) { return matrix.cost(row, column) & 1; };
+  const auto sum = [&](int from, int to) { return odd(from, n) ^ odd(n, to); };
+  const int more = n > 1 ? odd(0, 1) ^ sum(0, 1) : 0;  // added for each leg between stops
+  int parity = (n - 1) * more & 1;
+  for (int stop = 0; stop < n; ++stop) {
+    parity ^= sum(stop, stop);
+    for (int to = 0; to < n; ++to)
+      if (to != stop && odd(stop, to) != (sum(stop, to) ^ more)) return -1;
+  }
+  return parity;
 }
 
 }  // namespace grove::detail

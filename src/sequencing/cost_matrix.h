@@ -65,4 +65,9 @@ CostMatrix least_matrix(const CostMatrix& matrix);
 // Returns the cost of a complete sequence, kNever if one of its legs has no path.
 Time sequence_cost(const CostMatrix& matrix, const Sequence& sequence);
 
+// Returns the parity of every complete sequence, or -1 if they need not share one. They share one
+// if the parity of each leg is the sum of a number of its first stop and a number of its last stop,
+// because each stop is entered once and left once.
+int common_parity(const CostMatrix& matrix);
+
 }  // namespace grove::detail

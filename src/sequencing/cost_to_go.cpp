@@ -24,9 +24,8 @@
 #include "sequencing/held_karp_table.h"
 #include "sequencing/one_tree_relaxation.h"
 #include "sequencing/rtsp.h"
-#include "sequencing/rtsp_backends.h"
+#include "sequencing/sequence.h"
 #include "sequencing/sequence_dag.h"
-#include "sequencing/stop_set.h"
 
 namespace grove::detail {
 

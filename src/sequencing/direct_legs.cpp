@@ -14,7 +14,7 @@
 
 #include <algorithm>
 
-#include "sequencing/stop_set.h"
+#include "sequencing/sequence.h"
 
 namespace grove::detail {
 namespace {

@@ -17,7 +17,7 @@
 // Rows are stored without padding: a row is stored at full vector width, and the part beyond its
 // end is overwritten by the next row, because S ascends.
 #include "sequencing/held_karp_table.h"
-#include "sequencing/rtsp_backends.h"
+#include "sequencing/rtsp.h"
 #include "sequencing/sequence_class.h"
 
 namespace grove::detail {

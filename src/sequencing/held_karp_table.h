@@ -13,7 +13,7 @@
 #include "model/limits.h"
 #include "model/shared_arrays.h"
 #include "sequencing/cost_matrix.h"
-#include "sequencing/stop_set.h"
+#include "sequencing/sequence.h"
 
 namespace grove::detail {
 

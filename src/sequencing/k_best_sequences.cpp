@@ -27,7 +27,7 @@
 #include "model/assert.h"
 #include "sequencing/cost_matrix.h"
 #include "sequencing/keyed_stacks.h"
-#include "sequencing/stop_set.h"
+#include "sequencing/sequence.h"
 
 namespace grove::detail {
 

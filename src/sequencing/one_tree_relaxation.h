@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/grid.h"
-#include "sequencing/stop_set.h"
+#include "sequencing/sequence.h"
 
 namespace grove::detail {
 

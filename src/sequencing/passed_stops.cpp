@@ -26,7 +26,7 @@
 #include <limits>
 #include <utility>
 
-#include "sequencing/stop_set.h"
+#include "sequencing/sequence.h"
 
 namespace grove::detail {
 

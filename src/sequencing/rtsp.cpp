@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "sequencing/cost_matrix.h"
-#include "sequencing/rtsp_backends.h"
 
 namespace grove::detail {
 std::vector<RtspBackend> rtsp_backends() {
@@ -30,7 +29,7 @@ std::unique_ptr<RtspSolver> make_rtsp_solver(RtspBackend backend, const CostMatr
 #ifdef GROVE_WITH_CBC
       return make_cbc_rtsp(matrix, limits);
 #else
-      throw std::invalid_argument("this Grove was built without CBC (GROVE_WITH_CBC)");
+      throw std::invalid_argument("Grove was built without CBC (GROVE_WITH_CBC)");
 #endif
   }
   throw std::invalid_argument("unknown rTSP back end");

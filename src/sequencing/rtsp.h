@@ -6,6 +6,7 @@
 // construction.)
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string_view>
@@ -58,7 +59,7 @@ class RtspSolver {
 
 enum class RtspBackend : std::uint8_t {
   kAuto,       // Held-Karp table if it is small, else bounded dynamic programming
-  kHeldKarp,   // for n up to about 24: 2^n * n table entries
+  kHeldKarp,   // for n up to 26 (kMostTableStops): 2^n * n table entries
   kBoundedDp,  // sequence graph within a cost limit that grows on demand
   kCbc,        // integer program with subtour cuts
 };
@@ -74,6 +75,21 @@ inline bool is_built(RtspBackend backend) {
 // then kStopped, and the run stops (Limits::memory_exhausted).
 std::unique_ptr<RtspSolver> make_rtsp_solver(RtspBackend backend, const CostMatrix& matrix,
                                              const Limits& limits);
+
+// The back ends of make_rtsp_solver(), each in the file of its name.
+//
+// Largest number of stops for a table. Up to here a table takes less than a millisecond and 0.5 MB
+// (four times that with ports). For more stops, sequence graphs take about as long and stay small;
+// only long lists of sequences are slower with them.
+inline constexpr int kTableStops = 14;
+
+std::unique_ptr<RtspSolver> make_held_karp(const CostMatrix& matrix, const Limits& limits);
+// Largest number of states in a graph of all sequences, about 0.2 s. Larger graphs hold only
+// canonical sequences.
+inline constexpr std::size_t kMostGraphStates = std::size_t{1} << 16;
+std::unique_ptr<RtspSolver> make_bounded_dp(const CostMatrix& matrix, const Limits& limits,
+                                            std::size_t most_states = kMostGraphStates);
+std::unique_ptr<RtspSolver> make_cbc_rtsp(const CostMatrix& matrix, const Limits& limits);
 
 // Returns a proven lower bound on every complete sequence of `matrix`, by relaxation: spanning
 // trees under node potentials. kNever: there is proven to be none. Takes about 0.1 ms at n = 10 and

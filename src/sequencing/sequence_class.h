@@ -6,7 +6,7 @@
 #include "model/assert.h"
 #include "sequencing/cost_matrix.h"
 #include "sequencing/rtsp.h"
-#include "sequencing/stop_set.h"
+#include "sequencing/sequence.h"
 
 namespace grove::detail {
 

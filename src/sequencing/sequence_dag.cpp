@@ -54,7 +54,7 @@
 // to the end. Each part of that sum is the least cost of a real part of the path: from the state's
 // stop to one of the two, from that to the other, or to the end. (So the last part must be valid
 // for any path. Late costs have a leg to the end that is valid only for the last stop of a
-// sequence; late_goals.cpp puts the other one into its direct legs.)
+// sequence; late_costs.cpp puts the other one into its direct legs.)
 //
 // *Hops.* A hop from v over a stop u is useless if every stop is at least as near directly as by u
 // (DirectLegs::hops): the direct leg that replaces it passes no stop at all.
@@ -68,7 +68,7 @@
 #include "sequencing/direct_legs.h"
 #include "sequencing/one_tree_relaxation.h"
 #include "sequencing/passed_stops.h"
-#include "sequencing/stop_set.h"
+#include "sequencing/sequence.h"
 
 namespace grove::detail {
 namespace {
@@ -76,47 +76,7 @@ namespace {
 constexpr std::size_t kPollInterval = 32;     // sets; each takes a few microseconds
 constexpr std::size_t kCountedExcess = 4096;  // costs this far above `reach` are not counted
 
-// Returns the parity of every complete sequence, or -1 if they need not share one. They share one
-// if the parity of each leg is the sum of a number of its first stop and a number of its last stop,
-// because each stop is entered once and left once.
-int common_parity(const CostMatrix& matrix) {
-  if (matrix.ports > 1) return -1;
-  const int n = matrix.stops();
-  const auto odd = [&](int row, int column) { return matrix.cost(row, column) & 1; };
-  const auto sum = [&](int from, int to) { return odd(from, n) ^ odd(n, to); };
-  const int more = n > 1 ? odd(0, 1) ^ sum(0, 1) : 0;  // added for each leg between stops
-  int parity = (n - 1) * more & 1;
-  for (int stop = 0; stop < n; ++stop) {
-    parity ^= sum(stop, stop);
-    for (int to = 0; to < n; ++to)
-      if (to != stop && odd(stop, to) != (sum(stop, to) ^ more)) return -1;
-  }
-  return parity;
-}
-
 }  // namespace
-
-std::size_t StopSetIndex::slot_of(StopSet set) const {
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = (set * 0x9E3779B97F4A7C15u) >> (65 - std::bit_width(slots_.size()));
-  while (slots_[slot].number != kAbsent && slots_[slot].set != set) slot = (slot + 1) & mask;
-  return slot;
-}
-
-std::uint32_t StopSetIndex::insert(StopSet set, std::uint32_t number) {
-  Slot& slot = slots_[slot_of(set)];
-  if (slot.number != kAbsent) return slot.number;
-  slot = {set, number};
-  if (2 * ++used_ > slots_.size()) grow();
-  return number;
-}
-
-void StopSetIndex::grow() {
-  std::vector<Slot> old(2 * slots_.size());
-  old.swap(slots_);
-  for (const Slot& slot : old)
-    if (slot.number != kAbsent) slots_[slot_of(slot.set)] = slot;
-}
 
 Time SequenceDag::cost_to_go(StopSet left, int port) const {
   const std::uint32_t number = index_.find(left);
@@ -125,7 +85,7 @@ Time SequenceDag::cost_to_go(StopSet left, int port) const {
   const int stop = port / ports_;
   if ((node.at & bit(stop)) == 0) return kNever;
   const auto state = node.first + std::popcount(node.at & (bit(stop) - 1));
-  return completions_[state * ports_ + port % ports_];
+  return cost_to_go_[state * ports_ + port % ports_];
 }
 
 template <int kPorts>
@@ -155,7 +115,7 @@ class SequenceDagBuilder {
         return is_too_large() ? SequenceDag::End::kTooLarge : SequenceDag::End::kStopped;
       layer = end;
     }
-    if (!settle_completions()) return SequenceDag::End::kStopped;
+    if (!compute_cost_to_go()) return SequenceDag::End::kStopped;
     dag_.next_reach_ = next_reach();
     dag = std::move(dag_);
     return SequenceDag::End::kBuilt;
@@ -285,7 +245,7 @@ class SequenceDagBuilder {
   Time next_reach() const {
     std::size_t count = 0;
     for (std::size_t excess = 0; excess < dropped_.size(); ++excess)
-      if ((count += dropped_[excess]) >= dag_.completions_.size() / 2)
+      if ((count += dropped_[excess]) >= dag_.cost_to_go_.size() / 2)
         return std::max(dag_.beyond_, reach_ + 1 + static_cast<Time>(excess));
     return std::max(dag_.beyond_, reach_ + static_cast<Time>(dropped_.size()));
   }
@@ -294,14 +254,14 @@ class SequenceDagBuilder {
     return cost < kNever && parity_ >= 0 && (cost & 1) != parity_ ? cost + 1 : cost;
   }
 
-  Time* costs_of(std::uint32_t state) { return &dag_.completions_[state * std::size_t{kPorts}]; }
+  Time* costs_of(std::uint32_t state) { return &dag_.cost_to_go_[state * std::size_t{kPorts}]; }
 
-  // Moves the groups that hold a state into the graph. Until the backward pass, completions_ holds
+  // Moves the groups that hold a state into the graph. Until the backward pass, cost_to_go_ holds
   // the costs of reaching the states.
   void close_layer() {
     tails_.clear();
     auto first = static_cast<std::uint32_t>(dag_.state_count());
-    dag_.completions_.resize((first + states_.size()) * kPorts);
+    dag_.cost_to_go_.resize((first + states_.size()) * kPorts);
     for (Group& group : groups_) {
       group.node.first = first;
       if (group.node.at == 0) continue;
@@ -323,7 +283,7 @@ class SequenceDagBuilder {
   // Expands every node of [begin, end) to every stop left. Returns false if a limit was reached.
   bool expand(std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (i % kPollInterval == 0 && !may_go_on()) return false;
+      if (i % kPollInterval == 0 && !may_continue()) return false;
       const SequenceDag::Node& node = dag_.nodes_[i];
       if (direct_ != nullptr) walk(node);
       for_each_stop(node.left, [&](int next) {
@@ -394,9 +354,9 @@ class SequenceDagBuilder {
   }
 
   // Any vector may double when it grows next, so this requests as much memory again beforehand.
-  bool may_go_on() {
+  bool may_continue() {
     const std::size_t bytes = dag_.nodes_.capacity() * sizeof(SequenceDag::Node) +
-                              dag_.completions_.capacity() * sizeof(Time) + dag_.index_.bytes() +
+                              dag_.cost_to_go_.capacity() * sizeof(Time) + dag_.index_.bytes() +
                               groups_.capacity() * sizeof(Group) +
                               tails_.capacity() * sizeof(OneTreeRelaxation::Tail) +
                               states_.capacity() * sizeof(State) + group_index_.bytes();
@@ -406,11 +366,11 @@ class SequenceDagBuilder {
   }
   bool is_too_large() const { return dag_.state_count() + states_.size() > most_states_; }
 
-  bool settle_completions() {
+  bool compute_cost_to_go() {
     for (std::size_t i = dag_.nodes_.size(); i-- > 0;) {
-      if (i % kPollInterval == 0 && !may_go_on()) return false;
+      if (i % kPollInterval == 0 && !may_continue()) return false;
       if (direct_ != nullptr && dag_.nodes_[i].left != 0)
-        settle_walks(dag_.nodes_[i]);
+        compute_walks(dag_.nodes_[i]);
       else
         settle(dag_.nodes_[i]);
     }
@@ -418,7 +378,7 @@ class SequenceDagBuilder {
   }
 
   // Computes the cost to go from each port of a visited stop by direct legs, to a fixed point.
-  void settle_walks(const SequenceDag::Node& node) {
+  void compute_walks(const SequenceDag::Node& node) {
     walked_.fill(kNever);
     std::array<Time, kMaxTasksPerAgent * kPorts> onward;
     for_each_stop(node.left, [&](int next) {

@@ -12,37 +12,13 @@
 #include "model/grid.h"
 #include "model/limits.h"
 #include "sequencing/rtsp.h"
-#include "sequencing/sequence.h"
+#include "sequencing/stop_set_index.h"
 
 namespace grove::detail {
 
 class DirectLegs;
 class PassedStops;
 class OneTreeRelaxation;
-
-// Hash map from stop sets to numbers: open addressing, linear probing.
-class StopSetIndex {
- public:
-  static constexpr std::uint32_t kAbsent = UINT32_MAX;
-
-  StopSetIndex() : slots_(16) {}
-  std::uint32_t find(StopSet set) const { return slots_[slot_of(set)].number; }
-  std::size_t bytes() const { return slots_.size() * sizeof(Slot); }
-  // Returns the number of `set`. If it has none, assigns `number` to it first.
-  std::uint32_t insert(StopSet set, std::uint32_t number);
-
- private:
-  struct Slot {
-    StopSet set = 0;
-    std::uint32_t number = kAbsent;
-  };
-
-  std::size_t slot_of(StopSet set) const;
-  void grow();
-
-  std::vector<Slot> slots_;  // size: a power of two; at most half full
-  std::size_t used_ = 0;
-};
 
 // Invariant: every sequence that costs less than beyond() runs only through states of the graph,
 // and every state stores its exact cost to go within the graph. Immutable once built: any thread
@@ -86,7 +62,7 @@ class SequenceDag {
   // graph. Returns kNever if there is none, or if the state is outside the graph.
   Time cost_to_go(StopSet left, int port) const;
 
-  std::size_t state_count() const { return completions_.size() / static_cast<std::size_t>(ports_); }
+  std::size_t state_count() const { return cost_to_go_.size() / static_cast<std::size_t>(ports_); }
 
  private:
   template <int kPorts>
@@ -102,9 +78,9 @@ class SequenceDag {
   int ports_ = 1;
   Time beyond_ = 0;
   Time next_reach_ = 0;
-  std::vector<Node> nodes_;        // in descending order of |left|
-  std::vector<Time> completions_;  // cost to go, `ports_` entries per state
-  StopSetIndex index_;             // into nodes_
+  std::vector<Node> nodes_;       // in descending order of |left|
+  std::vector<Time> cost_to_go_;  // cost to go, `ports_` entries per state
+  StopSetIndex index_;            // into nodes_
 };
 
 }  // namespace grove::detail

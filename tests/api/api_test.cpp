@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The front door, as its users come through it: nothing but <grove/grove.hpp> is included.
+// The public C++ API as its users see it: the only header included is <grove/grove.hpp>.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <concepts>
 #include <fstream>
 #include <functional>
 #include <future>
@@ -38,8 +39,8 @@ Instance small() {
                    {.id = "look", .place = Cell{2, 0}, .agents = {"red"}}});
 }
 
-// A corridor of robots that want to pass one another: hours of search.
-Instance crowd(int robots = 14) {
+// Robots that must pass each other in a corridor: the search takes hours.
+Instance dense_instance(int robots = 14) {
   std::vector<Agent> agents;
   for (int i = 0; i < robots; ++i)
     agents.push_back(
@@ -78,12 +79,20 @@ TEST(Api, SolvesAndChecks) {
   EXPECT_GE(solution.measures.at("wall_s"), 0);
 }
 
-TEST(Api, TheCheckerFindsWhatIsWrong) {
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+static_assert(std::same_as<Delay, Delay>, "the old name");
+#pragma GCC diagnostic pop
+
+TEST(Api, CheckFindsViolations) {
   const Instance instance = small();
   Solution solution = solve(instance);
   Plan wrong = *solution.plan;
   wrong.agents[0].path[1].place = Cell{4, 2};
-  EXPECT_FALSE(check(instance, wrong).empty());
+  const std::vector<Violation> violations = check(instance, wrong);
+  ASSERT_FALSE(violations.empty());
+  EXPECT_THAT(violations[0].json_pointer, ::testing::StartsWith("/agents/0/"));
+  EXPECT_EQ(violations[0].place, violations[0].json_pointer) << "the old name";
   solution.lower_bound = solution.plan->cost + 1;
   EXPECT_FALSE(check(instance, solution).empty());
   wrong.agents[0].path[1].place = Cell{9, 9};
@@ -91,7 +100,7 @@ TEST(Api, TheCheckerFindsWhatIsWrong) {
   EXPECT_EQ(field_of([&] { check(instance, Plan{}); }), "/agents");
 }
 
-TEST(Api, InstancesComeBackAsTheyWereMade) {
+TEST(Api, InstancesRoundTripThroughFiles) {
   const World hall = World::roadmap({{"A", 0, 0}, {"B", 4, 0}, {"C", 4, 3}, {"D", 6, 0}},
                                     {{.from = "A", .to = "B", .steps = 4},
                                      {.from = "B", .to = "C", .steps = 3, .one_way = true},
@@ -118,47 +127,47 @@ TEST(Api, InstancesComeBackAsTheyWereMade) {
   TemporaryDirectory directory;
   for (const Instance& instance : {roads, turning, small()}) {
     write_instance(directory / "i.cts.json", instance);
-    const Instance again = read_instance(directory / "i.cts.json");
-    ASSERT_EQ(again.agents().size(), instance.agents().size());
+    const Instance restored = read_instance(directory / "i.cts.json");
+    ASSERT_EQ(restored.agents().size(), instance.agents().size());
     for (std::size_t i = 0; i < instance.agents().size(); ++i) {
-      EXPECT_EQ(again.agents()[i].id, instance.agents()[i].id);
-      EXPECT_EQ(again.agents()[i].start, instance.agents()[i].start);
-      EXPECT_EQ(again.agents()[i].goal, instance.agents()[i].goal);
-      EXPECT_EQ(again.agents()[i].turn_steps, instance.agents()[i].turn_steps);
-      EXPECT_EQ(again.agents()[i].goal_heading, instance.agents()[i].goal_heading);
+      EXPECT_EQ(restored.agents()[i].id, instance.agents()[i].id);
+      EXPECT_EQ(restored.agents()[i].start, instance.agents()[i].start);
+      EXPECT_EQ(restored.agents()[i].goal, instance.agents()[i].goal);
+      EXPECT_EQ(restored.agents()[i].turn_steps, instance.agents()[i].turn_steps);
+      EXPECT_EQ(restored.agents()[i].goal_heading, instance.agents()[i].goal_heading);
     }
-    ASSERT_EQ(again.tasks().size(), instance.tasks().size());
+    ASSERT_EQ(restored.tasks().size(), instance.tasks().size());
     for (std::size_t i = 0; i < instance.tasks().size(); ++i) {
-      EXPECT_EQ(again.tasks()[i].place, instance.tasks()[i].place);
-      EXPECT_EQ(again.tasks()[i].duration, instance.tasks()[i].duration);
-      EXPECT_EQ(again.tasks()[i].agents, instance.tasks()[i].agents);
+      EXPECT_EQ(restored.tasks()[i].place, instance.tasks()[i].place);
+      EXPECT_EQ(restored.tasks()[i].duration, instance.tasks()[i].duration);
+      EXPECT_EQ(restored.tasks()[i].agents, instance.tasks()[i].agents);
     }
     EXPECT_EQ(
-        solve(again).lower_bound,
+        solve(restored).lower_bound,
         solve(Instance(instance.world(), instance.agents(), instance.tasks(), {})).lower_bound);
   }
   EXPECT_FALSE(turning.rules().following);
 }
 
-TEST(Api, InstancesAsTextWithAWorldOfTheirOwn) {
+TEST(Api, InstancesRoundTripAsTextWithAGivenWorld) {
   const Instance instance = small();
-  const Instance again =
+  const Instance restored =
       parse_instance(instance_text(instance), instance.world(), {.following = false});
-  EXPECT_EQ(instance_text(again), instance_text(instance));
+  EXPECT_EQ(instance_text(restored), instance_text(instance));
   EXPECT_THAT(instance_text(instance), Not(HasSubstr("map")));
-  EXPECT_FALSE(again.rules().following);
+  EXPECT_FALSE(restored.rules().following);
   EXPECT_THROW(parse_instance(R"({"agents": [{"id": "r", "start": [1, 1]}], "tasks": []})",
                               instance.world()),
                InputError);
 }
 
-TEST(Api, PlansFromPaths) {
+TEST(Api, PlanFromPathsFindsCostAndTasks) {
   const Instance instance(World::from_rows(kRows),
                           {{.id = "red", .start = {Cell{0, 0}}, .goal = Cell{2, 0}}},
                           {{.id = "far", .place = Cell{3, 0}, .agents = {"red"}},
                            {.id = "near", .place = Cell{1, 0}, .agents = {"red"}}});
   const std::vector<Place> path{Cell{0, 0}, Cell{1, 0}, Cell{2, 0},
-                                Cell{3, 0}, Cell{2, 0}, Cell{2, 0}};  // it waits where it rests
+                                Cell{3, 0}, Cell{2, 0}, Cell{2, 0}};  // rests at the end
   const Plan plan = plan_from_paths(instance, {path});
   EXPECT_EQ(plan.cost, 4);
   EXPECT_THAT(plan.agents[0].tasks, ElementsAre("near", "far"));
@@ -171,19 +180,19 @@ TEST(Api, PlansFromPaths) {
   EXPECT_EQ(field_of([&] { plan_from_paths(small(), {path, path}); }), "/agents");
 }
 
-TEST(Api, PlansAsFiles) {
+TEST(Api, PlansRoundTripThroughFiles) {
   const Instance instance = small();
   const Solution solution = solve(instance, {.omega = 0.5});
   TemporaryDirectory directory;
   write_plan(directory / "p.json", instance, solution);
-  const Solution again = read_plan(directory / "p.json", instance);
-  EXPECT_EQ(plan_text(instance, again), plan_text(instance, solution));
+  const Solution restored = read_plan(directory / "p.json", instance);
+  EXPECT_EQ(plan_text(instance, restored), plan_text(instance, solution));
   EXPECT_EQ(plan_text(instance, parse_plan(plan_text(instance, solution), instance)),
             plan_text(instance, solution));
-  EXPECT_EQ(again.omega, 0.5);
+  EXPECT_EQ(restored.omega, 0.5);
 }
 
-TEST(Api, WritesNoPlanThatTheCheckerRefuses) {
+TEST(Api, WritePlanRefusesInvalidPlans) {
   const Instance instance = small();
   Solution solution = solve(instance, {.omega = 0.5});
   TemporaryDirectory directory;
@@ -194,8 +203,8 @@ TEST(Api, WritesNoPlanThatTheCheckerRefuses) {
   EXPECT_FALSE(std::filesystem::exists(directory / "p.json"));
 }
 
-// A bound of plans without following is none of plans with.
-TEST(Api, ClaimsWithoutFollowingStaySo) {
+// A lower bound on plans without following does not hold for plans with following.
+TEST(Api, ClaimsWithoutFollowingKeepThatRule) {
   const Instance instance = small();
   const Instance strict(instance.world(), instance.agents(), instance.tasks(),
                         {.following = false});
@@ -206,7 +215,7 @@ TEST(Api, ClaimsWithoutFollowingStaySo) {
   EXPECT_TRUE(parse_plan(plan_text(instance, solve(instance)), instance).following);
 }
 
-TEST(Api, WhatIsWrongSaysWhere) {
+TEST(Api, InvalidArgumentNamesTheField) {
   const World world = World::from_rows(kRows);
   const auto with = [&](Agent agent) {
     return field_of([&] { Instance(world, {std::move(agent)}, {}); });
@@ -234,14 +243,16 @@ TEST(Api, WhatIsWrongSaysWhere) {
               World::roadmap({{"A", 0, 0}}, {{.from = "A", .to = "A", .steps = 3}});
             }),
             "/edges/0");
-  const auto asked = [](Options options) { return field_of([&] { solve(small(), options); }); };
-  EXPECT_EQ(asked({.omega = -1}), "/omega");
-  EXPECT_EQ(asked({.omega = std::numeric_limits<double>::quiet_NaN()}), "/omega");
-  EXPECT_EQ(asked({.time_limit = -1}), "/time_limit");
-  EXPECT_EQ(asked({.threads = 0}), "/threads");
-  EXPECT_EQ(asked({.method = "magic"}), "/method");
-  EXPECT_EQ(asked({.method = "cts-cbs-a"}), "/method");
-  EXPECT_EQ(asked({.start = Plan{}}), "/agents");
+  const auto field_of_options = [](Options options) {
+    return field_of([&] { solve(small(), options); });
+  };
+  EXPECT_EQ(field_of_options({.omega = -1}), "/omega");
+  EXPECT_EQ(field_of_options({.omega = std::numeric_limits<double>::quiet_NaN()}), "/omega");
+  EXPECT_EQ(field_of_options({.time_limit = -1}), "/time_limit");
+  EXPECT_EQ(field_of_options({.threads = 0}), "/threads");
+  EXPECT_EQ(field_of_options({.method = "magic"}), "/method");
+  EXPECT_EQ(field_of_options({.method = "cts-cbs-a"}), "/method");
+  EXPECT_EQ(field_of_options({.start = Plan{}}), "/agents");
   EXPECT_THROW(read_instance("none.cts.json"), InputError);
   EXPECT_THROW(parse_instance("{"), InputError);
   EXPECT_THROW(World::read("none.map"), InputError);
@@ -249,7 +260,7 @@ TEST(Api, WhatIsWrongSaysWhere) {
 }
 
 TEST(Api, TextsWithUnknownKeysAreRefused) {
-  const auto said = [](const std::function<void()>& act) -> std::string {
+  const auto message = [](const std::function<void()>& act) -> std::string {
     try {
       act();
     } catch (const InputError& error) {
@@ -260,18 +271,18 @@ TEST(Api, TextsWithUnknownKeysAreRefused) {
   const World world = World::from_rows({"...."});
   const std::string agent = R"({"id": "a", "start": [0, 0], "gaol": [3, 0]})";
   EXPECT_EQ(
-      said([&] { parse_instance(R"({"agents": [)" + agent + R"(], "tasks": []})", world); }),
-      "the instance: /agents/0: unknown key 'gaol'; expected 'goal', if that is what it means");
+      message([&] { parse_instance(R"({"agents": [)" + agent + R"(], "tasks": []})", world); }),
+      "the instance: /agents/0: unknown key 'gaol'; expected 'goal', if that is meant");
   std::string plan = plan_text(small(), solve(small()));
-  EXPECT_EQ(said([&] { parse_plan(plan, small()); }), "accepted");
+  EXPECT_EQ(message([&] { parse_plan(plan, small()); }), "accepted");
   plan.insert(1, R"("priority": 1, )");
   EXPECT_EQ(
-      said([&] { parse_plan(plan, small()); }),
+      message([&] { parse_plan(plan, small()); }),
       "the plan: /: unknown key 'priority'; Grove does not model priorities; expected no such "
       "key");
 }
 
-TEST(Api, DefaultsAreLimitedAndForAllCores) {
+TEST(Api, DefaultsHaveLimitsAndUseAllCores) {
   const Options options;
   EXPECT_EQ(options.omega, 0.01);
   EXPECT_EQ(options.time_limit, 180);
@@ -283,11 +294,11 @@ TEST(Api, DefaultsAreLimitedAndForAllCores) {
   EXPECT_EQ(Session::default_options().omega, options.omega);
 }
 
-TEST(Api, TellsHowItGoes) {
+TEST(Api, CallsBackOnIncumbentsAndProgress) {
   for (const double interval : {0.0, 1e9}) {
     std::stop_source stop;
     std::vector<std::int64_t> costs;
-    int told = 0;
+    int progress_calls = 0;
     Options options{.omega = 0, .stop = stop.get_token(), .progress_interval = interval};
     options.on_incumbent = [&](const Plan& plan, const Progress& progress) {
       costs.push_back(plan.cost);
@@ -295,26 +306,26 @@ TEST(Api, TellsHowItGoes) {
       EXPECT_EQ(progress.cost, plan.cost);
       if (costs.size() == 3) stop.request_stop();
     };
-    options.on_progress = [&](const Progress&) { ++told; };
-    const Solution solution = solve(crowd(), options);
+    options.on_progress = [&](const Progress&) { ++progress_calls; };
+    const Solution solution = solve(dense_instance(), options);
     ASSERT_GE(costs.size(), 3u);
     EXPECT_EQ(costs.back(), solution.plan->cost);
     EXPECT_TRUE(std::ranges::is_sorted(costs, std::greater<>()));
     if (interval > 0)
-      EXPECT_EQ(told, 2) << "at the beginning and at the end";
+      EXPECT_EQ(progress_calls, 2) << "at the beginning and at the end";
     else
-      EXPECT_GT(told, 3);
+      EXPECT_GT(progress_calls, 3);
   }
 }
 
-TEST(Api, AUsersExceptionEndsTheRunAndComesOut) {
+TEST(Api, ExceptionOfACallbackEndsTheRunAndPropagates) {
   struct Mine {};
   Options options{.omega = 0, .time_limit = 60};
   options.on_incumbent = [](const Plan&, const Progress&) { throw Mine(); };
-  EXPECT_THROW(solve(crowd(), options), Mine);
+  EXPECT_THROW(solve(dense_instance(), options), Mine);
 }
 
-TEST(Api, StopsWhenAsked) {
+TEST(Api, StopsOnRequest) {
   std::stop_source stop;
   Options options{.omega = 0, .time_limit = 120, .stop = stop.get_token(), .threads = 2};
   std::promise<void> has_plan;
@@ -325,12 +336,12 @@ TEST(Api, StopsWhenAsked) {
     has_plan.get_future().wait();
     stop.request_stop();
   });
-  const Solution solution = solve(crowd(), options);
+  const Solution solution = solve(dense_instance(), options);
   EXPECT_EQ(solution.texts.at("stopped_by"), "interrupt");
   EXPECT_NE(solution.status, Status::infeasible);
 }
 
-TEST(Api, SeveralSolvesAtOnce) {
+TEST(Api, SeveralSolvesRunConcurrently) {
   std::atomic<int> optimal = 0;
   const std::int64_t cost = solve(small()).plan->cost;
   {
@@ -344,7 +355,7 @@ TEST(Api, SeveralSolvesAtOnce) {
   EXPECT_EQ(optimal, 20);
 }
 
-TEST(Api, InfeasibleIsAnAnswer) {
+TEST(Api, SolveReportsInfeasibility) {
   const Instance instance(World::from_rows({"..@.."}),
                           {{.id = "a", .start = {Cell{0, 0}}, .goal = Cell{4, 0}}}, {});
   const Solution solution = solve(instance);
@@ -353,7 +364,7 @@ TEST(Api, InfeasibleIsAnAnswer) {
   EXPECT_FALSE(solution.gap());
 }
 
-TEST(Api, ASessionGoesOn) {
+TEST(Api, SessionAdvancesChangesAndReplans) {
   Session session(small());
   EXPECT_FALSE(session.plan());
   EXPECT_EQ(field_of([&] { session.advance(1); }), "");
@@ -376,7 +387,7 @@ TEST(Api, ASessionGoesOn) {
   EXPECT_EQ(field_of([&] { Session(small(), Plan{}); }), "/agents");
 }
 
-TEST(Api, Versions) {
+TEST(Api, VersionMatchesItsMacros) {
   EXPECT_STREQ(version(), GROVE_VERSION);
   EXPECT_EQ(std::string(GROVE_VERSION), std::to_string(GROVE_VERSION_MAJOR) + "." +
                                             std::to_string(GROVE_VERSION_MINOR) + "." +

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The low levels of published methods: where they are easily wrong; against the definition, on tiny
-// problems (GROVE_FUZZ_FACTOR multiplies their number); and on problems too large for that, where
-// they must agree with Grove's own.
+// The low levels of published methods: in cases that are easily wrong; compared with the definition
+// on tiny problems (GROVE_FUZZ_FACTOR multiplies their number); and compared with Grove's own on
+// larger problems.
 #include "baselines/low_level.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ using Outcome = PathOutcome;
 
 class Baselines : public ::testing::TestWithParam<LowLevel> {
  protected:
-  // kNever: proven that there is no path.
+  // Cost of the path, or kNever if it is proven that there is none.
   Time cost(const Instance& instance, const std::vector<Constraint>& constraints,
             const Limits& limits = Limits()) {
     const DistanceFields distances(instance);
@@ -42,34 +42,35 @@ class Baselines : public ::testing::TestWithParam<LowLevel> {
   Path path_;
 };
 
-// On the first task at time 2 the agent would be caught: the earliest arrival leads nowhere.
-TEST_P(Baselines, ArriveLateWhereArrivingEarlyIsATrap) {
+// An agent on the first task at time 2 cannot leave it in time: the earliest arrival leads to no
+// path.
+TEST_P(Baselines, ArriveLateIfAnEarlyArrivalIsATrap) {
   const Instance instance = instance_of({"....."}, {{{0, 0}, std::nullopt, {{2, 0}, {4, 0}}}});
   EXPECT_EQ(cost(instance, {{1, kNoCell, 3, 4}, {2, kNoCell, 3, 4}, {3, kNoCell, 3, 9}}), 11);
 }
 
-// The nearer end is barred later on.
-TEST_P(Baselines, DoNotRestWhereTheyWillBeBarred) {
+// The nearer end is blocked later.
+TEST_P(Baselines, DoNotRestOnACellThatIsBlockedLater) {
   const Instance instance = instance_of({"......"}, {{{1, 0}, std::nullopt, {{0, 0}, {5, 0}}}});
   EXPECT_EQ(cost(instance, {}), 6);
-  EXPECT_EQ(cost(instance, {{5, kNoCell, 9, 9}}), 9);  // the other way round
+  EXPECT_EQ(cost(instance, {{5, kNoCell, 9, 9}}), 9);  // in the reverse order
   EXPECT_EQ(cost(instance, {{5, kNoCell, 9, 9}, {0, kNoCell, 20, 20}}), 10);
   EXPECT_EQ(cost(instance, {{5, kNoCell, 9, kNever}, {0, kNoCell, 20, kNever}}), kNever);
 }
 
-TEST_P(Baselines, EndOnTheDestinationAlone) {
+TEST_P(Baselines, EndOnlyOnTheDestination) {
   const Instance instance = instance_of({"...."}, {{{0, 0}, Position{1, 0}, {{3, 0}}}});
   EXPECT_EQ(cost(instance, {}), 5);
   EXPECT_EQ(cost(instance, {{1, kNoCell, 7, 7}}), 8);
   EXPECT_EQ(cost(instance, {{0, kNoCell, 0, 0}}), kNever);
 }
 
-TEST_P(Baselines, GoNowhereWithoutTasks) {
+TEST_P(Baselines, CostNothingWithoutTasksElsewhere) {
   EXPECT_EQ(cost(instance_of({".."}, {{{0, 0}, Position{0, 0}, {}}}), {}), 0);
   EXPECT_EQ(cost(instance_of({".."}, {{{0, 0}, std::nullopt, {{0, 0}}}}), {}), 0);
 }
 
-TEST_P(Baselines, RefuseWhatTheyDoNotKnow) {
+TEST_P(Baselines, RefuseUnsupportedQueries) {
   const Instance instance = instance_of({".."}, {{{0, 0}, Position{1, 0}, {}}});
   EXPECT_THROW(cost(instance, {{1, kNoCell, 0, 5, ConstraintKind::kNoRestBy}}),
                std::invalid_argument);
@@ -83,7 +84,7 @@ TEST_P(Baselines, RefuseWhatTheyDoNotKnow) {
   EXPECT_THROW(search->find(all, {.reservations = &none}, Limits(), path_), std::invalid_argument);
 }
 
-TEST_P(Baselines, SayNothingWhenStopped) {
+TEST_P(Baselines, ReportStoppedAtALimit) {
   const Instance instance = instance_of({".."}, {{{0, 0}, Position{1, 0}, {}}});
   const DistanceFields distances(instance);
   AgentStops stops(instance, distances, 0);
@@ -94,8 +95,8 @@ TEST_P(Baselines, SayNothingWhenStopped) {
   EXPECT_EQ(search->find(goals, {}, limits, path_), Outcome::kStopped);
 }
 
-// A limit that strikes on the way proves nothing.
-TEST_P(Baselines, SayNothingWhenStoppedOnTheWay) {
+// A limit that is reached during the search proves nothing.
+TEST_P(Baselines, ReportStoppedAtALimitDuringTheSearch) {
   const Instance instance =
       instance_of(std::vector<std::string>(16, std::string(16, '.')),
                   {{{0, 0}, Position{15, 15}, {{15, 0}, {0, 15}, {8, 7}, {12, 3}}}});
@@ -117,14 +118,14 @@ TEST_P(Baselines, SayNothingWhenStoppedOnTheWay) {
   }
 }
 
-// From the last constraint on all times are one: of those the least counts.
-TEST_P(Baselines, KeepTheEarliestOfTheTimesThatAreOne) {
+// After the last constraint all times are equivalent: the least of them counts.
+TEST_P(Baselines, KeepTheEarliestOfEquivalentTimes) {
   const Instance instance = instance_of({".....", ".....", "....."},
                                         {{{3, 2}, Position{3, 1}, {{0, 1}, {3, 1}, {0, 0}}}});
   EXPECT_EQ(cost(instance, {{0, kNoCell, 5, 8}, {8, 7, 9, kNever}, {5, 10, 7, kNever}}), 13);
 }
 
-// On tiny maps, each problem made harder one constraint at a time.
+// Tiny maps; each problem is made harder one constraint at a time.
 TEST_P(Baselines, AgreeWithTheDefinition) {
   int infeasible = 0;
   const int seeds = testing::fuzz_rounds(400);
@@ -159,7 +160,7 @@ TEST_P(Baselines, AgreeWithTheDefinition) {
   EXPECT_GT(infeasible, seeds / 8);
 }
 
-// Many goals on a larger map, under constraints on the path time and again.
+// Many goals on a larger map; each further constraint blocks the path just found.
 TEST_P(Baselines, AgreeWithGrovesOwn) {
   std::mt19937 random(7);
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
@@ -177,13 +178,13 @@ TEST_P(Baselines, AgreeWithGrovesOwn) {
     const DistanceFields distances(instance);
     AgentStops stops(instance, distances, 0);
     SequenceStages goals(stops, {});
-    FreeOrderSipp own(instance.grid());
+    FreeOrderSipp free_order_sipp(instance.grid());
     const auto search = make_agent_planner(GetParam(), instance.grid());
     std::vector<Constraint> constraints;
     for (int n = 0; n < 30; ++n) {
       SCOPED_TRACE(std::to_string(round) + ", " + std::to_string(n));
       Path path;
-      const auto expected = own.find(goals, {constraints}, Limits(), path);
+      const auto expected = free_order_sipp.find(goals, {constraints}, Limits(), path);
       const Outcome outcome = search->find(goals, {constraints}, Limits(), path_);
       if (expected != Outcome::kFound) {
         EXPECT_EQ(outcome, Outcome::kInfeasible);

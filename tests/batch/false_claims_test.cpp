@@ -24,7 +24,7 @@ Row row_of_other(const std::string& method) {
   return row;
 }
 
-// Costs 105; says that it does, and that none costs less than 100.
+// Its paths cost 105. It claims this cost and a lower bound of 100.
 Row honest_row() {
   Row row = row_of_other("honest");
   row.outcome.cost = row.outcome.claimed_cost = 105;
@@ -32,7 +32,7 @@ Row honest_row() {
   return row;
 }
 
-TEST(FalseClaims, AreNotWhatMayBe) {
+TEST(FalseClaims, DoNotIncludeConsistentClaims) {
   const std::vector<Row> rows{row_of_grove(104, 104), honest_row()};
   EXPECT_TRUE(false_claims(rows).empty());
   EXPECT_TRUE(false_claims({}).empty());
@@ -41,7 +41,7 @@ TEST(FalseClaims, AreNotWhatMayBe) {
   EXPECT_TRUE(false_claims({&counts_otherwise, 1}).empty());
 }
 
-TEST(FalseClaims, AreCostsBelowThoseOfThePaths) {
+TEST(FalseClaims, IncludeCostsBelowThoseOfThePaths) {
   Row row = honest_row();
   row.outcome.claimed_cost = 104;
   EXPECT_EQ(false_claims({&row, 1}),
@@ -49,19 +49,19 @@ TEST(FalseClaims, AreCostsBelowThoseOfThePaths) {
                 {"honest", "i", "claims a cost of 104, but its own paths cost 105"}}));
 }
 
-TEST(FalseClaims, AreCostsBelowWhatIsProven) {
-  Row row = row_of_other("boaster");
+TEST(FalseClaims, IncludeCostsBelowAProvenBound) {
+  Row row = row_of_other("claimer");
   row.outcome = {.status = kClaimed, .error = "claims", .claimed_cost = 99};
   const std::vector<Row> rows{row, row_of_grove(110, 100), row_of_grove(120, 90)};
   EXPECT_EQ(false_claims(rows),
-            (std::vector<FalseClaim>{{"boaster", "i",
+            (std::vector<FalseClaim>{{"claimer", "i",
                                       "claims a cost of 99, but grove has proven that no plan "
                                       "costs less than 100"}}));
   row.outcome.claimed_cost = 100;
   EXPECT_TRUE(false_claims(std::vector<Row>{row, row_of_grove(110, 100)}).empty());
 }
 
-TEST(FalseClaims, AreBoundsAboveAPlan) {
+TEST(FalseClaims, IncludeBoundsAboveTheCostOfAPlan) {
   Row row = row_of_other("bounder");
   row.outcome = {.error = "time limit", .claimed_lower_bound = 106};
   EXPECT_EQ(false_claims(std::vector<Row>{row, honest_row(), row_of_grove(110, 100)}),
@@ -70,30 +70,30 @@ TEST(FalseClaims, AreBoundsAboveAPlan) {
                                       "costs 105"}}));
 }
 
-// Grove is no exception.
-TEST(FalseClaims, AreProofsOfGrovesOwn) {
+// Grove's own bounds are checked, too.
+TEST(FalseClaims, IncludeGrovesOwnBounds) {
   EXPECT_EQ(false_claims(std::vector<Row>{row_of_grove(110, 110), honest_row()}),
             (std::vector<FalseClaim>{{"grove", "i",
                                       "proves a lower bound of 110, but honest has a plan that "
                                       "costs 105"}}));
 }
 
-TEST(FalseClaims, AreProofsThatThereIsNoPlan) {
-  Row hopeless = solved_row("i", "grove");
-  hopeless.outcome = {.status = "infeasible"};
+TEST(FalseClaims, IncludeProofsOfInfeasibilityIfThereIsAPlan) {
+  Row infeasible = solved_row("i", "grove");
+  infeasible.outcome = {.status = "infeasible"};
   EXPECT_EQ(
-      false_claims(std::vector<Row>{hopeless, honest_row()}),
+      false_claims(std::vector<Row>{infeasible, honest_row()}),
       (std::vector<FalseClaim>{
           {"grove", "i", "proves that there is no plan, but honest has one that costs 105"}}));
-  Row boaster = row_of_other("boaster");
-  boaster.outcome = {.status = kClaimed, .error = "claims"};
-  EXPECT_EQ(false_claims(std::vector<Row>{hopeless, boaster}),
+  Row claimer = row_of_other("claimer");
+  claimer.outcome = {.status = kClaimed, .error = "claims"};
+  EXPECT_EQ(false_claims(std::vector<Row>{infeasible, claimer}),
             (std::vector<FalseClaim>{
-                {"boaster", "i", "claims a plan, but grove has proven that there is none"}}));
-  EXPECT_TRUE(false_claims({&hopeless, 1}).empty());
+                {"claimer", "i", "claims a plan, but grove has proven that there is none"}}));
+  EXPECT_TRUE(false_claims({&infeasible, 1}).empty());
 }
 
-TEST(FalseClaims, AreOfOneInstance) {
+TEST(FalseClaims, CompareRowsOfOneInstanceOnly) {
   Row other = honest_row();
   other.run.digest = "another";
   EXPECT_TRUE(false_claims(std::vector<Row>{row_of_grove(110, 110), other}).empty());
@@ -102,8 +102,8 @@ TEST(FalseClaims, AreOfOneInstance) {
   EXPECT_TRUE(false_claims(std::vector<Row>{row_of_grove(110, 110), other}).empty());
 }
 
-// Another solver's bound is a claim and no proof against anyone.
-TEST(FalseClaims, ProveNothingThemselves) {
+// Another solver's bound is only a claim; it refutes no other claim.
+TEST(FalseClaims, AreNotDerivedFromUncheckedClaims) {
   Row bounder = row_of_other("bounder");
   bounder.outcome.claimed_lower_bound = 90;
   Row cheap = row_of_other("cheap");

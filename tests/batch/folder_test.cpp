@@ -11,7 +11,7 @@
 namespace grove::detail::batch {
 namespace folder_test {
 
-TEST(Folders, AreMadeWithThoseAbove) {
+TEST(Folders, AreMadeWithTheirParents) {
   const TemporaryDirectory directory;
   make_folder(directory / "a/b");
   make_folder(directory / "a/b");
@@ -21,7 +21,7 @@ TEST(Folders, AreMadeWithThoseAbove) {
             std::string::npos);
 }
 
-TEST(FolderLocks, KeepOthersOutWhileTheyLive) {
+TEST(FolderLocks, ExcludeOtherRunsWhileHeld) {
   const TemporaryDirectory directory;
   std::optional<FolderLock> lock(directory.path());
   const auto second = [&] { return refusal([&] { FolderLock other(directory.path()); }); };

@@ -16,7 +16,7 @@ InstanceFacts facts(const std::string& id, const std::vector<AgentSpec>& agents)
                   {instance_of({"....", "...."}, agents), "x/room-32.map", {}});
 }
 
-TEST(InstanceFacts, AreOfTheInstanceAndItsName) {
+TEST(InstanceFacts, AreReadFromTheInstanceAndItsName) {
   const AgentSpec with_goal{{0, 0}, Position{3, 0}, {{1, 1}, {2, 1}}};
   const AgentSpec free{{1, 0}, std::nullopt, {{2, 0}}};
   EXPECT_EQ(facts("set/room_s12_n1_m2", {with_goal}), (InstanceFacts{"room-32", 12, 1, 2, "cts"}));
@@ -27,8 +27,8 @@ TEST(InstanceFacts, AreOfTheInstanceAndItsName) {
             (InstanceFacts{"room-32", std::nullopt, 1, 0, "mapf"}));
 }
 
-// What was a destination is one more task of an MG-MAPF instance.
-TEST(InstanceFacts, HaveTheTasksOfThePapersCell) {
+// The former destination is one more task of an MG-MAPF instance.
+TEST(InstanceFacts, TakeTheNumberOfTasksFromTheName) {
   const AgentSpec free{{1, 0}, std::nullopt, {{2, 0}, {3, 1}}};
   EXPECT_EQ(facts("room_s1_n1_m1_mg", {free}).tasks, 1);
   EXPECT_EQ(facts("room_s1_n1_m1", {free}).tasks, 1);
@@ -37,7 +37,7 @@ TEST(InstanceFacts, HaveTheTasksOfThePapersCell) {
     EXPECT_EQ(facts(other, {free}).tasks, 2) << other;
 }
 
-TEST(InstanceFacts, KnowAScenarioWhenTheySeeOne) {
+TEST(InstanceFacts, ReadTheScenarioNumberFromTheName) {
   const AgentSpec agent{{0, 0}, Position{3, 0}};
   EXPECT_EQ(facts("a_small_set_s07_n1", {agent}).scenario, 7);
   for (const char* other :
@@ -45,7 +45,7 @@ TEST(InstanceFacts, KnowAScenarioWhenTheySeeOne) {
     EXPECT_EQ(facts(other, {agent}).scenario, std::nullopt) << other;
 }
 
-TEST(InstanceFacts, KnowScenariosOfMovingAi) {
+TEST(InstanceFacts, ReadScenarioNumbersOfMovingAiNames) {
   const AgentSpec agent{{0, 0}, Position{3, 0}};
   EXPECT_EQ(facts("den312d-random-3-50", {agent}).scenario, 3);
   EXPECT_EQ(facts("scen-even/den312d-even-12", {agent}).scenario, 12);

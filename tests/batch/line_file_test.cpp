@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "batch/line_file.h"
-
 #include <gtest/gtest.h>
 
+#include "batch/result_table.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
@@ -11,7 +10,7 @@ namespace line_file_test {
 
 using Lines = std::vector<std::string_view>;
 
-TEST(LineFiles, Grow) {
+TEST(LineFiles, AreAppendedTo) {
   const TemporaryDirectory directory;
   const std::string path = directory.write("lines", "a\n");
   {
@@ -26,7 +25,7 @@ TEST(LineFiles, Grow) {
             std::string::npos);
 }
 
-TEST(LineFiles, AreReadWithoutATornLine) {
+TEST(LineFiles, AreReadWithoutATruncatedLine) {
   EXPECT_EQ(whole_lines(""), Lines());
   EXPECT_EQ(whole_lines("tor"), Lines());
   EXPECT_EQ(whole_lines("a\nb\n"), (Lines{"a", "b"}));

@@ -59,7 +59,7 @@ TEST_F(Manifests, ListScenarios) {
   EXPECT_EQ(entries[0].agents, 20);
 }
 
-TEST_F(Manifests, OfAFolderAreItsInstancesByName) {
+TEST_F(Manifests, OfAFolderListItsInstancesByName) {
   for (const char* name : {"s2/a.cts.json", "b.cts.json", "s1/z.cts.json", "s1/z.plan.json",
                            "m.map", "s1/deep/k.cts.json", "other.json"})
     add_file(name);
@@ -68,7 +68,7 @@ TEST_F(Manifests, OfAFolderAreItsInstancesByName) {
   EXPECT_EQ(ids(read_manifest(directory_ / "")), expected);
 }
 
-TEST_F(Manifests, GiveIdsThatDoNotDependOnHowTheyAreNamed) {
+TEST_F(Manifests, GiveIdsIndependentOfTheWorkingDirectory) {
   add_file("set/a.cts.json");
   add_file("other/b.cts.json");
   add_file("set/list.txt", "../other/b.cts.json\n" + directory_ / "set/a.cts.json");
@@ -81,8 +81,8 @@ TEST_F(Manifests, GiveIdsThatDoNotDependOnHowTheyAreNamed) {
   fs::current_path(before);
 }
 
-// An id is no path of the machine.
-TEST_F(Manifests, NameWhatLiesElsewhereByItsFolder) {
+// An id contains no path of the machine.
+TEST_F(Manifests, NameFilesElsewhereByTheirFolder) {
   add_file("far/away/set/b.cts.json");
   add_file("far/away/x.scen");
   add_file("far/away/m.map");
@@ -93,13 +93,13 @@ TEST_F(Manifests, NameWhatLiesElsewhereByItsFolder) {
   EXPECT_EQ(ids(read_manifest(directory_ / "lists/list.txt")), (Ids{"set/b", "c", "away/x-2"}));
 }
 
-TEST_F(Manifests, RefuseWithLineAndExpectation) {
+TEST_F(Manifests, RefuseInvalidLinesWithTheirNumber) {
   add_file("a.cts.json");
   add_file("a.json");
   add_file("x.scen");
   add_file("x.map");
-  EXPECT_EQ(refused(""), "list.txt: lists no instance; expected one path per line");
-  EXPECT_EQ(refused("# nothing\n\n"), "list.txt: lists no instance; expected one path per line");
+  EXPECT_EQ(refused(""), "list.txt: has no instance; expected one path per line");
+  EXPECT_EQ(refused("# nothing\n\n"), "list.txt: has no instance; expected one path per line");
   EXPECT_EQ(refused("a.cts.json\n\nx.map\n"),
             "list.txt: line 3: x.map is a map; expected an instance, FILE.cts.json");
   EXPECT_NE(refused("a.cts.json\nb.cts.json\n").find("list.txt: line 2: there is no file "),
@@ -120,15 +120,14 @@ TEST_F(Manifests, RefuseAnInstanceThatOccursTwice) {
   add_file("a.json");
   add_file("s/b.cts.json");
   fs::create_symlink(directory_ / "a.cts.json", directory_ / "link.cts.json");
-  EXPECT_EQ(
-      refused("a.cts.json\ns/../a.cts.json"),
-      "list.txt: line 2: is the same instance as line 1; expected each instance once, under a "
-      "name of its own");
+  EXPECT_EQ(refused("a.cts.json\ns/../a.cts.json"),
+            "list.txt: line 2: is the same instance as line 1; expected distinct instances with "
+            "distinct names");
   EXPECT_NE(refused("a.cts.json\nlink.cts.json").find("is the same instance as line 1"),
             std::string::npos);
   EXPECT_EQ(refused("s/b.cts.json\na.cts.json\na.json"),
-            "list.txt: line 3: names its files 'a', as does line 2; expected each instance once, "
-            "under a name of its own");
+            "list.txt: line 3: has the file name 'a', as has line 2; expected distinct instances "
+            "with distinct names");
 }
 
 TEST_F(Manifests, MayBeOneInstance) {
@@ -137,23 +136,23 @@ TEST_F(Manifests, MayBeOneInstance) {
   EXPECT_NE(refusal([&] { read_manifest(directory_ / "b.cts.json"); }), "accepted");
 }
 
-TEST_F(Manifests, RefuseWhatIsNoManifest) {
+TEST_F(Manifests, RefuseOtherFilesAndFolders) {
   add_file("a.json");
   EXPECT_EQ(refusal([&] { read_manifest(directory_ / "a.json"); }),
-            "a.json: is no manifest; expected a folder, or a text file with the path of an "
+            "a.json: is not a manifest; expected a folder, or a text file with the path of an "
             "instance on each line");
   EXPECT_NE(refusal([&] { read_manifest(directory_ / "none"); }).find("none: cannot be read"),
             std::string::npos);
   fs::create_directory(directory_ / "empty");
   EXPECT_EQ(refusal([&] { read_manifest(directory_ / "empty"); }),
-            "empty: holds no instance; expected *.cts.json files in it or below");
+            "empty: has no instance; expected *.cts.json files in it or below");
   add_file("odd/a\xff.cts.json");
   EXPECT_NE(refusal([&] { read_manifest(directory_ / "odd"); }).find("cannot name files"),
             std::string::npos);
 }
 
-// A digest changes with what the instance says and what its map holds, and with nothing else.
-TEST_F(Manifests, TellWhenAnInstanceHasChanged) {
+// A digest changes exactly when the contents of the instance or of its map change.
+TEST_F(Manifests, GiveADigestThatChangesWithTheInstance) {
   const std::string map = "type octile\nheight 1\nwidth 3\nmap\n...\n";
   const auto instance = [](const std::string& file, const std::string& id, int goal) {
     return R"({"map": ")" + file + R"(", "agents": [{"id": ")" + id +

@@ -18,7 +18,7 @@ class Outcomes : public ::testing::Test {
     solution_.lower_bound = 3;
     solution_.plan = Plan{3, {AgentPlan{3, {0}, path({0, 1, 2, 3})}}};
     solution_.stats.counts = {{"roots_generated", 1}, {"rtsp_calls", 2}, {"nodes_expanded", 3},
-                              {"low_level_calls", 4}, {"bypasses", 6},   {"splits_bar", 7},
+                              {"low_level_calls", 4}, {"bypasses", 6},   {"splits_vertex_edge", 7},
                               {"restarts", 0},        {"threads", 2}};
     solution_.stats.measures = {{"peak_memory_mb", 5.5}};
     solution_.stats.texts = {{"version", "grove 9"}};
@@ -35,7 +35,7 @@ class Outcomes : public ::testing::Test {
   Solution solution_;
 };
 
-TEST_F(Outcomes, SayWhatWasChecked) {
+TEST_F(Outcomes, HoldTheCheckedSolution) {
   EXPECT_EQ(outcome(), (Outcome{.status = "optimal",
                                 .solved = true,
                                 .cost = 3,
@@ -45,7 +45,7 @@ TEST_F(Outcomes, SayWhatWasChecked) {
                                 .nodes = 3,
                                 .low_level_calls = 4,
                                 .peak_memory_mb = 5.5,
-                                .counts = "bypasses=6 splits_bar=7",
+                                .counts = "bypasses=6 splits_vertex_edge=7",
                                 .version = "grove 9"}));
 }
 
@@ -60,14 +60,14 @@ TEST_F(Outcomes, CountAPlanAtALimitAsUnsolved) {
   EXPECT_EQ(outcome().lower_bound, 2);
 }
 
-TEST_F(Outcomes, CountAPlanOutsideOmegaAsSolvedIfNoLimitStruck) {
+TEST_F(Outcomes, CountAPlanOutsideOmegaAsSolvedWithoutALimit) {
   solution_.status = Status::kFeasible;
   solution_.lower_bound = 2;
   solution_.omega = Omega::infinite();
   EXPECT_TRUE(outcome().solved);
 }
 
-TEST_F(Outcomes, TakeNoPlanForAnAnswerOnlyWhereItIsOne) {
+TEST_F(Outcomes, AcceptNoPlanOnlyIfInfeasibleOrUnknown) {
   solution_.plan.reset();
   solution_.status = Status::kInfeasible;
   EXPECT_EQ(outcome().status, "infeasible");
@@ -92,18 +92,18 @@ TEST_F(Outcomes, RefuseWrongPlans) {
   solution_.plan->cost = 4;
   EXPECT_TRUE(outcome().failed());
   solution_.plan->cost = 3;
-  solution_.lower_bound = 2;  // not optimal then
+  solution_.lower_bound = 2;  // then not optimal
   EXPECT_TRUE(outcome().failed());
 }
 
-TEST_F(Outcomes, SeeWhatWasStoppedFromOutside) {
+TEST_F(Outcomes, AreInterruptedIfStoppedByAnInterrupt) {
   EXPECT_FALSE(outcome().interrupted());
   solution_.stats.texts["stopped_by"] = "interrupt";
   EXPECT_TRUE(outcome().interrupted());
   EXPECT_FALSE(outcome().solved);
 }
 
-TEST(Traces, AreTextAndBack) {
+TEST(Traces, RoundTripAsText) {
   const std::vector<TracePoint> trace{{0.25, 120, 100}, {1.5, 118, std::nullopt}, {2, 0, 0}};
   EXPECT_EQ(trace_text(trace), "0.25:120:100 1.5:118:- 2:0:0");
   EXPECT_EQ(parse_trace(trace_text(trace)), trace);
@@ -114,7 +114,7 @@ TEST(Traces, AreTextAndBack) {
     EXPECT_THROW(parse_trace(text), std::invalid_argument) << text;
 }
 
-TEST(Traces, AreThinnedOutBetweenTheirEnds) {
+TEST(Traces, KeepTheirEndsWhenThinnedOut) {
   std::vector<TracePoint> trace;
   for (int k = 0; k < 1000; ++k) trace.push_back({1.0 * k, 5000 - k, {}});
   const auto whole = trace;

@@ -8,7 +8,7 @@
 namespace grove::detail::batch {
 namespace progress_test {
 
-TEST(Estimates, AreWhatTheRestTakesAtThisPace) {
+TEST(Estimates, ExtrapolateThePresentPace) {
   const Workload work{.done = 41, .left = 94, .workers = 2, .done_s = 235, .under_way_s = 11};
   EXPECT_DOUBLE_EQ(*seconds_each(work), 6);
   EXPECT_DOUBLE_EQ(*seconds_left(work), 282);
@@ -17,13 +17,13 @@ TEST(Estimates, AreWhatTheRestTakesAtThisPace) {
   EXPECT_DOUBLE_EQ(*seconds_left(last), 6);
 }
 
-TEST(Estimates, AreNotKnownBeforeThereIsSomethingToGoBy) {
+TEST(Estimates, AreNulloptBeforeTheFirstRunIsDone) {
   EXPECT_EQ(seconds_left({.done = 0, .left = 3, .under_way_s = 9}), std::nullopt);
   EXPECT_EQ(seconds_each({}), std::nullopt);
   EXPECT_EQ(seconds_left({}), 0);
 }
 
-TEST(Durations, AreClocks) {
+TEST(Durations, AreFormattedAsClockTimes) {
   EXPECT_EQ(duration_text(0), "0:00");
   EXPECT_EQ(duration_text(-1), "0:00");
   EXPECT_EQ(duration_text(59.6), "1:00");
@@ -32,7 +32,7 @@ TEST(Durations, AreClocks) {
   EXPECT_EQ(duration_text(100 * 3600 + 62), "100:01:02");
 }
 
-TEST(Bars, StandWhereTheyFit) {
+TEST(Bars, AreShownIfTheyFit) {
   ProgressText text{1, 4, "a quarter is done"};
   EXPECT_EQ(with_bar(text, 200), "[##########" + std::string(30, '-') + "] " + text.line);
   EXPECT_EQ(with_bar(text, 34), "[###-----------] " + text.line);
@@ -60,12 +60,12 @@ std::string shown(bool terminal, const std::vector<double>& times) {
   return text;
 }
 
-TEST(Displays, DrawAgainAndAgainOnATerminal) {
+TEST(Displays, RedrawTheLineOnATerminal) {
   EXPECT_EQ(shown(true, {0, 0.1, 0.15, 5}),
             "\r[------------] 0:00\033[K\r[------------] 0:05\033[K\r[#############] end\033[K\n");
 }
 
-TEST(Displays, SayALineNowAndThenElsewhere) {
+TEST(Displays, PrintALineNowAndThenWithoutATerminal) {
   EXPECT_EQ(shown(false, {0, 1, 10, 29, 31, 32, 60, 61.5}), "0:00\n0:31\n1:02\nend\n");
 }
 

@@ -32,14 +32,14 @@ class Tables : public ::testing::Test {
   std::vector<batch::Run> runs() const { return runs_of(rows_); }
   std::string file() const { return folder_ + "/results.jsonl"; }
   std::string lines() const { return file_content(file()); }
-  // What the file holds when these rows have been appended.
+  // Contents of the file after these rows have been appended.
   std::string lines_of(const Positions& positions) const {
     std::string text;
     for (const std::size_t i : positions) text += json_line(rows_[i]) + "\n";
     return text;
   }
   ResultTable open() const { return ResultTable(folder_, what_); }
-  // An earlier command that did the runs at `done` and was then killed.
+  // An earlier command that completed the runs at `done` and was then killed.
   void run(const Positions& done) {
     ResultTable table = open();
     table.begin(runs());
@@ -49,13 +49,13 @@ class Tables : public ::testing::Test {
   std::string refused() const {
     return refusal([&] { left(); });
   }
-  // What is said when the run of row 1 is another one now.
+  // Message of the refusal when the run of row 1 is changed.
   std::string refused_after(const std::function<void(batch::Run&)>& change) {
     const batch::Run before = rows_[1].run;
     change(rows_[1].run);
-    const std::string said = refused();
+    const std::string message = refused();
     rows_[1].run = before;
-    return said;
+    return message;
   }
 
   TemporaryDirectory directory_;
@@ -66,13 +66,13 @@ class Tables : public ::testing::Test {
   TableOf what_ = TableOf::kMethods;
 };
 
-TEST_F(Tables, BeginEmpty) {
+TEST_F(Tables, AreEmptyAtFirst) {
   EXPECT_EQ(left(), (Positions{0, 1, 2, 3}));
   EXPECT_EQ(lines(), "");
   EXPECT_EQ(left(), (Positions{0, 1, 2, 3}));
 }
 
-TEST_F(Tables, GoOnWhereTheyStopped) {
+TEST_F(Tables, ResumeWhereTheyStopped) {
   run({2, 0});
   EXPECT_EQ(left(), (Positions{1, 3}));
   EXPECT_EQ(lines(), lines_of({2, 0}));
@@ -86,8 +86,8 @@ TEST_F(Tables, GoOnWhereTheyStopped) {
   EXPECT_EQ(table.find(solved_row("k", "a").run), nullptr);
 }
 
-// Wherever the last write was cut off.
-TEST_F(Tables, MendATornLine) {
+// The last write may be cut off at any byte.
+TEST_F(Tables, RemoveATruncatedLastLine) {
   run({0, 1});
   const std::string line = lines_of({1});
   for (std::size_t size = 1; size < line.size(); size += size + 29 < line.size() ? 29 : 1) {
@@ -100,16 +100,16 @@ TEST_F(Tables, MendATornLine) {
   EXPECT_EQ(lines(), lines_of({0, 3}));
 }
 
-TEST_F(Tables, RunErrorsAgain) {
+TEST_F(Tables, RepeatFailedRuns) {
   const Row good = rows_[1];
   rows_[1] = failed_row("i", "b");
   run({0, 1});
-  rows_[1] = good;  // with other limits too
+  rows_[1] = good;  // a failed run is repeated with other limits, too
   EXPECT_EQ(left(), (Positions{1, 2, 3}));
   EXPECT_EQ(lines(), lines_of({0}));
 }
 
-TEST_F(Tables, RunAgainWhatLostItsPlan) {
+TEST_F(Tables, RepeatRunsWhosePlanFileIsMissing) {
   rows_[1].plan_file = "plan";
   run({0, 1, 2, 3});
   EXPECT_EQ(left(), Positions{1});
@@ -121,8 +121,8 @@ TEST_F(Tables, RunAgainWhatLostItsPlan) {
 TEST_F(Tables, RefuseRowsOfOtherRuns) {
   run({0, 1});
   const auto expect = [&](const std::function<void(batch::Run&)>& change, const std::string& text) {
-    const std::string said = refused_after(change);
-    EXPECT_NE(said.find("another run of b on i (" + text), std::string::npos) << said;
+    const std::string message = refused_after(change);
+    EXPECT_NE(message.find("another run of b on i (" + text), std::string::npos) << message;
   };
   expect([](batch::Run& run) { run.settings.options = "--omega 0"; },
          "options '--omega 0.01' there, '--omega 0' here)");
@@ -136,7 +136,7 @@ TEST_F(Tables, RefuseRowsOfOtherRuns) {
   EXPECT_EQ(lines(), lines_of({0, 1}));
 }
 
-TEST_F(Tables, HaveARowForEachSeed) {
+TEST_F(Tables, HoldARowForEachSeed) {
   run({0, 1, 2, 3});
   rows_[1].run.settings.seed = 8;
   EXPECT_EQ(left(), Positions{1});
@@ -145,8 +145,8 @@ TEST_F(Tables, HaveARowForEachSeed) {
   EXPECT_EQ(open().rows().size(), 5U);
 }
 
-// As plans are wanted of what an instance is now.
-TEST_F(Tables, OfPlansRunAgainWhatHasChanged) {
+// A table of plans repeats the run if the instance has changed.
+TEST_F(Tables, OfPlansRepeatRunsOfChangedInstances) {
   what_ = TableOf::kPlans;
   rows_ = {solved_row("i"), solved_row("j"), solved_row("k")};
   run({0, 1});
@@ -155,8 +155,9 @@ TEST_F(Tables, OfPlansRunAgainWhatHasChanged) {
   EXPECT_EQ(lines(), lines_of({0}));
 }
 
-// And all are of the same search, also of what the command does not name.
-TEST_F(Tables, OfPlansAreOfOneSearch) {
+// All rows of a table of plans must have the same settings, also rows of instances that the command
+// does not name.
+TEST_F(Tables, OfPlansRefuseOtherSettings) {
   what_ = TableOf::kPlans;
   rows_ = {solved_row("i"), solved_row("j")};
   run({0, 1});
@@ -166,8 +167,8 @@ TEST_F(Tables, OfPlansAreOfOneSearch) {
     return refusal([&] { open().begin(others); });
   };
   EXPECT_EQ(refused_to([](Settings& settings) { settings.seed = 8; }),
-            "results.jsonl: holds a row of another run of auto on i (seed '7' there, '8' here); "
-            "expected the same, another folder, or that row deleted");
+            "results.jsonl: has a row of another run of auto on i (seed '7' there, '8' here); "
+            "expected the same run; use another folder, or delete the row");
   EXPECT_NE(refused_to([](Settings& settings) {
               settings.method = "hcbs";
             }).find("method 'auto' there, 'hcbs' here"),
@@ -183,16 +184,16 @@ TEST_F(Tables, KeepRowsThatTheCommandDoesNotName) {
   EXPECT_EQ(open().rows().size(), 3U);
 }
 
-TEST_F(Tables, RefuseLinesThatAreNoRows) {
+TEST_F(Tables, RefuseInvalidLines) {
   run({0, 1});
   std::ofstream(file(), std::ios::app) << "\nnonsense\n";
   EXPECT_TRUE(
-      refused().starts_with("results.jsonl: line 4: expected a row as this version writes "
-                            "them, another folder, or the line deleted to run it again ("))
+      refused().starts_with("results.jsonl: line 4: expected a row of this version; use another "
+                            "folder, or delete the line to repeat the run ("))
       << refused();
 }
 
-// As after putting two files together by hand.
+// As after merging two files by hand.
 TEST_F(Tables, KeepTheLastRowOfAPair) {
   run({0, 1});
   rows_[0].wall_s = 99;
@@ -210,19 +211,19 @@ TEST_F(Tables, RefuseASecondRow) {
   EXPECT_EQ(lines(), lines_of({0}));
 }
 
-TEST_F(Tables, BelongToOneRunAtATime) {
+TEST_F(Tables, AreLockedForOneRun) {
   const ResultTable table = open();
   EXPECT_EQ(refused(),
             "deep: is in use by another run; expected a folder that no other run writes to");
 }
 
-TEST_F(Tables, NeedAPlaceToWriteTo) {
+TEST_F(Tables, NeedAWritableFolder) {
   directory_.write("file", "");
   EXPECT_NE(refusal([&] { ResultTable(directory_ / "file", what_); }).find("cannot be made"),
             std::string::npos);
 }
 
-TEST_F(Tables, AreCsvInTheOrderOfTheCommand) {
+TEST_F(Tables, AreWrittenAsCsvInTheOrderOfTheCommand) {
   run({3, 1});
   const Row other = rows_[3];
   rows_.pop_back();
@@ -234,8 +235,8 @@ TEST_F(Tables, AreCsvInTheOrderOfTheCommand) {
             csv_header() + csv_line(rows_[0]) + csv_line(rows_[1]) + csv_line(other));
 }
 
-// What took the whole program down must not do so again before all others have had their turn.
-TEST_F(Tables, PutLastWhatNeverEnded) {
+// A run during which the program died is repeated only after all other runs.
+TEST_F(Tables, PutRunsThatNeverEndedLast) {
   rows_ = {solved_row("a"), solved_row("b"), solved_row("c"), solved_row("d")};
   {
     ResultTable table = open();

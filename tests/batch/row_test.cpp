@@ -27,7 +27,7 @@ Row limited_row() {
   return row;
 }
 
-// Of an instance that cannot be read.
+// Row of an instance that cannot be read.
 Row unreadable_row() {
   Row row = failed_row();
   row.facts = {};
@@ -35,7 +35,7 @@ Row unreadable_row() {
   return row;
 }
 
-TEST(Rows, ComeBackFromTheirLines) {
+TEST(Rows, RoundTripAsJsonLines) {
   for (const Row& row : {solved_row(), failed_row(), limited_row(), unreadable_row()}) {
     const std::string line = json_line(row);
     EXPECT_EQ(line.find('\n'), std::string::npos);
@@ -43,7 +43,7 @@ TEST(Rows, ComeBackFromTheirLines) {
   }
 }
 
-TEST(Rows, SayWhatFollowsFromTheRest) {
+TEST(Rows, HoldDerivedColumns) {
   const json solved = json::parse(json_line(solved_row()));
   EXPECT_EQ(solved["gap"], 0.25);
   EXPECT_EQ(solved["sqr"], 0.75);
@@ -66,7 +66,7 @@ TEST(Rows, SayWhatFollowsFromTheRest) {
     EXPECT_TRUE(unreadable[column].is_null()) << column;
 }
 
-TEST(Rows, HaveNoRatioOverNothing) {
+TEST(Rows, HaveNoRatioOverZero) {
   Row row = solved_row();
   row.outcome.cost = 3;
   row.outcome.lower_bound = 0;
@@ -76,7 +76,7 @@ TEST(Rows, HaveNoRatioOverNothing) {
   EXPECT_TRUE(json::parse(json_line(row))["sqr"].is_null());
 }
 
-TEST(Rows, AreCsvWithTheSameColumns) {
+TEST(Rows, AreWrittenAsCsvWithTheSameColumns) {
   EXPECT_EQ(csv_header(),
             "instance,method,options,map,scenario,agents,tasks,problem,omega,seed,time_limit_s,"
             "solved,status,cost,lower_bound,gap,root_cost,sqr,runtime_s,wall_s,first_plan_s,roots,"
@@ -87,7 +87,7 @@ TEST(Rows, AreCsvWithTheSameColumns) {
             "set/a_s3_n2_m4_mg,auto,'--omega 0.01,\"a, \"\"b\"\"\",3,2,4,mg,0.01,7,60.0,true,"
             "bounded,200,160,0.25,150,0.75,1.25,1.25,0.25,3,4,5,6,7.25,grove 0.1.0 (git 0123),\"a "
             "processor, 2 cores\",2026-11-30T23:59:59Z,,4,2,1.5,,0123456789abcdef,bypasses=8 "
-            "splits_bar=9,,,,,false,,,,\n");
+            "splits_vertex_edge=9,,,,,false,,,,\n");
   EXPECT_EQ(
       csv_line(failed_row()),
       "i,auto,'--omega 0.01,\"a, \"\"b\"\"\",,2,4,mg,0.01,7,60.0,false,error,,,,150,,60.0,1.25,"
@@ -99,7 +99,7 @@ TEST(Rows, AreCsvWithTheSameColumns) {
   EXPECT_NE(csv_line(limited_row()).find(",\"plans/a, \"\"b\"\".plan.json\","), std::string::npos);
 }
 
-TEST(Rows, TellWhatIsCertified) {
+TEST(Rows, HoldTheResultOfTheCertificate) {
   Row row = solved_row();
   row.outcome.certified = true;
   row.outcome.verify_s = 0.125;
@@ -110,8 +110,8 @@ TEST(Rows, TellWhatIsCertified) {
   EXPECT_EQ(parse_json_line(json_line(row)).outcome.certified, false);
 }
 
-// What another solver says comes back, in both formats.
-TEST(Rows, TellClaims) {
+// Claims of another solver round-trip in both formats.
+TEST(Rows, HoldClaimsOfOtherSolvers) {
   Row row = solved_row();
   row.solver = "lacam3";
   row.outcome.claimed_cost = 198;
@@ -121,12 +121,12 @@ TEST(Rows, TellClaims) {
   row.outcome.trace = {{0.25, 210, std::nullopt}, {1, 200, 160}};
   EXPECT_EQ(parse_json_line(json_line(row)), row);
   EXPECT_TRUE(csv_line(row).ends_with(",lacam3,198,150,0.75,true,0.25:210:- 1:200:160,,,\n"));
-  EXPECT_EQ(row.runtime_s(), 0.25);  // when it had its first plan
+  EXPECT_EQ(row.runtime_s(), 0.25);  // time of the first plan
   row.outcome.first_plan_s.reset();
   EXPECT_EQ(row.runtime_s(), row.wall_s);
   row.wall_s = 61;
   EXPECT_EQ(row.runtime_s(), 60);
-  for (const char* status : {kWrongPlan, kClaimed, kUnsuitable}) {
+  for (const char* status : {kInvalidPlan, kClaimed, kUnsupported}) {
     Row none = failed_row();
     none.outcome.status = status;
     EXPECT_EQ(parse_json_line(json_line(none)), none);
@@ -138,8 +138,8 @@ constexpr std::array<std::string_view, 10> kLater{
     "counts", "solver",    "claimed_cost", "claimed_lower_bound", "claimed_s", "anytime",
     "trace",  "certified", "verify_s",     "proof_bytes"};
 
-// Tables from before there were these are gone on with.
-TEST(Rows, NeedNoLaterColumns) {
+// Older tables without these columns can be resumed.
+TEST(Rows, AreReadWithoutLaterColumns) {
   json line = json::parse(json_line(solved_row()));
   for (const std::string_view column : kLater) line.erase(std::string(column));
   Row expected = solved_row();
@@ -147,7 +147,16 @@ TEST(Rows, NeedNoLaterColumns) {
   EXPECT_EQ(parse_json_line(line.dump()), expected);
 }
 
-TEST(Rows, HaveSecondsThatPeopleCanRead) {
+TEST(Rows, AcceptOldStatuses) {
+  Row row = failed_row();
+  for (const auto& [old, now] : {std::pair{"wrong", kInvalidPlan}, {"unsuitable", kUnsupported}}) {
+    json line = json::parse(json_line(row));
+    line["status"] = old;
+    EXPECT_EQ(parse_json_line(line.dump()).outcome.status, now);
+  }
+}
+
+TEST(Rows, RoundSecondsToReadableNumbers) {
   Row row = solved_row();
   row.wall_s = 0.00015441900177393109;
   row.outcome.first_plan_s = 1.0 / 3;
@@ -157,18 +166,17 @@ TEST(Rows, HaveSecondsThatPeopleCanRead) {
   EXPECT_EQ(found["first_plan_s"].dump(), "0.333333");
 }
 
-TEST(Rows, WithTextThatIsNoUtf8AreStillJson) {
+TEST(Rows, AreValidJsonDespiteInvalidUtf8) {
   Row row = failed_row();
   row.outcome.error = "\xff!";
   EXPECT_EQ(parse_json_line(json_line(row)).outcome.error, "\xef\xbf\xbd!");
 }
 
-TEST(Rows, RefuseWhatIsNone) {
+TEST(Rows, RefuseInvalidLines) {
   const json good = json::parse(json_line(solved_row()));
   std::vector<std::string> bad{"", "{", "[]", "3", "null", "{}"};
   for (const auto& [key, value] : good.items()) {
-    if (key == "gap" || key == "sqr" || key == "runtime_s")
-      continue;  // these follow, and are not read
+    if (key == "gap" || key == "sqr" || key == "runtime_s") continue;  // derived columns, not read
     json without = good;
     without.erase(key);
     if (std::ranges::find(kLater, key) == kLater.end()) bad.push_back(without.dump());
@@ -179,9 +187,9 @@ TEST(Rows, RefuseWhatIsNone) {
   json odd = good;
   odd["status"] = "fine";
   bad.push_back(odd.dump());
-  odd["status"] = "error";  // without one
+  odd["status"] = "error";  // but without an error text
   bad.push_back(odd.dump());
-  odd["error"] = "broken";  // but solved
+  odd["error"] = "broken";  // but `solved`
   bad.push_back(odd.dump());
   for (const std::string& line : bad)
     EXPECT_THROW(parse_json_line(line), std::invalid_argument) << line;

@@ -19,7 +19,7 @@ class Sweeps : public ::testing::Test {
   void add_map(const std::string& name, const std::string& row = "....") {
     add(name, "type octile\nheight 4\nwidth 4\nmap\n" + row + "\n....\n....\n....\n");
   }
-  // Its agents go from the left to the right, one in each row.
+  // Its agents move from left to right, one in each row.
   void add_scenario(const std::string& name, int rows, const std::string& map = "m.map") {
     std::string text = "version 1\n";
     for (int y = 0; y < rows; ++y)
@@ -62,22 +62,23 @@ TEST_F(Sweeps, TakeEachScenarioWithEachNumberOfAgents) {
   EXPECT_NE(swept.entries[0].digest, swept.entries[1].digest);
 }
 
-// As the archives unpack: maps in one folder, scenarios in another, with a path in their rows.
+// The layout of the unpacked archives: maps in one folder, scenarios in another, with a path in
+// their rows.
 TEST_F(Sweeps, FindMapsInFoldersBelow) {
   add_map("maps/m.map");
   add_scenario("scen-random/m-random-1.scen", 2, "maps/m.map");
   EXPECT_EQ(ids(read({2})), Ids{"scen-random/m-random-1-2"});
 }
 
-TEST_F(Sweeps, TakeTheMapBesideTheScenario) {
+TEST_F(Sweeps, PreferTheMapBesideTheScenario) {
   add_map("a/m.map", "...@");
   add_map("b/m.map");
   add_scenario("b/s.scen", 1);
   EXPECT_EQ(fs::path(read({1}).entries[0].map).parent_path().filename(), "b");
   add_scenario("c/s.scen", 1);
   EXPECT_EQ(refused({1}),
-            "s.scen: line 2: there are 2 maps m.map there; expected it beside the scenario, or "
-            "once in the folder of the scenarios or below");
+            "s.scen: line 2: there are 2 maps m.map there; expected one beside the scenario, or "
+            "exactly one in the folder of the scenarios or below");
 }
 
 TEST_F(Sweeps, TakeOneScenario) {
@@ -87,7 +88,7 @@ TEST_F(Sweeps, TakeOneScenario) {
   EXPECT_EQ(ids(read({1, 2}, "*", "one.scen")), (Ids{"one-1", "one-2"}));
 }
 
-TEST_F(Sweeps, LeaveOutWhatThereIsNot) {
+TEST_F(Sweeps, SkipScenariosWithTooFewRows) {
   add_map("m.map");
   add_scenario("long.scen", 4);
   add_scenario("short.scen", 2);
@@ -97,20 +98,21 @@ TEST_F(Sweeps, LeaveOutWhatThereIsNot) {
   EXPECT_NE(refused({5}).find("no scenario has 5 rows; expected fewer agents"), std::string::npos);
 }
 
-TEST_F(Sweeps, RefuseWhatIsNotThere) {
+TEST_F(Sweeps, RefuseMissingScenariosAndMaps) {
   add_map("m.map");
-  EXPECT_NE(refused({1}).find("holds no scenario '*.scen'; expected some"), std::string::npos);
+  EXPECT_NE(refused({1}).find("has no scenario '*.scen'; expected at least one"),
+            std::string::npos);
   add_scenario("s.scen", 1, "other.map");
   EXPECT_EQ(refused({1}),
-            "s.scen: line 2: there is no map other.map there; expected it beside the scenario, or "
-            "once in the folder of the scenarios or below");
-  EXPECT_NE(refused({1}, "t*").find("holds no scenario 't*.scen'"), std::string::npos);
+            "s.scen: line 2: there is no map other.map there; expected one beside the scenario, or "
+            "exactly one in the folder of the scenarios or below");
+  EXPECT_NE(refused({1}, "t*").find("has no scenario 't*.scen'"), std::string::npos);
   add_scenario("empty.scen", 0);
-  EXPECT_EQ(refused({1}, "empty"), "empty.scen: has no rows; expected agents");
+  EXPECT_EQ(refused({1}, "empty"), "empty.scen: has no rows; expected at least one");
   EXPECT_NE(refused({1}, "*", "nowhere"), "accepted");
 }
 
-TEST_F(Sweeps, KnowWhereTheyAreNeeded) {
+TEST_F(Sweeps, AreDetectedInFoldersAndFiles) {
   add_map("m.map");
   EXPECT_FALSE(holds_scenarios(directory_ / "."));
   add_scenario("s.scen", 1);
@@ -121,7 +123,7 @@ TEST_F(Sweeps, KnowWhereTheyAreNeeded) {
   EXPECT_FALSE(holds_scenarios(directory_ / "list.txt"));
 }
 
-TEST(ScenarioNames, Match) {
+TEST(ScenarioNames, MatchPatternsWithStars) {
   for (const char* pattern : {"*", "a-1", "a*", "*1", "a*1", "*-*", "a-1*", "**", "*a*-*1*"})
     EXPECT_TRUE(matches("a-1", pattern)) << pattern;
   for (const char* pattern : {"", "a", "-1", "b*", "*2", "a-11", "a*1*1"})

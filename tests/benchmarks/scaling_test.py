@@ -31,26 +31,26 @@ class Results(unittest.TestCase):
     def test_the_pages_show_what_the_files_say(self):
         pages = [path.read_text(encoding="utf-8") for path in (RESULTS / "README.md", BENCHMARKS / "tried-and-rejected.md")]
         rows = {name: scaling.read(RESULTS / f"{name}.csv")
-                for name in ("simulated", "bound", "hours", "earlier", "weak", "compared", "processor")}
+                for name in ("simulated", "bound", "long", "earlier", "weak", "compared", "processor")}
         for table in (scaling.simulated_table(rows["simulated"], rows["bound"]),
-                      scaling.simulated_table(rows["hours"], []), scaling.weak_table(rows["weak"]),
+                      scaling.simulated_table(rows["long"], []), scaling.weak_table(rows["weak"]),
                       scaling.compared_table(rows["compared"]), scaling.processor_table(rows["processor"])):
             self.assertIn(table, pages[0])
-        self.assertIn(scaling.earlier_table(rows["earlier"], rows["simulated"] + rows["hours"]), pages[1])
+        self.assertIn(scaling.earlier_table(rows["earlier"], rows["simulated"] + rows["long"]), pages[1])
 
 
 class Hours(unittest.TestCase):
     """Each has a plan to begin with, of the cost that its page says."""
 
     def test_plans_are_of_the_instances_that_are_drawn(self):
-        page = (BENCHMARKS / "data/hours/README.md").read_text(encoding="utf-8")
-        self.assertEqual({str(case) for case in scaling.HOURS},
+        page = (BENCHMARKS / "data/long/README.md").read_text(encoding="utf-8")
+        self.assertEqual({str(case) for case in scaling.LONG},
                          {file.name.removesuffix(".plan.json")
-                          for file in (BENCHMARKS / "data/hours").glob("*.plan.json")})
-        for case in scaling.HOURS:
+                          for file in (BENCHMARKS / "data/long").glob("*.plan.json")})
+        for case in scaling.LONG:
             with self.subTest(case=str(case)), tempfile.TemporaryDirectory() as name:
                 instance = instance_arguments(GROVE, None, case, name)
-                plan = BENCHMARKS / f"data/hours/{case}.plan.json"
+                plan = BENCHMARKS / f"data/long/{case}.plan.json"
                 run([GROVE, "check", *instance, plan])
                 cost = json.loads(plan.read_text(encoding="utf-8"))["cost"]
                 self.assertRegex(page, rf"\| {case} \|.*\| {cost:,} \|")

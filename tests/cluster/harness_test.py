@@ -65,7 +65,7 @@ class WhatRuns(unittest.TestCase):
             done = run("unshare", "--mount", "sh", "-c", f"cp -a /etc {folder} && rm {folder}/etc/hosts && "
                        f"mount --bind {folder}/etc /etc && exec {LOCAL_SLURM} true")
         self.assertEqual(done.returncode, 77, done.stderr)
-        self.assertIn("cannot be done here: there is no /etc/hosts", done.stderr)
+        self.assertIn("not possible on this machine: /etc/hosts is missing", done.stderr)
 
 
 class WhatStays(unittest.TestCase):

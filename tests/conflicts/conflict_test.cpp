@@ -24,7 +24,7 @@ Cell at(const Path& path, Time t) {
   return path[std::min<std::size_t>(static_cast<std::size_t>(t), path.size() - 1)];
 }
 
-// Do agents a and b collide at time t? Straight from the definition.
+// Do agents a and b collide at time t? By definition.
 bool collide(const Path& a, const Path& b, Time t, bool may_follow = true) {
   if (at(a, t) == at(b, t)) return true;
   const auto enters = [&](const Path& one, const Path& other) {
@@ -34,12 +34,12 @@ bool collide(const Path& a, const Path& b, Time t, bool may_follow = true) {
   return t > 0 && at(a, t) == at(b, t - 1) && at(b, t) == at(a, t - 1);
 }
 
-// Every time at which a pair collides, but for those at which both stand where they stood together.
-using Meetings = std::multiset<std::tuple<Time, AgentIndex, AgentIndex>>;
+// All times at which a pair of agents collides, except times at which both wait.
+using Collisions = std::multiset<std::tuple<Time, AgentIndex, AgentIndex>>;
 
-Meetings meetings(const std::vector<Path>& paths, const std::vector<AgentIndex>& agents,
-                  bool may_follow) {
-  Meetings all;
+Collisions collisions(const std::vector<Path>& paths, const std::vector<AgentIndex>& agents,
+                      bool may_follow) {
+  Collisions all;
   for (Time t = 0; t < 50; ++t)
     for (AgentIndex a : agents)
       for (AgentIndex b : agents)
@@ -58,7 +58,7 @@ std::vector<Conflict> conflicts_of(ConflictFinder& finder, const std::vector<Pat
   return conflicts;
 }
 
-TEST(ConflictFinder, SeesVertexConflicts) {
+TEST(ConflictFinder, FindsVertexConflicts) {
   const Grid grid = open_grid(3, 1);
   ConflictFinder finder(grid);
   const auto conflicts = conflicts_of(finder, std::vector<Path>{{0, 1, 2}, {2, 1, 0}});
@@ -69,7 +69,7 @@ TEST(ConflictFinder, SeesVertexConflicts) {
   EXPECT_EQ(conflict->time, 1);
 }
 
-TEST(ConflictFinder, SeesSwaps) {
+TEST(ConflictFinder, FindsSwaps) {
   const Grid grid = open_grid(4, 1);
   ConflictFinder finder(grid);
   const auto conflicts = conflicts_of(finder, std::vector<Path>{{0, 1, 2}, {3, 2, 1}});
@@ -81,7 +81,7 @@ TEST(ConflictFinder, SeesSwaps) {
   EXPECT_EQ(conflict->cell, 2);
 }
 
-TEST(ConflictFinder, SeesAgentsThatRestInTheWay) {
+TEST(ConflictFinder, FindsConflictsWithRestingAgents) {
   const Grid grid = open_grid(4, 1);
   ConflictFinder finder(grid);
   const auto conflicts = conflicts_of(finder, std::vector<Path>{{2}, {0, 1, 2, 3}});
@@ -96,11 +96,12 @@ TEST(ConflictFinder, AllowsFollowingAndRotation) {
   EXPECT_TRUE(conflicts_of(finder, std::vector<Path>{{0, 1}, {1, 3}, {3, 2}, {2, 0}}).empty());
 }
 
-TEST(ConflictFinder, SeesWhoFollowsWhereThatIsForbidden) {
+TEST(ConflictFinder, FindsFollowingConflictsIfForbidden) {
   const Grid grid = open_grid(4, 1);
   ConflictFinder finder(grid, false);
   const auto conflicts = conflicts_of(finder, std::vector<Path>{{1, 2, 3}, {0, 0, 1, 2}, {0}});
-  // Agent 1 enters 2 at 3, when agent 0 is long gone; 0 leaves 1 at 1 and 1 enters it at 2.
+  // Agent 1 does not follow agent 0: it enters cell 1 at 2, and agent 0 left it at 1. It enters
+  // cell 2 at 3, when agent 0 has left it, too.
   std::vector<Conflict> following;
   for (const Conflict& c : conflicts)
     if (c.is_following()) following.push_back(c);
@@ -120,7 +121,7 @@ TEST(ConflictFinder, SeesWhoFollowsWhereThatIsForbidden) {
 class RandomPaths : public ::testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(MayFollow, RandomPaths, ::testing::Bool());
 
-TEST_P(RandomPaths, CollisionsAreFoundAndSplitLosesNone) {
+TEST_P(RandomPaths, CollisionsAreFoundAndSplitsAreComplete) {
   const Grid grid = open_grid(5, 4);
   std::mt19937 random(7);
   ConflictFinder finder(grid, GetParam());
@@ -140,17 +141,17 @@ TEST_P(RandomPaths, CollisionsAreFoundAndSplitLosesNone) {
     }
     std::vector<Conflict> conflicts;
     finder.all(paths, agents, conflicts);
-    Meetings found;
+    Collisions found;
     for (const Conflict& c : conflicts) found.emplace(c.time, c.first, c.second);
-    ASSERT_EQ(found, meetings(paths, agents, GetParam()));
+    ASSERT_EQ(found, collisions(paths, agents, GetParam()));
     ASSERT_TRUE(std::ranges::is_sorted(conflicts, {}, &Conflict::time));
     for (const Conflict& conflict : conflicts) {
       ++with_conflict;
-      // Both colliding paths break their constraint: each child must replan.
+      // Both colliding paths violate their constraint, so each child must replan.
       const Split branches = split(conflict);
       for (const AgentConstraint& branch : branches)
         EXPECT_FALSE(satisfies(grid, paths[branch.agent], branch.constraint));
-      // Any two paths that do not collide there obey at least one of the two.
+      // Any two paths that do not collide there satisfy at least one of the two.
       for (const Path& a : paths)
         for (const Path& b : paths)
           EXPECT_TRUE(collide(a, b, conflict.time, GetParam()) ||

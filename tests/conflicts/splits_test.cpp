@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A split must lose no pair of paths that do not collide, and each of its sides must send somebody
-// another way.
+// Target and corridor splits. Each collision-free pair of paths must satisfy a branch of the split,
+// and the colliding pair must violate both branches.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -15,7 +15,7 @@ namespace splits_test {
 
 using testing::satisfies;
 
-// Walks that like to go on as they went, so that they pass corridors.
+// A random walk that seldom turns back, so that it passes through corridors.
 Path random_walk(const Grid& grid, std::mt19937& random) {
   Path path;
   do path = {static_cast<Cell>(random() % grid.cell_count())};
@@ -33,17 +33,18 @@ Path random_walk(const Grid& grid, std::mt19937& random) {
   return path;
 }
 
-// Do both paths obey everything that one side of the split demands of them?
-bool meets(const Grid& grid, const AgentConstraint& side, const std::array<Path, 2>& paths) {
+// Do both paths satisfy the constraints of one branch of the split?
+bool satisfies_branch(const Grid& grid, const AgentConstraint& branch,
+                      const std::array<Path, 2>& paths) {
   for (AgentIndex agent : {0, 1})
-    if (const auto demand = constraint_on(agent, side))
-      if (!satisfies(grid, paths[agent], *demand)) return false;
+    if (const auto constraint = constraint_on(agent, branch))
+      if (!satisfies(grid, paths[agent], *constraint)) return false;
   return true;
 }
 
 class SplitsTest : public ::testing::TestWithParam<std::vector<std::string>> {};
 
-TEST_P(SplitsTest, LoseNoCollisionFreePairAndChangeBothSides) {
+TEST_P(SplitsTest, KeepCollisionFreePairsAndExcludeCollision) {
   const Instance instance = testing::instance_of(GetParam(), {{{0, 0}, Position{0, 0}}});
   const Grid& grid = instance.grid();
   const Corridors corridors(grid);
@@ -54,30 +55,32 @@ TEST_P(SplitsTest, LoseNoCollisionFreePairAndChangeBothSides) {
     for (Path& path : pair) path = random_walk(grid, random);
 
   constexpr std::array<AgentIndex, 2> kBoth{0, 1};
-  std::vector<std::array<Path, 2>> apart;
+  std::vector<std::array<Path, 2>> collision_free;
   std::vector<Split> splits;
   std::vector<Conflict> conflicts;
   int by_target = 0;
-  int by_traversal = 0;
+  int by_corridor = 0;
   for (const auto& pair : pairs) {
     finder.all(pair, kBoth, conflicts);
-    if (conflicts.empty()) apart.push_back(pair);
+    if (conflicts.empty()) collision_free.push_back(pair);
     for (const Conflict& conflict : conflicts)
       for (const auto& split : {target_split(conflict, pair, grid, corridors),
                                 corridor_split(conflict, pair, grid, corridors)})
         if (split) {
           const bool target = (*split)[0].constraint.kind == ConstraintKind::kNoRestBy;
-          ++(target ? by_target : by_traversal);
-          for (const AgentConstraint& side : *split) EXPECT_FALSE(meets(grid, side, pair));
+          ++(target ? by_target : by_corridor);
+          for (const AgentConstraint& branch : *split)
+            EXPECT_FALSE(satisfies_branch(grid, branch, pair));
           splits.push_back(*split);
         }
   }
   for (std::size_t i = 0; i < splits.size(); i += 1 + splits.size() / 400)
-    for (const auto& pair : apart)
-      EXPECT_TRUE(meets(grid, splits[i][0], pair) || meets(grid, splits[i][1], pair));
-  EXPECT_GT(apart.size(), 500u);
+    for (const auto& pair : collision_free)
+      EXPECT_TRUE(satisfies_branch(grid, splits[i][0], pair) ||
+                  satisfies_branch(grid, splits[i][1], pair));
+  EXPECT_GT(collision_free.size(), 500u);
   EXPECT_GT(by_target, 100);
-  EXPECT_GT(by_traversal, 20);
+  EXPECT_GT(by_corridor, 20);
 }
 
 INSTANTIATE_TEST_SUITE_P(Maps, SplitsTest,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is proven and found, whoever is at work at the moment it is asked.
+// Global bounds and incumbent under concurrent calls of workers.
 #include "engine/central_bounds.h"
 
 #include <gtest/gtest.h>
@@ -14,12 +14,12 @@
 #include "tests/support/clocks.h"
 
 namespace grove::detail {
-namespace central_ledger_test {
+namespace central_bounds_test {
 
-// Nodes of which is known what the test says.
-struct ToldNodes : LiveNodes {
+// Live nodes with the bounds that the test sets.
+struct ScriptedNodes : LiveNodes {
   Cost bound() const override {
-    if (meanwhile) meanwhile();
+    if (when_read) when_read();
     return least;
   }
   Cost evicted_bound() const override { return kInfiniteCost; }
@@ -30,31 +30,31 @@ struct ToldNodes : LiveNodes {
   void restart(std::span<const NodePtr>, Cost) override {}
 
   Cost least = 8;
-  std::function<void()> meanwhile;  // what others do while the bound is read
+  std::function<void()> when_read;  // other workers' calls while the bound is read
   std::function<void()> when_pruned = [] {};
   std::vector<Cost> pruned;
 };
 
-using Heard = std::tuple<RunEvent, Cost, std::optional<Cost>>;  // lower bound, incumbent
+using Event = std::tuple<RunEvent, Cost, std::optional<Cost>>;  // lower bound, incumbent
 
 class Listener : public RunObserver {
  public:
   void on_event(RunEvent event, const Progress& progress) override {
-    heard.emplace_back(event, progress.lower_bound, progress.incumbent);
+    events.emplace_back(event, progress.lower_bound, progress.incumbent);
   }
   void on_pruned(Cost cost) override { pruned = cost; }
   void on_incumbent(const Plan& plan, PlanSource, const Progress&) override {
-    EXPECT_EQ(pruned, plan.cost) << "said before";
+    EXPECT_EQ(pruned, plan.cost) << "on_pruned() comes first";
     incumbents.push_back(plan.cost);
   }
-  std::vector<Heard> heard;
+  std::vector<Event> events;
   std::vector<Cost> incumbents;
   Cost pruned = -1;
 };
 
-class CentralLedgerTest : public ::testing::Test {
+class CentralBoundsTest : public ::testing::Test {
  protected:
-  // The first one waits a step, the second one steps aside; or stays there for longer.
+  // Agent 0 waits one step and agent 1 steps aside, where it stays `later` further steps.
   static Plan plan(int later = 0) {
     Plan plan{11 + later, {{5, {}, {0, 0, 1, 2, 3, 4}}, {6 + later, {}, {4, 3, 2, 7, 2, 1, 0}}}};
     plan.agents[1].path.insert(plan.agents[1].path.begin() + 4, static_cast<std::size_t>(later), 7);
@@ -63,137 +63,138 @@ class CentralLedgerTest : public ::testing::Test {
 
   Instance instance_ = testing::two_in_a_bay();
   Limits limits_;
-  ToldNodes nodes_;
+  ScriptedNodes nodes_;
   Listener listener_;
-  RunEvents announcements_{
+  RunEvents run_events_{
       listener_, [this] {
-        return Progress{0, 0, 0, ledger_.lower_bound(), ledger_.gate().incumbent_cost()};
+        return Progress{0, 0, 0, bounds_.lower_bound(), bounds_.global_bounds().incumbent_cost()};
       }};
-  CentralBounds ledger_{instance_, Omega(), limits_, nodes_, announcements_, 5};
+  CentralBounds bounds_{instance_, Omega(), limits_, nodes_, run_events_, 5};
 };
 
-TEST_F(CentralLedgerTest, TheBoundIsThatOfNodesAndTreesAndNeverFalls) {
-  ledger_.nodes_changed();
-  EXPECT_EQ(ledger_.lower_bound(), 5);
-  ledger_.expect_trees_from(9);
-  ledger_.nodes_changed();
-  EXPECT_EQ(ledger_.lower_bound(), 8);
+TEST_F(CentralBoundsTest, BoundCoversNodesAndTreesAndNeverFalls) {
+  bounds_.nodes_changed();
+  EXPECT_EQ(bounds_.lower_bound(), 5);
+  bounds_.expect_trees_from(9);
+  bounds_.nodes_changed();
+  EXPECT_EQ(bounds_.lower_bound(), 8);
   nodes_.least = 7;
-  ledger_.nodes_changed();
-  EXPECT_EQ(ledger_.lower_bound(), 8);
+  bounds_.nodes_changed();
+  EXPECT_EQ(bounds_.lower_bound(), 8);
   nodes_.least = kInfiniteCost;
-  ledger_.nodes_changed();
-  EXPECT_EQ(ledger_.lower_bound(), 9);
-  EXPECT_FALSE(ledger_.over());
-  ledger_.expect_trees_from(kInfiniteCost);
-  ledger_.nodes_changed();
-  EXPECT_TRUE(ledger_.over());
-  EXPECT_EQ(listener_.heard, (std::vector<Heard>{{RunEvent::kBound, 5, std::nullopt},
-                                                 {RunEvent::kBound, 8, std::nullopt},
-                                                 {RunEvent::kBound, 9, std::nullopt}}));
+  bounds_.nodes_changed();
+  EXPECT_EQ(bounds_.lower_bound(), 9);
+  EXPECT_FALSE(bounds_.over());
+  bounds_.expect_trees_from(kInfiniteCost);
+  bounds_.nodes_changed();
+  EXPECT_TRUE(bounds_.over());
+  EXPECT_EQ(listener_.events, (std::vector<Event>{{RunEvent::kBound, 5, std::nullopt},
+                                                  {RunEvent::kBound, 8, std::nullopt},
+                                                  {RunEvent::kBound, 9, std::nullopt}}));
 }
 
-// It holds of all plans, whatever the nodes say.
-TEST_F(CentralLedgerTest, WhatIsProvenBesideTheTreesCounts) {
-  ledger_.nodes_changed();
-  ledger_.prove(4, BoundSource::kJointSearch);
-  EXPECT_EQ(ledger_.lower_bound(), 5);
-  ledger_.prove(7, BoundSource::kLagrangian);
-  EXPECT_EQ(ledger_.lower_bound(), 7);
-  ledger_.nodes_changed();
-  EXPECT_EQ(ledger_.lower_bound(), 7);
-  ledger_.expect_trees_from(9);
-  ledger_.nodes_changed();
-  EXPECT_EQ(ledger_.lower_bound(), 8);
-  EXPECT_FALSE(ledger_.over());
-  EXPECT_FALSE(ledger_.has_no_joint_plan());
-  ledger_.prove(kInfiniteCost, BoundSource::kJointSearch);
-  EXPECT_TRUE(ledger_.over());
-  EXPECT_TRUE(ledger_.gate().proven_infeasible());
-  EXPECT_TRUE(ledger_.has_no_joint_plan());
+// A bound proven outside the tree search holds for all plans, whatever the nodes' bound.
+TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreeSearchCounts) {
+  bounds_.nodes_changed();
+  bounds_.prove(4, BoundSource::kJointSearch);
+  EXPECT_EQ(bounds_.lower_bound(), 5);
+  bounds_.prove(7, BoundSource::kLagrangian);
+  EXPECT_EQ(bounds_.lower_bound(), 7);
+  bounds_.nodes_changed();
+  EXPECT_EQ(bounds_.lower_bound(), 7);
+  bounds_.expect_trees_from(9);
+  bounds_.nodes_changed();
+  EXPECT_EQ(bounds_.lower_bound(), 8);
+  EXPECT_FALSE(bounds_.over());
+  EXPECT_FALSE(bounds_.has_no_joint_plan());
+  bounds_.prove(kInfiniteCost, BoundSource::kJointSearch);
+  EXPECT_TRUE(bounds_.over());
+  EXPECT_TRUE(bounds_.global_bounds().proven_infeasible());
+  EXPECT_TRUE(bounds_.has_no_joint_plan());
 }
 
-// With a plan, that there is no better one.
-TEST_F(CentralLedgerTest, WhatIsProvenBesideTheTreesMayCloseAPlan) {
-  ledger_.post(plan(), PlanSource::kStart);
-  ledger_.prove(kInfiniteCost, BoundSource::kJointSearch);
-  EXPECT_TRUE(ledger_.over());
-  EXPECT_EQ(ledger_.lower_bound(), plan().cost);
-  EXPECT_FALSE(ledger_.gate().proven_infeasible());
-  EXPECT_FALSE(ledger_.has_no_joint_plan());
+// With a plan it proves that no plan is better.
+TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreeSearchMayCloseTheGap) {
+  bounds_.post(plan(), PlanSource::kStart);
+  bounds_.prove(kInfiniteCost, BoundSource::kJointSearch);
+  EXPECT_TRUE(bounds_.over());
+  EXPECT_EQ(bounds_.lower_bound(), plan().cost);
+  EXPECT_FALSE(bounds_.global_bounds().proven_infeasible());
+  EXPECT_FALSE(bounds_.has_no_joint_plan());
 }
 
-// That the trees hold no plan is no finding of who proves less beside them.
-TEST_F(CentralLedgerTest, WhoProvesLessIsNotTheReasonThatThereIsNoPlan) {
+// If the trees hold no plan, a weaker bound proven outside the tree search is not the reason.
+TEST_F(CentralBoundsTest, WeakerBoundIsNotTheReasonForInfeasibility) {
   nodes_.least = kInfiniteCost;
-  ledger_.expect_trees_from(kInfiniteCost);
-  ledger_.nodes_changed();
-  ASSERT_TRUE(ledger_.gate().proven_infeasible());
-  ledger_.prove(7, BoundSource::kLagrangian);
-  EXPECT_FALSE(ledger_.has_no_joint_plan());
+  bounds_.expect_trees_from(kInfiniteCost);
+  bounds_.nodes_changed();
+  ASSERT_TRUE(bounds_.global_bounds().proven_infeasible());
+  bounds_.prove(7, BoundSource::kLagrangian);
+  EXPECT_FALSE(bounds_.has_no_joint_plan());
 }
 
-// Another worker pushes the last tree's root and says so, just after the nodes were looked at.
-TEST_F(CentralLedgerTest, ATreeThatComesMeanwhileIsNotOverlooked) {
+// Another worker pushes the root of the last tree and reports it just after the nodes' bound was
+// read.
+TEST_F(CentralBoundsTest, TreeAddedWhileTheBoundIsReadIsCounted) {
   nodes_.least = kInfiniteCost;
-  nodes_.meanwhile = [&] { ledger_.expect_trees_from(kInfiniteCost); };
-  ledger_.nodes_changed();
-  EXPECT_EQ(ledger_.lower_bound(), 5);
-  EXPECT_FALSE(ledger_.over());
+  nodes_.when_read = [&] { bounds_.expect_trees_from(kInfiniteCost); };
+  bounds_.nodes_changed();
+  EXPECT_EQ(bounds_.lower_bound(), 5);
+  EXPECT_FALSE(bounds_.over());
 }
 
-TEST_F(CentralLedgerTest, APlanIsInTheGateBeforeAnybodyPrunesByIt) {
-  nodes_.when_pruned = [&] { EXPECT_EQ(ledger_.cutoff(), nodes_.pruned.back()); };
-  EXPECT_EQ(ledger_.cutoff(), kInfiniteCost);
-  ledger_.post(plan(2), PlanSource::kPrioritizedPlanning);
-  ledger_.post(plan(3), PlanSource::kPrioritizedPlanning);
-  ledger_.post(plan(), PlanSource::kTree);
+TEST_F(CentralBoundsTest, PlanIsPostedBeforeNodesArePrunedByIt) {
+  nodes_.when_pruned = [&] { EXPECT_EQ(bounds_.cutoff(), nodes_.pruned.back()); };
+  EXPECT_EQ(bounds_.cutoff(), kInfiniteCost);
+  bounds_.post(plan(2), PlanSource::kPrioritizedPlanning);
+  bounds_.post(plan(3), PlanSource::kPrioritizedPlanning);
+  bounds_.post(plan(), PlanSource::kTree);
   EXPECT_EQ(nodes_.pruned, (std::vector<Cost>{13, 11}));
   EXPECT_EQ(listener_.incumbents, (std::vector<Cost>{13, 11}));
-  EXPECT_EQ(listener_.heard,
-            (std::vector<Heard>{{RunEvent::kIncumbent, 0, 13}, {RunEvent::kIncumbent, 0, 11}}));
+  EXPECT_EQ(listener_.events,
+            (std::vector<Event>{{RunEvent::kIncumbent, 0, 13}, {RunEvent::kIncumbent, 0, 11}}));
 }
 
-TEST_F(CentralLedgerTest, AWrongPlanIsRefused) {
+TEST_F(CentralBoundsTest, InvalidPlanIsRefused) {
   Plan wrong = plan();
-  wrong.agents[1].path[3] = 2;  // where the first one is
-  EXPECT_THROW(ledger_.post(wrong, PlanSource::kTree), std::logic_error);
+  wrong.agents[1].path[3] = 2;  // where agent 0 is
+  EXPECT_THROW(bounds_.post(wrong, PlanSource::kTree), std::logic_error);
   EXPECT_TRUE(nodes_.pruned.empty());
-  EXPECT_EQ(ledger_.cutoff(), kInfiniteCost);
+  EXPECT_EQ(bounds_.cutoff(), kInfiniteCost);
 }
 
-TEST_F(CentralLedgerTest, GivesThePlanToThoseWhoHaveAWorseOne) {
-  EXPECT_FALSE(ledger_.plan_below(kInfiniteCost));
-  ledger_.post(plan(), PlanSource::kTree);
-  EXPECT_FALSE(ledger_.plan_below(11));
-  ASSERT_TRUE(ledger_.plan_below(12));
-  EXPECT_EQ(ledger_.plan_below(12)->cost, 11);
+TEST_F(CentralBoundsTest, PlanBelowReturnsOnlyACheaperPlan) {
+  EXPECT_FALSE(bounds_.plan_below(kInfiniteCost));
+  bounds_.post(plan(), PlanSource::kTree);
+  EXPECT_FALSE(bounds_.plan_below(11));
+  ASSERT_TRUE(bounds_.plan_below(12));
+  EXPECT_EQ(bounds_.plan_below(12)->cost, 11);
 }
 
-TEST_F(CentralLedgerTest, IsOverWhenTheGateOrTheLimitsSaySoOrNothingIsLeft) {
-  ledger_.post(plan(), PlanSource::kTree);
-  EXPECT_FALSE(ledger_.over());
+TEST_F(CentralBoundsTest, IsOverIfOptimalOrEndedOrAtALimit) {
+  bounds_.post(plan(), PlanSource::kTree);
+  EXPECT_FALSE(bounds_.over());
   nodes_.least = 11;
-  ledger_.expect_trees_from(11);
-  ledger_.nodes_changed();
-  EXPECT_TRUE(ledger_.over());
+  bounds_.expect_trees_from(11);
+  bounds_.nodes_changed();
+  EXPECT_TRUE(bounds_.over());
 
-  CentralBounds given_up(instance_, Omega(), limits_, nodes_, announcements_, 5);
-  EXPECT_FALSE(given_up.over());
-  given_up.end();
-  EXPECT_TRUE(given_up.over());
+  CentralBounds ended(instance_, Omega(), limits_, nodes_, run_events_, 5);
+  EXPECT_FALSE(ended.over());
+  ended.end();
+  EXPECT_TRUE(ended.over());
 
-  CentralBounds stopped(instance_, Omega(), limits_, nodes_, announcements_, 5);
+  CentralBounds stopped(instance_, Omega(), limits_, nodes_, run_events_, 5);
   limits_.set_deadline(testing::kPast);
   EXPECT_TRUE(stopped.over());
 }
 
-TEST_F(CentralLedgerTest, ResumesWithoutRepeatingWhatIsKnown) {
-  ledger_.resume_at(7);
-  ledger_.nodes_changed();
-  EXPECT_EQ(ledger_.lower_bound(), 7);
-  EXPECT_TRUE(listener_.heard.empty());
+TEST_F(CentralBoundsTest, ResumesWithoutRepeatingTheBoundEvent) {
+  bounds_.resume_at(7);
+  bounds_.nodes_changed();
+  EXPECT_EQ(bounds_.lower_bound(), 7);
+  EXPECT_TRUE(listener_.events.empty());
 }
 
-}  // namespace central_ledger_test
+}  // namespace central_bounds_test
 }  // namespace grove::detail

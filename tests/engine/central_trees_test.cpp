@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// When trees are instantiated, and in which order the ledger hears of it.
+// When trees are instantiated, and in which order the bounds are updated.
 #include "engine/central_trees.h"
 
 #include <gtest/gtest.h>
@@ -15,10 +15,10 @@
 namespace grove::detail {
 namespace central_trees_test {
 
-// Trees of the costs that the test says, as roots that cost so much.
-class ToldForest : public Forest {
+// Trees of the costs that the test sets, as roots of these costs.
+class ScriptedForest : public Forest {
  public:
-  ToldForest(testing::SmallSearch& search, std::deque<Cost> costs)
+  ScriptedForest(testing::SmallSearch& search, std::deque<Cost> costs)
       : search_(search), costs_(std::move(costs)) {}
   Cost next_bound() const override { return costs_.empty() ? kInfiniteCost : costs_.front(); }
   NodePtr next_root() override {
@@ -35,7 +35,7 @@ class ToldForest : public Forest {
   std::deque<Cost> costs_;
 };
 
-// Looks at what the ledger knows when a root is pushed.
+// Calls `when_pushed` when a root is pushed.
 struct WatchedNodes : LocalNodes {
   void push(const NodePtr& root) override {
     when_pushed();
@@ -50,9 +50,9 @@ class CentralTreesTest : public ::testing::Test {
 
   void begin(std::deque<Cost> costs) {
     forest_.emplace(search_, std::move(costs));
-    ledger_.emplace(search_.instance, options_.omega, limits_, nodes_, announcements_,
+    bounds_.emplace(search_.instance, options_.omega, limits_, nodes_, run_events_,
                     forest_->next_bound());
-    trees_.emplace(options_, *forest_, nodes_, *ledger_, announcements_);
+    trees_.emplace(options_, *forest_, nodes_, *bounds_, run_events_);
     trees_->begin();
   }
   std::int64_t count(const std::string& name) {
@@ -60,37 +60,37 @@ class CentralTreesTest : public ::testing::Test {
     trees_->add_counts(stats);
     return stats.counts.at(name);
   }
-  void settle_best() { nodes_.frontier.settle(nodes_.frontier.take()); }
+  void settle_best() { nodes_.frontier.complete(nodes_.frontier.take()); }
 
   testing::SmallSearch search_;
   Limits limits_;
   SolveOptions options_;
   WatchedNodes nodes_;
-  RunObserver silent_;
-  RunEvents announcements_{silent_, [] { return Progress(); }};
-  std::optional<ToldForest> forest_;
-  std::optional<CentralBounds> ledger_;
+  RunObserver observer_;
+  RunEvents run_events_{observer_, [] { return Progress(); }};
+  std::optional<ScriptedForest> forest_;
+  std::optional<CentralBounds> bounds_;
   std::optional<CentralTrees> trees_;
 };
 
-TEST_F(CentralTreesTest, TheNextTreeIsDueWhenTheBestNodeIsDearerThanTheLastTree) {
+TEST_F(CentralTreesTest, NextTreeIsDueWhenTheBestNodeCostsMoreThanTheLastTree) {
   begin({8, 10, 12});
   EXPECT_EQ(trees_->count(), 1);
   trees_->instantiate_due_tree();
   EXPECT_EQ(trees_->count(), 1);
-  EXPECT_EQ(ledger_->lower_bound(), 8);
+  EXPECT_EQ(bounds_->lower_bound(), 8);
   settle_best();
   nodes_.frontier.push(search_.child(9));
   trees_->instantiate_due_tree();
   EXPECT_EQ(trees_->count(), 2);
-  EXPECT_EQ(ledger_->lower_bound(), 9);
+  EXPECT_EQ(bounds_->lower_bound(), 9);
   trees_->instantiate_due_tree();
-  EXPECT_EQ(trees_->count(), 2) << "9 is not dearer than 10";
+  EXPECT_EQ(trees_->count(), 2) << "9 does not exceed 10";
   EXPECT_EQ(count("roots_generated"), 2);
   EXPECT_EQ(count("rtsp_calls"), 7);
 }
 
-TEST_F(CentralTreesTest, WithinOmegaOfTheLastTreeNoneIsDue) {
+TEST_F(CentralTreesTest, NoTreeIsDueWithinOmegaOfTheLastTree) {
   options_.omega = Omega::parse("0.5");
   begin({8, 10});
   settle_best();
@@ -103,64 +103,64 @@ TEST_F(CentralTreesTest, WithinOmegaOfTheLastTreeNoneIsDue) {
   EXPECT_EQ(trees_->count(), 2);
 }
 
-// Between the two a plan would be in no node and no tree that the bound covers.
-TEST_F(CentralTreesTest, ARootIsPushedBeforeTheBoundOfTheTreesAfterItIsSaid) {
-  std::vector<Cost> said;
-  nodes_.when_pushed = [&] { said.push_back(ledger_->trees_from()); };
+// Otherwise a plan would for a moment be in no node and no tree that the bound covers.
+TEST_F(CentralTreesTest, RootIsPushedBeforeTheBoundOfLaterTreesIsRaised) {
+  std::vector<Cost> bounds_at_push;
+  nodes_.when_pushed = [&] { bounds_at_push.push_back(bounds_->trees_from()); };
   begin({8, 10});
   settle_best();
   trees_->refill_nodes();
-  EXPECT_EQ(said, (std::vector<Cost>{8, 10}));
-  EXPECT_EQ(ledger_->trees_from(), kInfiniteCost);
-  EXPECT_EQ(ledger_->lower_bound(), 10);
+  EXPECT_EQ(bounds_at_push, (std::vector<Cost>{8, 10}));
+  EXPECT_EQ(bounds_->trees_from(), kInfiniteCost);
+  EXPECT_EQ(bounds_->lower_bound(), 10);
 }
 
-TEST_F(CentralTreesTest, NothingIsLeftOnlyWhenNoNodeIsLive) {
+TEST_F(CentralTreesTest, IsNotOverWhileANodeIsLive) {
   begin({8});
-  const NodePtr in_hand = nodes_.frontier.take();
+  const NodePtr taken = nodes_.frontier.take();
   trees_->refill_nodes();
-  EXPECT_FALSE(ledger_->over());
-  nodes_.frontier.settle(in_hand);
+  EXPECT_FALSE(bounds_->over());
+  nodes_.frontier.complete(taken);
   trees_->refill_nodes();
-  EXPECT_TRUE(ledger_->over());
+  EXPECT_TRUE(bounds_->over());
 }
 
-TEST_F(CentralTreesTest, ALimitLosesNoTree) {
+TEST_F(CentralTreesTest, KeepsTheNextTreeAtALimit) {
   begin({8, 10});
   forest_->stopped = true;
   settle_best();
   trees_->refill_nodes();
   EXPECT_EQ(trees_->count(), 1);
-  EXPECT_EQ(ledger_->trees_from(), 10);
-  EXPECT_EQ(ledger_->lower_bound(), 10);
-  EXPECT_FALSE(ledger_->over());
+  EXPECT_EQ(bounds_->trees_from(), 10);
+  EXPECT_EQ(bounds_->lower_bound(), 10);
+  EXPECT_FALSE(bounds_->over());
 }
 
-TEST_F(CentralTreesTest, APreparedTreeIsNotInstantiatedAndBoundsThoseToCome) {
+TEST_F(CentralTreesTest, PreparedTreeIsNotInstantiatedAndBoundsLaterTrees) {
   options_.policy = Policy::kFixed;
   begin({8, 10, 12});
   ASSERT_TRUE(trees_->claim_preparation());
   EXPECT_FALSE(trees_->claim_preparation()) << "one at a time";
   trees_->prepare_tree();
   EXPECT_EQ(trees_->count(), 1);
-  EXPECT_EQ(ledger_->trees_from(), 10);
+  EXPECT_EQ(bounds_->trees_from(), 10);
   EXPECT_EQ(nodes_.frontier.open(), 1u);
-  EXPECT_EQ(count("trees_prepared_in_vain"), 1);
+  EXPECT_EQ(count("trees_prepared_unused"), 1);
   settle_best();
   trees_->refill_nodes();
   EXPECT_EQ(nodes_.bound(), 10);
-  EXPECT_EQ(ledger_->trees_from(), 12);
+  EXPECT_EQ(bounds_->trees_from(), 12);
   EXPECT_EQ(count("trees_prepared"), 1);
-  EXPECT_EQ(count("trees_prepared_in_vain"), 0);
+  EXPECT_EQ(count("trees_prepared_unused"), 0);
   EXPECT_TRUE(trees_->claim_preparation());
 }
 
-TEST_F(CentralTreesTest, OnlyThePapersTreesArePrepared) {
+TEST_F(CentralTreesTest, PreparesTreesOnlyForTheFixedPolicy) {
   begin({8, 10});
   EXPECT_FALSE(trees_->claim_preparation());
 }
 
-TEST_F(CentralTreesTest, BeginsAnewWhenNodesWereGivenUpUntilThatLeadsNowhere) {
+TEST_F(CentralTreesTest, RestartsAfterEvictionWhileThatRaisesTheBound) {
   begin({8});
   settle_best();
   nodes_.frontier.push(search_.child(9));
@@ -169,18 +169,18 @@ TEST_F(CentralTreesTest, BeginsAnewWhenNodesWereGivenUpUntilThatLeadsNowhere) {
   EXPECT_EQ(count("restarts"), 1);
   EXPECT_EQ(nodes_.frontier.open(), 1u) << "the root again";
   EXPECT_EQ(nodes_.evicted_bound(), kInfiniteCost);
-  EXPECT_FALSE(ledger_->over());
+  EXPECT_FALSE(bounds_->over());
   settle_best();
   nodes_.frontier.push(search_.child(9));
   nodes_.frontier.evict(1);
   trees_->refill_nodes();
-  EXPECT_EQ(count("restarts"), 1) << "the last one was no better";
-  EXPECT_TRUE(ledger_->over());
-  ledger_->nodes_changed();
-  EXPECT_EQ(ledger_->lower_bound(), 9);
+  EXPECT_EQ(count("restarts"), 1) << "the last restart did not raise the bound";
+  EXPECT_TRUE(bounds_->over());
+  bounds_->nodes_changed();
+  EXPECT_EQ(bounds_->lower_bound(), 9);
 }
 
-TEST_F(CentralTreesTest, BeforeItBeginsAnewATreeBelowWhatWasGivenUpComes) {
+TEST_F(CentralTreesTest, InstantiatesTreesBelowTheEvictedBoundBeforeARestart) {
   begin({8, 9});
   settle_best();
   nodes_.frontier.push(search_.child(11));
@@ -190,16 +190,16 @@ TEST_F(CentralTreesTest, BeforeItBeginsAnewATreeBelowWhatWasGivenUpComes) {
   EXPECT_EQ(count("restarts"), 0);
 }
 
-TEST_F(CentralTreesTest, ResumesWithTheTreesThatItWasGiven) {
+TEST_F(CentralTreesTest, ResumesWithTheGivenTrees) {
   forest_.emplace(search_, std::deque<Cost>{10});
-  ledger_.emplace(search_.instance, options_.omega, limits_, nodes_, announcements_, 8);
-  trees_.emplace(options_, *forest_, nodes_, *ledger_, announcements_);
+  bounds_.emplace(search_.instance, options_.omega, limits_, nodes_, run_events_, 8);
+  trees_.emplace(options_, *forest_, nodes_, *bounds_, run_events_);
   trees_->resume_with(search_.root);
   EXPECT_EQ(trees_->count(), 1);
-  EXPECT_EQ(ledger_->trees_from(), 10);
+  EXPECT_EQ(bounds_->trees_from(), 10);
   trees_->begin();
   EXPECT_EQ(trees_->count(), 1);
-  EXPECT_FALSE(nodes_.any()) << "its nodes are pushed by others";
+  EXPECT_FALSE(nodes_.any()) << "the caller pushes its nodes";
   EXPECT_EQ(trees_->records(1), std::vector{record_of(search_.root->tree())});
 }
 

@@ -26,13 +26,13 @@ namespace checkpoint_test {
 
 using Names = std::vector<std::string>;
 
-// A checkpoint as one value.
+// A checkpoint: its header and all its nodes.
 struct Whole {
   CheckpointHeader header;
   std::vector<NodeRecord> nodes;
 };
 
-// The nodes of a real search, breadth first below the first trees of the paper's forest.
+// The nodes of a search, breadth first below the first five trees of the paper's forest.
 class Search {
  public:
   Search() {
@@ -94,7 +94,7 @@ Whole read(const std::filesystem::path& directory, std::uint64_t fingerprint, Po
   CheckpointReader reader(directory, fingerprint, policy);
   Whole whole{reader.header(), {}};
   while (auto node = reader.next()) whole.nodes.push_back(std::move(*node));
-  EXPECT_FALSE(reader.next());  // still none
+  EXPECT_FALSE(reader.next());  // still nullopt
   return whole;
 }
 
@@ -115,7 +115,7 @@ void expect_same(const Whole& found, const Whole& expected) {
   EXPECT_EQ(found.nodes, expected.nodes);
 }
 
-TEST(Checkpoint, OfTenThousandNodesIsReadAgain) {
+TEST(Checkpoint, RoundTripsWithTenThousandNodes) {
   const TemporaryDirectory directory;
   const Whole whole = search().whole(10'000);
   ASSERT_EQ(whole.nodes.size(), 10'000u);
@@ -124,8 +124,8 @@ TEST(Checkpoint, OfTenThousandNodesIsReadAgain) {
   expect_same(read(directory.path()), whole);
 }
 
-// What a resumed run does with it.
-TEST(Checkpoint, HoldsTreesAndNodesToGoOnFrom) {
+// As a resumed run reads it.
+TEST(Checkpoint, RestoresTreesAndNodes) {
   const TemporaryDirectory directory;
   const Whole whole = search().whole(300);
   write(directory.path(), whole);
@@ -138,12 +138,12 @@ TEST(Checkpoint, HoldsTreesAndNodesToGoOnFrom) {
     roots.push_back(trees.add(tree, static_cast<std::uint32_t>(roots.size())));
   for (std::size_t i = 0; i < found.nodes.size(); ++i) {
     const NodeRecord& node = found.nodes[i];
-    const NodePtr again = node_of(node, roots[node.tree], search().instance());
-    EXPECT_EQ(record_of(*again), whole.nodes[i]);
+    const NodePtr restored = node_of(node, roots[node.tree], search().instance());
+    EXPECT_EQ(record_of(*restored), whole.nodes[i]);
   }
 }
 
-TEST(Checkpoint, MayHoldNothing) {
+TEST(Checkpoint, MayBeEmpty) {
   const TemporaryDirectory directory;
   CheckpointHeader header;
   header.policy = Policy::kFree;
@@ -151,7 +151,7 @@ TEST(Checkpoint, MayHoldNothing) {
   expect_same(read(directory.path(), 0, Policy::kFree), {header, {}});
 }
 
-TEST(Checkpoint, OfManyTreesIsReadAgain) {
+TEST(Checkpoint, RoundTripsWithManyTrees) {
   const TemporaryDirectory directory;
   Whole whole = search().whole(0);
   while (whole.header.trees.size() < 4000) whole.header.trees.push_back(whole.header.trees.back());
@@ -160,7 +160,7 @@ TEST(Checkpoint, OfManyTreesIsReadAgain) {
   expect_same(read(directory.path()), whole);
 }
 
-TEST(Checkpoint, ReplacesTheOneBeforeWhenFinished) {
+TEST(Checkpoint, ReplacesTheLastCheckpointWhenFinished) {
   const TemporaryDirectory directory;
   const Whole before = search().whole(10);
   const Whole after = search().whole(2000);
@@ -172,7 +172,7 @@ TEST(Checkpoint, ReplacesTheOneBeforeWhenFinished) {
   expect_same(read(directory.path()), after);
 }
 
-TEST(Checkpoint, GivenUpLeavesTheOneBefore) {
+TEST(Checkpoint, AbandonedWriterKeepsTheLastCheckpoint) {
   const TemporaryDirectory directory;
   const Whole before = search().whole(10);
   write(directory.path(), before);
@@ -184,7 +184,7 @@ TEST(Checkpoint, GivenUpLeavesTheOneBefore) {
   EXPECT_EQ(directory.files(), Names{"checkpoint.grove"});
 }
 
-TEST(Checkpoint, OfAProcessKilledWhileWritingLeavesTheOneBefore) {
+TEST(Checkpoint, ProcessKilledWhileWritingKeepsTheLastCheckpoint) {
   const TemporaryDirectory directory;
   const Whole before = search().whole(10);
   const Whole after = search().whole(5000);
@@ -204,17 +204,17 @@ TEST(Checkpoint, OfAProcessKilledWhileWritingLeavesTheOneBefore) {
   expect_same(read(directory.path()), after);
 }
 
-TEST(Checkpoint, OnAFullDiskIsAnErrorAndLeavesTheOneBefore) {
+TEST(Checkpoint, FullDiskIsAnErrorAndKeepsTheLastCheckpoint) {
   const TemporaryDirectory directory;
   const Whole before = search().whole(10);
   const Whole after = search().whole(5000);
   write(directory.path(), before);
-  std::string said;
+  std::string message;
   {
     const FileSizeLimit limit(500'000);
-    said = refusal([&] { write(directory.path(), after); });
+    message = refusal([&] { write(directory.path(), after); });
   }
-  EXPECT_EQ(said, "checkpoint.grove: cannot be written: File too large");
+  EXPECT_EQ(message, "checkpoint.grove: cannot be written: File too large");
   expect_same(read(directory.path()), before);
   EXPECT_EQ(directory.files(), Names{"checkpoint.grove"});
 
@@ -224,25 +224,25 @@ TEST(Checkpoint, OnAFullDiskIsAnErrorAndLeavesTheOneBefore) {
             "checkpoint.grove: cannot be written: No space left on device");
 }
 
-TEST(Checkpoint, InAFolderThatIsNoneIsAnError) {
+TEST(Checkpoint, InvalidDirectoryIsAnError) {
   const TemporaryDirectory directory;
   const std::string file = directory.write("file", "");
-  const auto said = [](const std::filesystem::path& path, auto act) {
+  const auto message = [](const std::filesystem::path& path, auto act) {
     return refusal([&] { act(path); });
   };
   const auto writes = [](const auto& path) { write(path, search().whole(1)); };
   const auto reads = [](const auto& path) { read(path); };
-  EXPECT_EQ(said(directory / "missing", writes),
+  EXPECT_EQ(message(directory / "missing", writes),
             "checkpoint.grove: cannot be written: No such file or directory");
-  EXPECT_EQ(said(file, writes), "checkpoint.grove: cannot be written: Not a directory");
-  EXPECT_EQ(said(directory.path(), reads),
+  EXPECT_EQ(message(file, writes), "checkpoint.grove: cannot be written: Not a directory");
+  EXPECT_EQ(message(directory.path(), reads),
             "checkpoint.grove: cannot be read: No such file or directory");
-  EXPECT_EQ(said(file, reads), "checkpoint.grove: cannot be read: Not a directory");
+  EXPECT_EQ(message(file, reads), "checkpoint.grove: cannot be read: Not a directory");
   std::filesystem::create_directory(checkpoint_file(directory.path()));
-  EXPECT_EQ(said(directory.path(), reads), "checkpoint.grove: cannot be read: Is a directory");
+  EXPECT_EQ(message(directory.path(), reads), "checkpoint.grove: cannot be read: Is a directory");
 }
 
-TEST(Checkpoint, IsNotMadeOfWhatCannotBe) {
+TEST(Checkpoint, WriterRefusesInvalidContents) {
   const TemporaryDirectory directory;
   CheckpointHeader header = search().whole(0).header;
   NodeRecord stray;
@@ -253,7 +253,7 @@ TEST(Checkpoint, IsNotMadeOfWhatCannotBe) {
   EXPECT_TRUE(directory.files().empty());
 }
 
-// A small checkpoint as bytes, and what is said of others in its place.
+// A small checkpoint as bytes, and the result of reading other bytes in its place.
 class DamagedCheckpoint : public ::testing::Test {
  protected:
   DamagedCheckpoint() {
@@ -261,32 +261,32 @@ class DamagedCheckpoint : public ::testing::Test {
     bytes_ = file_content(checkpoint_file(directory_.path()));
   }
 
-  std::string reading(std::string_view bytes) {
+  std::string read_result(std::string_view bytes) {
     directory_.write("checkpoint.grove", bytes);
     return refusal([&] { read(directory_.path()); });
   }
   void expect_damage_found(const std::string& bytes, const char* place, std::size_t offset) {
-    const std::string said = reading(bytes);
-    EXPECT_TRUE(said.find("is damaged") != std::string::npos ||
-                said.find("is no checkpoint") != std::string::npos ||
-                said.find("of format version") != std::string::npos)
-        << place << ' ' << offset << ": " << said;
+    const std::string message = read_result(bytes);
+    EXPECT_TRUE(message.find("is damaged") != std::string::npos ||
+                message.find("is no checkpoint") != std::string::npos ||
+                message.find("of format version") != std::string::npos)
+        << place << ' ' << offset << ": " << message;
   }
 
   TemporaryDirectory directory_;
   std::string bytes_;
 };
 
-TEST_F(DamagedCheckpoint, IsAcceptedUndamaged) {
-  EXPECT_EQ(reading(bytes_), "accepted");
+TEST_F(DamagedCheckpoint, IsAcceptedUnchanged) {
+  EXPECT_EQ(read_result(bytes_), "accepted");
 }
 
-TEST_F(DamagedCheckpoint, CutShortIsRefused) {
+TEST_F(DamagedCheckpoint, IsRefusedIfTruncated) {
   for (std::size_t size = 0; size < bytes_.size(); ++size)
     expect_damage_found(bytes_.substr(0, size), "cut at", size);
 }
 
-TEST_F(DamagedCheckpoint, WithABitFlippedIsRefused) {
+TEST_F(DamagedCheckpoint, IsRefusedIfABitIsFlipped) {
   for (std::size_t byte = 0; byte < bytes_.size(); ++byte) {
     std::string damaged = bytes_;
     damaged[byte] = static_cast<char>(damaged[byte] ^ 1 << byte % 8);
@@ -294,7 +294,7 @@ TEST_F(DamagedCheckpoint, WithABitFlippedIsRefused) {
   }
 }
 
-TEST_F(DamagedCheckpoint, WithNoiseInItIsRefused) {
+TEST_F(DamagedCheckpoint, IsRefusedIfBytesAreOverwritten) {
   std::mt19937 random(11);
   for (int i = 0; i < 300; ++i) {
     std::string damaged = bytes_;
@@ -307,12 +307,12 @@ TEST_F(DamagedCheckpoint, WithNoiseInItIsRefused) {
   }
 }
 
-TEST_F(DamagedCheckpoint, WithBytesBehindItsEndIsRefused) {
+TEST_F(DamagedCheckpoint, IsRefusedIfBytesFollowItsEnd) {
   expect_damage_found(bytes_ + '\0', "behind", bytes_.size());
   expect_damage_found(bytes_ + bytes_, "behind", bytes_.size());
 }
 
-// Where each block begins, and the end of the last.
+// Offset of each block, and of the end of the last.
 std::vector<std::size_t> block_begins(const std::string& bytes) {
   std::vector<std::size_t> begins{12};
   while (begins.back() < bytes.size()) {
@@ -324,8 +324,8 @@ std::vector<std::size_t> block_begins(const std::string& bytes) {
   return begins;
 }
 
-// Each block is whole, and has its own checksum.
-TEST_F(DamagedCheckpoint, WithBlocksLostOrInAnotherOrderIsRefused) {
+// Each block is intact and has its own checksum.
+TEST_F(DamagedCheckpoint, IsRefusedIfBlocksAreLostDoubledOrSwapped) {
   write(directory_.path(), search().whole(5000));
   bytes_ = file_content(checkpoint_file(directory_.path()));
   const std::vector<std::size_t> begins = block_begins(bytes_);
@@ -347,27 +347,27 @@ TEST_F(DamagedCheckpoint, WithBlocksLostOrInAnotherOrderIsRefused) {
   }
 }
 
-// A length that nobody wrote: refused at once, before memory for it is asked for.
-TEST_F(DamagedCheckpoint, ThatAnnouncesMoreThanItHoldsIsRefused) {
+// A length that is larger than the file: refused before memory for it is allocated.
+TEST_F(DamagedCheckpoint, IsRefusedIfALengthExceedsTheFile) {
   bytes_.replace(16, 8, std::string(6, '\xff') + '\x0f' + '\0');
-  EXPECT_EQ(
-      reading(bytes_),
-      "checkpoint.grove: byte 12: is damaged: announces 4503599627370495 bytes more; expected "
-      "at most the " +
-          std::to_string(bytes_.size() - 24) + " left");
+  EXPECT_EQ(read_result(bytes_),
+            "checkpoint.grove: byte 12: is damaged: has a block of 4503599627370495 bytes; "
+            "expected at most " +
+                std::to_string(bytes_.size() - 24) + ", the bytes left");
 }
 
-TEST_F(DamagedCheckpoint, OfAnotherVersionOrKindIsRefused) {
+TEST_F(DamagedCheckpoint, IsRefusedIfOfAnotherVersionOrKind) {
   std::string later = bytes_;
   later[8] = 7;
-  EXPECT_EQ(reading(later),
+  EXPECT_EQ(read_result(later),
             "checkpoint.grove: is a checkpoint of format version 7; expected version 3");
-  EXPECT_EQ(reading("{\"status\": \"optimal\"}"),
-            "checkpoint.grove: is no checkpoint: begins with '{\"status'; expected 'GROVE-CP'");
-  EXPECT_EQ(reading(""), "checkpoint.grove: is no checkpoint: begins with ''; expected 'GROVE-CP'");
+  EXPECT_EQ(read_result("{\"status\": \"optimal\"}"),
+            "checkpoint.grove: is not a checkpoint: begins with '{\"status'; expected 'GROVE-CP'");
+  EXPECT_EQ(read_result(""),
+            "checkpoint.grove: is not a checkpoint: begins with ''; expected 'GROVE-CP'");
 }
 
-TEST_F(DamagedCheckpoint, OfAnotherInstanceOrPolicyIsRefused) {
+TEST_F(DamagedCheckpoint, IsRefusedIfOfAnotherInstanceOrPolicy) {
   Whole other = search().whole(1);
   other.header.fingerprint = 0xABC;
   write(directory_.path(), other);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Destinations for agents with more tasks than a table of completions holds, so that the costs of
-// their ends are learnt bit by bit: against Held-Karp and every choice. (Fewer tasks:
-// tests/fuzz/methods_test.cpp.)
+// Destinations of agents with more tasks than a cost-to-go table holds, so that the costs of their
+// last tasks are computed step by step. Compared with Held-Karp and an enumeration of all choices.
+// (Fewer tasks: tests/fuzz/methods_test.cpp.)
 #include "engine/destinations.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 #include "model/distance_field.h"
 #include "model/tuning.h"
-#include "sequencing/rtsp_backends.h"
+#include "sequencing/rtsp.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
@@ -19,9 +19,10 @@ namespace grove::detail {
 namespace destinations_test {
 
 constexpr int kTasks = 15;
-constexpr int kFirstSeed = 230;  // 233: the best choice needs an end that the first look misses
+// With seed 233 the best choice needs an end that the first iteration misses.
+constexpr int kFirstSeed = 230;
 
-// Of the agent's best sequences, by the task that they end on.
+// Costs of the agent's best sequences, by their last task.
 std::vector<Cost> costs_of_ends(const Instance& instance, AgentIndex agent) {
   std::vector<std::vector<Time>> distances;
   std::vector<Cell> cells;
@@ -30,7 +31,7 @@ std::vector<Cost> costs_of_ends(const Instance& instance, AgentIndex agent) {
     distances.push_back(distance_field(instance.grid(), cells.back()));
   }
   const std::size_t n = cells.size();
-  std::vector<Cost> least(n << n, kInfiniteCost);  // by the set visited, then the last
+  std::vector<Cost> least(n << n, kInfiniteCost);  // index: set visited, then last task
   for (std::size_t i = 0; i < n; ++i)
     least[(std::size_t{1} << i) * n + i] = distances[i][instance.agent(agent).start];
   for (std::size_t set = 1; set < std::size_t{1} << n; ++set)
@@ -59,14 +60,14 @@ Instance pair_of_agents(unsigned seed) {
   std::vector<testing::AgentSpec> agents(2);
   for (int agent = 0; agent < 2; ++agent) {
     agents[agent].start = cells[agent];
-    const int own = static_cast<int>(seed % 4);
+    const int unshared = static_cast<int>(seed % 4);
     for (int task = 0; task < kTasks; ++task)
-      agents[agent].tasks.push_back(cells[2 + task + (task < own ? agent * kTasks : 0)]);
+      agents[agent].tasks.push_back(cells[2 + task + (task < unshared ? agent * kTasks : 0)]);
   }
   return testing::instance_of(rows, agents);
 }
 
-TEST(Destinations, OfManyTasksAreTheCheapestDistinctOnes) {
+TEST(Destinations, AreTheCheapestDistinctEndsOfManyTasks) {
   static_assert(kTasks > kTableStops);
   const int end = kFirstSeed + testing::fuzz_rounds(8);
   for (int seed = kFirstSeed; seed < end; ++seed) {
@@ -76,19 +77,20 @@ TEST(Destinations, OfManyTasksAreTheCheapestDistinctOnes) {
     const auto chosen = choose_destinations(problem, Tuning().visitor_steps, Limits());
     ASSERT_TRUE(chosen);
     const std::vector<Cost> ends[] = {costs_of_ends(instance, 0), costs_of_ends(instance, 1)};
-    const auto charged = [&](AgentIndex agent, int stop) {
+    const auto cost_with_visitors = [&](AgentIndex agent, int stop) {
       const TaskIndex task = instance.agent(agent).tasks[stop];
       return ends[agent][stop] +
              Tuning().visitor_steps * (std::ssize(instance.task(task).agents) - 1);
     };
     Cost best = kInfiniteCost;
-    Cost cost = kInfiniteCost;  // of the choice
+    Cost cost = kInfiniteCost;  // cost of the choice
     for (int i = 0; i < kTasks; ++i)
       for (int j = 0; j < kTasks; ++j) {
         const TaskIndex tasks[] = {instance.agent(0).tasks[i], instance.agent(1).tasks[j]};
         if (tasks[0] == tasks[1]) continue;
-        best = std::min(best, charged(0, i) + charged(1, j));
-        if (std::ranges::equal(tasks, chosen->tasks)) cost = charged(0, i) + charged(1, j);
+        best = std::min(best, cost_with_visitors(0, i) + cost_with_visitors(1, j));
+        if (std::ranges::equal(tasks, chosen->tasks))
+          cost = cost_with_visitors(0, i) + cost_with_visitors(1, j);
       }
     EXPECT_EQ(cost, best);
     EXPECT_EQ(chosen->bound, std::ranges::min(ends[0]) + std::ranges::min(ends[1]));

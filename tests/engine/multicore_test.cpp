@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Several threads on one search: the same optima as one, and with `deterministic` the same run.
+// Several threads on one search: the same optimum as one thread, and with `deterministic` the same
+// run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +26,7 @@ using testing::LimitOfHangs;
 using testing::LimitOfLooks;
 using testing::random_crowd;
 
-// Too hard for the root, easy enough for a test: some hundred nodes for plain CBS.
+// Not solved at the root, but easy: plain CBS expands some hundred nodes.
 std::vector<Instance> instances() {
   std::vector<Instance> all;
   for (std::uint64_t seed = 0; seed < 12; ++seed)
@@ -41,7 +42,7 @@ SolveOptions plain(int threads) {
   return options;
 }
 
-// Everything a log would tell, times aside.
+// Every event of a log, without times.
 class Recorder : public RunObserver {
  public:
   using Row = std::tuple<RunEvent, std::int64_t, std::int64_t, Cost, Cost>;
@@ -57,21 +58,21 @@ class Recorder : public RunObserver {
 TEST(Multicore, FindsTheOptimumOfOneThread) {
   std::int64_t nodes = 0;
   for (const Instance& instance : instances()) {
-    const Solution alone = solve(instance, plain(1), LimitOfHangs());
-    ASSERT_EQ(alone.status, Status::kOptimal);
+    const Solution single = solve(instance, plain(1), LimitOfHangs());
+    ASSERT_EQ(single.status, Status::kOptimal);
     for (const int threads : {2, 3, 8}) {
-      const Solution together = solve(instance, plain(threads), LimitOfHangs());
-      ASSERT_EQ(together.status, Status::kOptimal);
-      EXPECT_EQ(together.lower_bound, alone.lower_bound);
-      EXPECT_TRUE(check(instance, together).empty());
-      nodes += together.stats.counts.at("nodes_expanded");
+      const Solution parallel = solve(instance, plain(threads), LimitOfHangs());
+      ASSERT_EQ(parallel.status, Status::kOptimal);
+      EXPECT_EQ(parallel.lower_bound, single.lower_bound);
+      EXPECT_TRUE(check(instance, parallel).empty());
+      nodes += parallel.stats.counts.at("nodes_expanded");
     }
   }
   EXPECT_GT(nodes, 500) << "too easy to be a test";
 }
 
-TEST(Multicore, ADeterministicRunIsTheSameForAnyNumberOfThreads) {
-  std::size_t longest = 0;  // rows
+TEST(Multicore, DeterministicRunIsTheSameForAnyNumberOfThreads) {
+  std::size_t longest = 0;  // in rows
   for (const Instance& instance : instances()) {
     std::vector<Recorder::Row> rows;
     std::vector<Path> paths;
@@ -98,9 +99,9 @@ TEST(Multicore, ADeterministicRunIsTheSameForAnyNumberOfThreads) {
   EXPECT_GT(longest, 10) << "too easy to be a test";
 }
 
-// An expander caches what it has searched. In this instance a round has several units of a worker,
-// and the count shows whose expander did which.
-TEST(Multicore, ADeterministicRunExpandsTheSameLabelsForAnyNumberOfThreads) {
+// An expander caches its results. In this instance a round has several work items of one worker,
+// and the count shows which expander did which item.
+TEST(Multicore, DeterministicRunExpandsTheSameLabelsForAnyThreads) {
   fuzz::TinyInstance tiny;
   tiny.rows = {"....", "..@.", "@@.."};
   tiny.agents = {{.start = {2, 2}, .goal = Position{0, 0}},
@@ -119,24 +120,24 @@ TEST(Multicore, ADeterministicRunExpandsTheSameLabelsForAnyNumberOfThreads) {
     options.threads = threads;
     return solve(instance, options, LimitOfHangs()).stats.counts.at("low_level_expanded");
   };
-  const std::int64_t alone = labels(1);
-  for (const int threads : {2, 3, 4}) EXPECT_EQ(labels(threads), alone) << threads << " threads";
+  const std::int64_t single = labels(1);
+  for (const int threads : {2, 3, 4}) EXPECT_EQ(labels(threads), single) << threads << " threads";
 }
 
-// Prices come to the search for plans while it runs.
-TEST(Multicore, SoIsOneWithPricesForPlans) {
-  int prices_matter = 0;
+// The primal search receives Lagrangian multipliers while it runs.
+TEST(Multicore, DeterministicRunWithLagrangianLnsIsTheSameToo) {
+  int with_effect = 0;
   std::vector<Instance> some = instances();
   some.erase(some.begin() + 5, some.end());
   for (const Instance& instance : some) {
     SolveOptions options = plain(1);
     options.deterministic = true;
-    options.tuning.lagrangian_agents = 1;
-    options.tuning.lagrangian_begins_work = 0;
+    options.tuning.lagrangian_min_agents = 1;
+    options.tuning.lagrangian_start_work = 0;
     options.tuning.lagrangian_step_work = 20;
-    options.tuning.first_price_list = 1;
-    options.tuning.priced_gap = 10;
-    options.tuning.most_primal_at_first = 1;
+    options.tuning.first_dual_solution_round = 1;
+    options.tuning.lagrangian_lns_max_gap = 10;
+    options.tuning.primal_max_share_initial = 1;
     using Counts = std::pair<std::int64_t, std::int64_t>;
     const auto counts = [&](int threads, Techniques techniques) {
       options.threads = threads;
@@ -147,15 +148,15 @@ TEST(Multicore, SoIsOneWithPricesForPlans) {
       return Counts{all["lagrangian_rounds"], all["primal_low_level_expanded"]};
     };
     const Techniques without = options.techniques.with(Technique::kLagrangian);
-    const Techniques with = without.with(Technique::kPricedPlans);
+    const Techniques with = without.with(Technique::kLagrangianLns);
     const auto one = counts(1, with);
     EXPECT_EQ(counts(3, with), one);
-    prices_matter += counts(1, without) != one;
+    with_effect += counts(1, without) != one;
   }
-  EXPECT_GT(prices_matter, 0);
+  EXPECT_GT(with_effect, 0);
 }
 
-TEST(Multicore, EventsComeOneAtATimeAndTheBoundNeverFalls) {
+TEST(Multicore, EventsAreSerializedAndTheBoundNeverFalls) {
   class Watcher : public RunObserver {
    public:
     void on_event(RunEvent event, const Progress& progress) override {
@@ -187,7 +188,7 @@ TEST(Multicore, EventsComeOneAtATimeAndTheBoundNeverFalls) {
   }
 }
 
-// If one went on, the run would not end.
+// If one thread continued, the run would not end.
 TEST(Multicore, LimitsEndEveryThread) {
   const Instance hard = random_crowd({.size = 16, .obstacles = 25, .agents = 40, .tasks = 60}, 1);
   for (const bool deterministic : {false, true}) {
@@ -203,7 +204,7 @@ TEST(Multicore, LimitsEndEveryThread) {
   }
 }
 
-TEST(Multicore, WhatAnObserverThrowsArrives) {
+TEST(Multicore, ExceptionOfAnObserverPropagates) {
   class Thrower : public RunObserver {
     void on_expanded(const NodePtr&, const Expansion&, int) override {
       throw std::runtime_error("disk full");

@@ -8,7 +8,7 @@
 namespace grove::detail::testing {
 namespace {
 
-constexpr Time kLatest = 12;
+constexpr Time kMaxDelay = 12;
 
 Place random_place(const Instance& instance, Random& random) {
   if (const Roadmap* roadmap = instance.roadmap())
@@ -29,13 +29,13 @@ NewTask random_task(const Instance& instance, Random& random) {
 
 }  // namespace
 
-std::vector<Late> random_lateness(const Instance& instance, Time time, Random& random) {
-  std::vector<Late> late;
+std::vector<Delay> random_delays(const Instance& instance, Time time, Random& random) {
+  std::vector<Delay> late;
   if (time == 0) return late;
   for (int i = random.below(3); i > 0; --i) {
     const AgentIndex agent = random.below(instance.agent_count());
     if (late.empty() || late.front().agent != agent)
-      late.push_back({agent, static_cast<Time>(1 + random.below(std::min(kLatest, time)))});
+      late.push_back({agent, static_cast<Time>(1 + random.below(std::min(kMaxDelay, time)))});
   }
   return late;
 }

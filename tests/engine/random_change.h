@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// What may happen to robots that drive a plan.
+// Random delays of robots and random changes of an instance during the execution of a plan.
 #pragma once
 
 #include <vector>
 
 #include "execution/change.h"
-#include "execution/late.h"
+#include "execution/delay.h"
 #include "model/random.h"
 
 namespace grove::detail::testing {
 
-// One robot, or two, late by a few of the `time` steps that they have driven; none now and then.
-std::vector<Late> random_lateness(const Instance& instance, Time time, Random& random);
+// Delays at most two robots by up to 12 of the `time` steps of the plan that they have executed.
+std::vector<Delay> random_delays(const Instance& instance, Time time, Random& random);
 
-// A task that has come, one that is dropped, a cell or a road that is closed: at least one of
-// these, of which some cannot be (a robot is there).
+// Adds a task, drops one, or closes a cell or a road: at least one of these. Some of these changes
+// are impossible, for instance closing the cell of a robot.
 InstanceChange random_change(const Instance& instance, Random& random);
 
 }  // namespace grove::detail::testing

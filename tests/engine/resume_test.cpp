@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Searches that are stopped and go on from their checkpoint: the same optimum in the end.
+// Searches that are stopped and resumed from their checkpoint reach the same optimum.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -27,14 +27,14 @@ SolveOptions plain() {
   return options;
 }
 
-// Interrupts the run after so many expansions.
+// Interrupts the run after `after` expansions.
 class Interrupter : public RunObserver {
  public:
   explicit Interrupter(std::int64_t after) : left_(after) {}
 
   void on_expanded(const NodePtr&, const Expansion&, int) override {
     if (--left_ == 0) interrupted = true;
-    if (left_ % 7 == 0) asked = true;
+    if (left_ % 7 == 0) requested = true;
   }
   void on_checkpoint(const CheckpointReport& report) override {
     EXPECT_EQ(report.failure, "");
@@ -42,7 +42,7 @@ class Interrupter : public RunObserver {
   }
 
   std::atomic<bool> interrupted{false};
-  std::atomic<bool> asked{false};  // for a checkpoint
+  std::atomic<bool> requested{false};  // for a checkpoint
   int written = 0;
 
  private:
@@ -56,9 +56,9 @@ Solution solve_for(const Instance& instance, const SolveOptions& options,
   return solve(instance, options, limits, &interrupter);
 }
 
-// Goes on from the checkpoint in `folder`, if there is one, for so many expansions.
-Solution go_on(const Instance& instance, SolveOptions options, const std::filesystem::path& folder,
-               std::int64_t expansions) {
+// Resumes from the checkpoint in `folder`, if there is one, for `expansions` expansions.
+Solution resume_for(const Instance& instance, SolveOptions options,
+                    const std::filesystem::path& folder, std::int64_t expansions) {
   std::unique_ptr<CheckpointReader> reader;
   if (std::filesystem::exists(checkpoint_file(folder))) {
     const Policy policy = options.policy == Policy::kFixed ? Policy::kFixed : Policy::kFree;
@@ -66,14 +66,14 @@ Solution go_on(const Instance& instance, SolveOptions options, const std::filesy
     options.resume = reader.get();
   }
   Interrupter interrupter(expansions);
-  options.checkpoints = {folder, 1e9, &interrupter.asked};
+  options.checkpoints = {folder, 1e9, &interrupter.requested};
   Solution solution = solve_for(instance, options, interrupter);
   EXPECT_GT(interrupter.written, 0);
   return solution;
 }
 
-// Stops every so often and goes on, each time with another number of threads; the bound never
-// falls. But for instances that 200 expansions do not solve.
+// Stops and resumes repeatedly, each time with another number of threads; the bound never falls.
+// Skips instances that 200 expansions do not solve.
 void expect_same_optimum(const Instance& instance, SolveOptions options, int& resumed) {
   Interrupter enough(200);
   const Solution truth = solve_for(instance, options, enough);
@@ -84,7 +84,7 @@ void expect_same_optimum(const Instance& instance, SolveOptions options, int& re
     ASSERT_LT(run, 1000);
     options.threads = 1 + run % 3;
     options.seed = static_cast<std::uint64_t>(run);
-    const Solution solution = go_on(instance, options, folder.path(), 2 << (run / 4));
+    const Solution solution = resume_for(instance, options, folder.path(), 2 << (run / 4));
     EXPECT_GE(solution.lower_bound, bound);
     EXPECT_LE(solution.lower_bound, truth.plan->cost);
     bound = solution.lower_bound;
@@ -104,7 +104,7 @@ TEST(Resume, FindsTheSameOptimum) {
   EXPECT_GT(resumed, 10) << "too easy to be a test";
 }
 
-TEST(Resume, KnowsTheTreesOfThePaper) {
+TEST(Resume, RestoresTheTreesOfTheFixedPolicy) {
   SolveOptions options = plain();
   options.policy = Policy::kFixed;
   int resumed = 0;
@@ -114,7 +114,7 @@ TEST(Resume, KnowsTheTreesOfThePaper) {
   EXPECT_GT(resumed, 5) << "too easy to be a test";
 }
 
-TEST(Resume, RemembersThatNodesWereGivenUp) {
+TEST(Resume, KeepsTheBoundOfEvictedNodes) {
   SolveOptions options = plain();
   options.node_memory = 4000;
   int resumed = 0;
@@ -124,26 +124,26 @@ TEST(Resume, RemembersThatNodesWereGivenUp) {
   EXPECT_GT(resumed, 5) << "too easy to be a test";
 }
 
-TEST(Resume, AFinishedRunIsFinishedAtOnceAndGoesOnForASmallerOmega) {
+TEST(Resume, FinishedRunEndsAtOnceButContinuesForASmallerOmega) {
   const Instance instance = random_crowd({.size = 8, .obstacles = 20, .agents = 6, .tasks = 8}, 3);
   const TemporaryDirectory folder;
   SolveOptions options = plain();
   options.omega = Omega::parse("0.5");
-  const Solution first = go_on(instance, options, folder.path(), 1 << 30);
+  const Solution first = resume_for(instance, options, folder.path(), 1 << 30);
   ASSERT_TRUE(first.plan);
-  const Solution again = go_on(instance, options, folder.path(), 1 << 30);
+  const Solution again = resume_for(instance, options, folder.path(), 1 << 30);
   EXPECT_EQ(again.plan->cost, first.plan->cost);
   EXPECT_EQ(again.stats.counts.at("nodes_expanded"), 0);
   options.omega = Omega();
-  const Solution exact = go_on(instance, options, folder.path(), 1 << 30);
+  const Solution exact = resume_for(instance, options, folder.path(), 1 << 30);
   EXPECT_EQ(exact.status, Status::kOptimal);
   EXPECT_LE(exact.plan->cost, first.plan->cost);
 }
 
-TEST(Resume, WhatWasProvenIsSaidEvenIfThereIsNoTimeToSearch) {
+TEST(Resume, ReportsTheProvenBoundWithoutTimeToSearch) {
   const Instance instance = random_crowd({.size = 8, .obstacles = 20, .agents = 6, .tasks = 8}, 3);
   const TemporaryDirectory folder;
-  const Solution first = go_on(instance, plain(), folder.path(), 20);
+  const Solution first = resume_for(instance, plain(), folder.path(), 20);
   ASSERT_GT(first.lower_bound, 0);
   CheckpointReader reader(folder.path(), fingerprint(instance), Policy::kFree);
   SolveOptions options = plain();

@@ -6,7 +6,7 @@
 #include <random>
 
 namespace grove::detail {
-namespace serialise_test {
+namespace serialize_test {
 
 NodeRecord a_node() {
   NodeRecord record;
@@ -35,7 +35,7 @@ bool same(const AgentPlan& a, const AgentPlan& b) {
   return a.cost == b.cost && a.sequence == b.sequence && a.path == b.path;
 }
 
-// What is said against them; empty: nothing.
+// Message of the refusal, or "" if the bytes are accepted.
 template <class T>
 std::string refusal(std::string_view bytes) {
   try {
@@ -51,7 +51,7 @@ bool is_refused(std::string_view bytes) {
   return !refusal<T>(bytes).empty();
 }
 
-TEST(Bytes, MakeTheValueAgain) {
+TEST(Bytes, RestoreTheValue) {
   EXPECT_EQ(from_bytes<NodeRecord>(to_bytes(a_node())), a_node());
   EXPECT_EQ(from_bytes<NodeRecord>(to_bytes(NodeRecord())), NodeRecord());
   EXPECT_EQ(from_bytes<TreeRecord>(to_bytes(a_tree())), a_tree());
@@ -63,8 +63,8 @@ TEST(Bytes, MakeTheValueAgain) {
   EXPECT_EQ(from_bytes<Counts>(to_bytes(counts)), counts);
 }
 
-// Of machines of either kind: the format says which of its bytes comes first.
-TEST(Bytes, HaveAnOrderOfTheirOwn) {
+// The byte order is part of the format, independent of the machine.
+TEST(Bytes, HaveAFixedByteOrder) {
   EXPECT_EQ(to_bytes(std::uint32_t{300}), "\xAC\2");
   EXPECT_EQ(to_bytes(1.0), std::string("\0\0\0\0\0\0\xF0\x3F", 8));
   const std::vector<std::uint32_t> array{0x01020304};
@@ -87,32 +87,38 @@ TEST(Bytes, KeepNumbersOfAllSizes) {
   EXPECT_EQ(to_bytes(std::int64_t{-64}).size(), 1) << "small ones are short";
 }
 
-TEST(Bytes, OfNumbersThatDoNotFitOrAreLongerThanNeedBeAreRefused) {
-  EXPECT_EQ(refusal<std::uint16_t>(to_bytes(std::uint32_t{1} << 16)), "a number of too many bits");
-  EXPECT_EQ(refusal<std::int16_t>(to_bytes(std::int32_t{-32769})), "a number of too many bits");
-  EXPECT_EQ(refusal<std::int32_t>(to_bytes(std::int64_t{1} << 31)), "a number of too many bits");
-  EXPECT_EQ(refusal<std::uint64_t>(std::string(9, '\xFF') + '\2'), "a number of too many bits");
-  EXPECT_EQ(refusal<std::uint64_t>(std::string(10, '\xFF') + '\1'), "a number of too many bits");
-  EXPECT_EQ(refusal<std::uint64_t>(std::string("\x85\0", 2)), "a number longer than need be");
+TEST(Bytes, AreRefusedIfANumberOverflowsOrIsNotShortest) {
+  EXPECT_EQ(refusal<std::uint16_t>(to_bytes(std::uint32_t{1} << 16)),
+            "found a number with too many bits");
+  EXPECT_EQ(refusal<std::int16_t>(to_bytes(std::int32_t{-32769})),
+            "found a number with too many bits");
+  EXPECT_EQ(refusal<std::int32_t>(to_bytes(std::int64_t{1} << 31)),
+            "found a number with too many bits");
+  EXPECT_EQ(refusal<std::uint64_t>(std::string(9, '\xFF') + '\2'),
+            "found a number with too many bits");
+  EXPECT_EQ(refusal<std::uint64_t>(std::string(10, '\xFF') + '\1'),
+            "found a number with too many bits");
+  EXPECT_EQ(refusal<std::uint64_t>(std::string("\x85\0", 2)),
+            "found a number that is longer than necessary");
 }
 
 template <class T>
-void expect_every_cut_refused(const T& value) {
+void expect_every_truncation_refused(const T& value) {
   const std::string bytes = to_bytes(value);
   for (std::size_t size = 0; size < bytes.size(); ++size)
     EXPECT_TRUE(is_refused<T>(std::string(bytes, 0, size))) << size;
   EXPECT_TRUE(is_refused<T>(bytes + '\0'));
 }
 
-TEST(Bytes, CutShortOrTooLongAreRefused) {
-  expect_every_cut_refused(a_node());
-  expect_every_cut_refused(a_tree());
-  expect_every_cut_refused(a_plan());
+TEST(Bytes, AreRefusedIfTruncatedOrTooLong) {
+  expect_every_truncation_refused(a_node());
+  expect_every_truncation_refused(a_tree());
+  expect_every_truncation_refused(a_plan());
 }
 
-// Whatever a damaged byte makes of it: another value of the same shape, or none.
+// A damaged byte yields another value of the same shape, or is refused.
 template <class T>
-void expect_no_damage_unnoticed(const T& value) {
+void expect_every_bit_flip_detected(const T& value) {
   const std::string bytes = to_bytes(value);
   int refused = 0;
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
@@ -126,13 +132,13 @@ void expect_no_damage_unnoticed(const T& value) {
   EXPECT_GT(refused, 40);
 }
 
-TEST(Bytes, WithABitFlippedAreAnotherValueOrRefused) {
-  expect_no_damage_unnoticed(a_node());
-  expect_no_damage_unnoticed(a_tree());
-  expect_no_damage_unnoticed(a_plan());
+TEST(Bytes, GiveAnotherValueOrAreRefusedIfABitIsFlipped) {
+  expect_every_bit_flip_detected(a_node());
+  expect_every_bit_flip_detected(a_tree());
+  expect_every_bit_flip_detected(a_plan());
 }
 
-TEST(Bytes, OfNoiseDoNoHarm) {
+TEST(Bytes, AreReadSafelyIfRandom) {
   std::mt19937 random(7);
   for (int i = 0; i < 20'000; ++i) {
     std::string noise(random() % 200, '\0');
@@ -143,27 +149,27 @@ TEST(Bytes, OfNoiseDoNoHarm) {
   }
 }
 
-// At once: the memory for them is not asked for.
-TEST(Bytes, ThatAnnounceMoreThanTheyHoldAreRefused) {
-  const std::string said = "more items are announced than there are bytes left";
+// Refused before memory for the items is allocated.
+TEST(Bytes, AreRefusedIfACountExceedsTheBytesLeft) {
+  const std::string message = "found a number of items above the number of bytes left";
   const std::string bytes = to_bytes(a_node());
   for (const std::uint64_t count : {std::uint64_t{bytes.size()}, std::uint64_t{1} << 31,
                                     std::uint64_t{1} << 61, ~std::uint64_t{0}}) {
     const std::string announced = to_bytes(count);
     std::string hostile = bytes;
-    hostile.replace(1, 1, announced);  // the count of constraints, after the tree
-    EXPECT_EQ(refusal<NodeRecord>(hostile), said) << count;
-    EXPECT_EQ(refusal<std::vector<std::uint64_t>>(announced + std::string(9, 'x')), said);
-    EXPECT_EQ(refusal<std::string>(announced + "xy"), said);
+    hostile.replace(1, 1, announced);  // the number of constraints, after the tree
+    EXPECT_EQ(refusal<NodeRecord>(hostile), message) << count;
+    EXPECT_EQ(refusal<std::vector<std::uint64_t>>(announced + std::string(9, 'x')), message);
+    EXPECT_EQ(refusal<std::string>(announced + "xy"), message);
     using Map = std::map<std::string, std::string>;
-    EXPECT_EQ(refusal<Map>(announced + "xy"), said);
+    EXPECT_EQ(refusal<Map>(announced + "xy"), message);
   }
 }
 
-TEST(Bytes, ThatAreNoTruthValueOrKindAreRefused) {
+TEST(Bytes, AreRefusedIfNoBoolOrConstraintKind) {
   EXPECT_TRUE(is_refused<bool>("\2"));
-  Constraint strange;
-  std::string bytes = to_bytes(strange);
+  Constraint constraint;
+  std::string bytes = to_bytes(constraint);
   // Nodes of earlier versions could have constraints on the sequence.
   for (const auto kind : {ConstraintKind::kStopIs, ConstraintKind::kStopIsNot}) {
     bytes.back() = static_cast<char>(kind);
@@ -173,5 +179,5 @@ TEST(Bytes, ThatAreNoTruthValueOrKindAreRefused) {
   EXPECT_TRUE(is_refused<Constraint>(bytes));
 }
 
-}  // namespace serialise_test
+}  // namespace serialize_test
 }  // namespace grove::detail

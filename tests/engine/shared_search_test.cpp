@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which node a worker is given, and what becomes of it.
+// Which node a worker takes, and how its expansion is recorded.
 #include "engine/shared_search.h"
 
 #include <gtest/gtest.h>
@@ -16,11 +16,11 @@ namespace shared_search_test {
 class SharedSearchTest : public ::testing::Test, public testing::SmallSearch {
  protected:
   SharedSearchTest() {
-    ledger.nodes = source.nodes = &nodes;
+    bounds.nodes = source.nodes = &nodes;
     options.omega = Omega();
   }
   SharedSearch& shared() {
-    if (!shared_) shared_.emplace(options, limits, nodes, ledger, source, observer);
+    if (!shared_) shared_.emplace(options, limits, nodes, bounds, source, observer);
     return *shared_;
   }
   Cost bound_taken() {
@@ -29,7 +29,7 @@ class SharedSearchTest : public ::testing::Test, public testing::SmallSearch {
   }
 
   SolveOptions options;
-  testing::ToldLedger ledger;
+  testing::ScriptedBounds bounds;
   testing::CountingSource source;
   testing::CountingObserver observer;
 
@@ -37,53 +37,53 @@ class SharedSearchTest : public ::testing::Test, public testing::SmallSearch {
   std::optional<SharedSearch> shared_;
 };
 
-TEST_F(SharedSearchTest, GivesTheBestNodeAndAsksForADueTreeFirst) {
+TEST_F(SharedSearchTest, TakesTheBestNodeAfterInstantiatingADueTree) {
   for (const Cost bound : {12, 9, 10}) nodes.push(child(bound));
   EXPECT_EQ(bound_taken(), 9);
   EXPECT_EQ(bound_taken(), 10);
   EXPECT_EQ(source.due, 2);
-  EXPECT_EQ(source.nodes_asked, 0);
+  EXPECT_EQ(source.refills, 0);
 }
 
-TEST_F(SharedSearchTest, AsksForNodesOnlyWhenNoneIsLive) {
+TEST_F(SharedSearchTest, RefillsNodesOnlyWhenNoneIsLive) {
   nodes.push(root);
   const NodePtr taken = shared().take();
-  EXPECT_FALSE(shared().take()) << "one is in hand";
+  EXPECT_FALSE(shared().take()) << "one is taken";
   EXPECT_FALSE(shared().may_take());
-  EXPECT_EQ(source.nodes_asked, 0);
+  EXPECT_EQ(source.refills, 0);
   shared().finish(taken, {}, 0);
-  EXPECT_TRUE(shared().may_take()) << "to find out that there is none";
+  EXPECT_TRUE(shared().may_take()) << "a call shows that there is none";
   source.next = child(9);
   EXPECT_EQ(bound_taken(), 9);
-  EXPECT_EQ(source.nodes_asked, 1);
+  EXPECT_EQ(source.refills, 1);
 }
 
-TEST_F(SharedSearchTest, WhileThereIsNoPlanEveryOtherNodeIsThatOfMostPromise) {
+TEST_F(SharedSearchTest, TakesEverySecondNodeByEstimateWithoutAPlan) {
   options.omega = Omega::parse("1");
-  ledger.bound = 8;
+  bounds.bound = 8;
   for (const auto& [bound, conflicts] : {std::pair(9, 90u), {9, 8u}, {10, 0u}, {11, 0u}})
     nodes.push(child(bound, conflicts));
   EXPECT_EQ(bound_taken(), 10) << "no conflicts";
   EXPECT_EQ(bound_taken(), 9) << "the best";
-  ledger.incumbent = Plan{16, {}};
+  bounds.incumbent = Plan{16, {}};
   nodes.push(child(15));
   for (const Cost bound : {9, 11, 15})
-    EXPECT_EQ(bound_taken(), bound) << "what is promised is of no use any more";
+    EXPECT_EQ(bound_taken(), bound) << "with a plan the estimate is not used";
 }
 
-TEST_F(SharedSearchTest, AnExpandedNodeIsLiveUntilWhatItLedToIsThere) {
+TEST_F(SharedSearchTest, ExpandedNodeIsLiveUntilItsResultsAreStored) {
   nodes.push(root);
   const NodePtr taken = shared().take();
-  ledger.incumbent = Plan{12, {}};
+  bounds.incumbent = Plan{12, {}};
   Expansion expansion;
   expansion.children = {child(11), child(12), child(9)};
   expansion.plan = Plan{11, {}};
   shared().finish(taken, std::move(expansion), 0);
-  ASSERT_EQ(ledger.posted.size(), 1u);
-  EXPECT_EQ(ledger.posted[0].first.cost, 11);
-  EXPECT_EQ(ledger.posted[0].second, PlanSource::kTree);
-  EXPECT_EQ(ledger.live_when_posted, 3u) << "two children are below the incumbent, and the node";
-  EXPECT_EQ(ledger.live_when_changed, 2u);
+  ASSERT_EQ(bounds.posted.size(), 1u);
+  EXPECT_EQ(bounds.posted[0].first.cost, 11);
+  EXPECT_EQ(bounds.posted[0].second, PlanSource::kTree);
+  EXPECT_EQ(bounds.live_when_posted, 3u) << "two children are below the incumbent, and the node";
+  EXPECT_EQ(bounds.live_when_changed, 2u);
   EXPECT_EQ(nodes.frontier.bound(), 9);
   EXPECT_EQ(observer.expansions, 1);
   Stats stats;
@@ -92,7 +92,7 @@ TEST_F(SharedSearchTest, AnExpandedNodeIsLiveUntilWhatItLedToIsThere) {
   EXPECT_EQ(stats.counts["nodes_generated"], 3);
 }
 
-TEST_F(SharedSearchTest, WhatIsNotFinishedGoesBack) {
+TEST_F(SharedSearchTest, UnfinishedNodeIsReinserted) {
   nodes.push(root);
   Expansion stopped;
   stopped.stopped = true;
@@ -111,12 +111,12 @@ TEST_F(SharedSearchTest, WhatIsNotFinishedGoesBack) {
   EXPECT_EQ(nodes.expanded, 1);
 }
 
-TEST_F(SharedSearchTest, KeepsNodesWithinTheirMemoryAndTheBestOfThem) {
+TEST_F(SharedSearchTest, EvictsTheWorstNodesAboveTheMemoryBudget) {
   for (Cost bound = 9; bound < 409; ++bound) nodes.push(child(bound));
   options.node_memory = nodes.pool.bytes() / 2;
   shared().keep_within_memory();
   EXPECT_LE(nodes.pool.bytes(), options.node_memory);
-  EXPECT_GT(nodes.pool.bytes(), options.node_memory / 2) << "no more than must be";
+  EXPECT_GT(nodes.pool.bytes(), options.node_memory / 2) << "no more than necessary";
   EXPECT_EQ(bound_taken(), 9);
   ASSERT_FALSE(observer.evicted_bounds.empty());
   EXPECT_EQ(nodes.evicted_bound(), *std::ranges::min_element(observer.evicted_bounds));
@@ -126,7 +126,7 @@ TEST_F(SharedSearchTest, KeepsNodesWithinTheirMemoryAndTheBestOfThem) {
   EXPECT_EQ(stats.counts["nodes_evicted"], std::ssize(observer.evicted_bounds));
 }
 
-TEST_F(SharedSearchTest, WithoutABudgetNothingIsGivenUp) {
+TEST_F(SharedSearchTest, EvictsNothingWithoutABudget) {
   for (Cost bound = 9; bound < 109; ++bound) nodes.push(child(bound));
   shared().keep_within_memory();
   EXPECT_TRUE(observer.evicted_bounds.empty());

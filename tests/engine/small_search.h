@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A small search for tests of those who take part in one: nodes made by hand below a real root, and
-// parties that do what the test says.
+// A small search for tests of its parts: nodes made by hand below a real root, and scripted objects
+// in place of the other parts.
 #pragma once
 
 #include <algorithm>
@@ -10,21 +10,22 @@
 #include <utility>
 #include <vector>
 
-#include "engine/local_nodes.h"
+#include "engine/live_nodes.h"
+#include "engine/run_observer.h"
 #include "engine/shared_bounds.h"
-#include "engine/tree_source.h"
-#include "engine/work_observer.h"
+#include "engine/shared_search.h"
 #include "search/single_tree.h"
 #include "tests/support/instances.h"
 
 namespace grove::detail::testing {
 
-// Two agents that must pass each other in a bay: their own paths cost 8 together, the optimum 11.
+// Two agents that must pass each other in a bay: their individual paths cost 8 together, the
+// optimum 11.
 inline Instance two_in_a_bay() {
   return instance_of({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
 }
 
-// A search of that instance that has its root, of cost 8, and where nodes live.
+// A search of that instance with its root, of cost 8, and its live nodes.
 struct SmallSearch {
   explicit SmallSearch(Instance the_instance = two_in_a_bay())
       : instance(std::move(the_instance)), root(forest.next_root()) {}
@@ -45,8 +46,8 @@ struct SmallSearch {
   NodePtr root;
 };
 
-// A ledger that says what it is told to and remembers what it hears.
-struct ToldLedger : SharedBounds {
+// Bounds with the values that the test sets; records the calls.
+struct ScriptedBounds : SharedBounds {
   bool over() const override { return is_over; }
   Cost cutoff() const override { return incumbent ? incumbent->cost : kInfiniteCost; }
   std::optional<Plan> plan_below(Cost cost) const override {
@@ -64,27 +65,27 @@ struct ToldLedger : SharedBounds {
   std::optional<Plan> incumbent;
   Cost bound = 0;
   std::vector<std::pair<Plan, PlanSource>> posted;
-  const LocalNodes* nodes = nullptr;  // looked at when something is heard
+  const LocalNodes* nodes = nullptr;  // examined at each call
   std::size_t live_when_posted = 0;
   std::size_t live_when_changed = 0;
 };
 
-// Counts how often it is asked.
+// Counts its calls.
 struct CountingSource : TreeSource {
   void instantiate_due_tree() override { ++due; }
   void refill_nodes() override {
-    ++nodes_asked;
+    ++refills;
     if (next) nodes->push(std::exchange(next, nullptr));
   }
   bool claim_preparation() override { return std::exchange(may_prepare, false); }
   void prepare_tree() override { ++prepared; }
 
   int due = 0;
-  int nodes_asked = 0;
+  int refills = 0;
   bool may_prepare = false;
   int prepared = 0;
   LocalNodes* nodes = nullptr;
-  NodePtr next;  // to be brought
+  NodePtr next;  // pushed by the next refill_nodes()
 };
 
 struct CountingObserver : WorkObserver {
@@ -92,10 +93,10 @@ struct CountingObserver : WorkObserver {
   void evicted(std::span<const NodePtr> nodes) override {
     for (const NodePtr& node : nodes) evicted_bounds.push_back(node->bound());
   }
-  void worked() override { ++turns; }
+  void worked() override { ++work_items; }
 
   int expansions = 0;
-  int turns = 0;
+  int work_items = 0;
   std::vector<Cost> evicted_bounds;
 };
 

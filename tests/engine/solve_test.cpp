@@ -29,7 +29,7 @@ Solution solve_to(const Instance& instance, const char* omega, const Limits& lim
   Solution solution = solve(instance, options, limits);
   if (solution.plan) {
     const auto violations = check(instance, solution);
-    EXPECT_TRUE(violations.empty()) << violations[0].place << ": " << violations[0].message;
+    EXPECT_TRUE(violations.empty()) << violations[0].json_pointer << ": " << violations[0].message;
     EXPECT_LE(solution.lower_bound, solution.plan->cost);
   }
   return solution;
@@ -52,46 +52,46 @@ TEST(Solve, OneAgentTakesItsBestOrder) {
   expect_optimal(instance_of({"....."}, {{{1, 0}, Position{4, 0}, {{0, 0}, {3, 0}}}}), 5);
 }
 
-TEST(Solve, AnAgentAtItsGoalWithNothingToDoCostsNothing) {
+TEST(Solve, IdleAgentAtItsGoalCostsNothing) {
   expect_optimal(instance_of({"..", ".."}, {{{0, 0}, Position{0, 0}}}), 0);
 }
 
 TEST(Solve, AgentsPassInABay) {
-  // One of the two steps aside, in and out, and the other has to wait a step for it.
+  // One agent steps into the bay and back, and the other waits a step for it.
   expect_optimal(
       instance_of({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}}), 11);
 }
 
-TEST(Solve, AnAgentLeavesItsGoalToLetAnotherPass) {
-  // a1 stands on its destination in the corridor's middle; the bay below it is the only place to
-  // go.
+TEST(Solve, AgentLeavesItsGoalToLetAnotherPass) {
+  // a1 stands on its destination in the middle of the corridor; it can only leave into the bay
+  // below.
   expect_optimal(
       instance_of({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{2, 0}, Position{2, 0}}}), 7);
 }
 
-TEST(Solve, ATaskUnderARestingAgentIsVisitedBefore) {
+TEST(Solve, TaskIsVisitedBeforeAnotherAgentRestsOnIt) {
   // a0's task is a1's destination in a dead end: a0 must go in and out before a1 rests there.
   expect_optimal(
       instance_of({"....", "@.@@"}, {{{0, 0}, Position{3, 0}, {{1, 1}}}, {{2, 0}, Position{1, 1}}}),
       5 + 5);
 }
 
-TEST(Solve, AnMgAgentChoosesItsLastTask) {
+TEST(Solve, AgentWithoutDestinationChoosesItsLastTask) {
   expect_optimal(instance_of({"......."}, {{{2, 0}, {}, {{0, 0}, {6, 0}}}}), 8);
 }
 
-TEST(Solve, AnMgAgentMayNotRestWhereAnotherMustPass) {
+TEST(Solve, AgentWithoutDestinationRestsWhereOthersNeedNotPass) {
   expect_optimal(instance_of({"....."}, {{{0, 0}, Position{3, 0}}, {{1, 0}, {}, {{2, 0}, {4, 0}}}}),
                  3 + 3);
 }
 
-TEST(Solve, SeesEvidentInfeasibility) {
+TEST(Solve, DetectsInfeasibilityInPresolve) {
   const Solution solution = solve_to(instance_of({".@."}, {{{0, 0}, Position{2, 0}}}), "0");
   EXPECT_EQ(solution.status, Status::kInfeasible);
   EXPECT_FALSE(solution.plan);
 }
 
-TEST(Solve, AConflictFreeFirstTreeNeedsNoSecond) {
+TEST(Solve, ConflictFreeFirstTreeNeedsNoSecond) {
   const Solution solution =
       solve_to(instance_of({"....", "...."}, {{{0, 0}, Position{3, 0}, {{1, 0}, {2, 0}}},
                                               {{0, 1}, Position{3, 1}, {{1, 1}, {2, 1}}}}),
@@ -110,7 +110,7 @@ TEST(Solve, InfiniteOmegaBuildsOneTree) {
   EXPECT_EQ(solution.stats.counts.at("roots_generated"), 1);
 }
 
-TEST(Solve, ACrowdWithoutRoomIsSeenToBeOne) {
+TEST(Solve, DetectsThatAgentsLackRoomToPass) {
   // A dead-end tree without room to pass.
   const Solution solution = solve_to(
       instance_of({"...", "@.@"},
@@ -120,14 +120,14 @@ TEST(Solve, ACrowdWithoutRoomIsSeenToBeOne) {
   EXPECT_FALSE(solution.stats.texts.at("reason").empty());
 }
 
-TEST(Solve, AnExpiredDeadlineStillBoundsFromBelow) {
+TEST(Solve, ExpiredDeadlineStillGivesALowerBound) {
   const Instance instance = instance_of({"....."}, {{{0, 0}, Position{4, 0}, {{2, 0}}}});
   const Solution solution = solve_to(instance, "0", testing::LimitOfLooks(0));
   EXPECT_EQ(solution.status, Status::kUnknown);
   EXPECT_LE(solution.lower_bound, 4);
 }
 
-TEST(Solve, ATinyMemoryLimitEndsCleanly) {
+TEST(Solve, TinyMemoryLimitEndsTheRunCleanly) {
   Limits limits;
   limits.set_memory_limit(1);
   const Solution solution =
@@ -149,21 +149,21 @@ class Interrupter : public RunObserver {
   int left_;
 };
 
-TEST(Solve, AnInterruptKeepsTheBound) {
+TEST(Solve, InterruptKeepsTheBound) {
   Interrupter interrupter(20);
   Limits limits;
   limits.watch_interrupt(&interrupter.flag);
   const Instance instance =
       testing::random_crowd({.size = 8, .obstacles = 10, .agents = 12, .tasks = 12}, 1);
   SolveOptions options;
-  options.techniques = Techniques();  // so it takes more nodes
+  options.techniques = Techniques();  // so that it expands more nodes
   const Solution solution = solve(instance, options, limits, &interrupter);
   EXPECT_EQ(solution.status, Status::kUnknown);
   EXPECT_EQ(solution.stats.texts.at("stopped_by"), "interrupt");
   EXPECT_GT(solution.lower_bound, 0);
 }
 
-// The bound a run reports must never fall.
+// Expects that the reported bound never falls.
 class BoundWatcher : public RunObserver {
  public:
   void on_event(RunEvent, const Progress& progress) override {
@@ -176,7 +176,7 @@ class BoundWatcher : public RunObserver {
   Cost last_ = 0;
 };
 
-TEST(Solve, TheReportedBoundNeverFalls) {
+TEST(Solve, ReportedBoundNeverFalls) {
   BoundWatcher watcher;
   const Instance instance =
       instance_of({".....", "@@.@@", "....."}, {{{0, 0}, Position{4, 2}, {{4, 0}, {0, 2}}},
@@ -186,7 +186,7 @@ TEST(Solve, TheReportedBoundNeverFalls) {
   EXPECT_NE(solution.status, Status::kInfeasible);
 }
 
-// Agents that change sides through two doors: the tree alone finds no plan in seconds.
+// Agents that change sides through two doors: within seconds the tree search finds no plan.
 Instance two_doors() {
   std::vector<std::string> rows(10, "....@....");
   rows[2] = rows[6] = ".........";
@@ -198,7 +198,7 @@ Instance two_doors() {
   return instance_of(rows, agents);
 }
 
-// What a run tells of its incumbents.
+// Records the incumbents of a run.
 class IncumbentWatcher : public RunObserver {
  public:
   void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override {
@@ -222,7 +222,7 @@ class IncumbentWatcher : public RunObserver {
   std::vector<PlanSource> sources;
 };
 
-// Until so many incumbents were found.
+// Solves until `incumbents` incumbents were found.
 Solution solve_until(const Instance& instance, const SolveOptions& options,
                      IncumbentWatcher& watcher, int incumbents) {
   testing::LimitOfHangs limits;
@@ -231,7 +231,7 @@ Solution solve_until(const Instance& instance, const SolveOptions& options,
   return solve(instance, options, limits, &watcher);
 }
 
-TEST(Solve, ThePrimalSearchFindsAndImprovesPlans) {
+TEST(Solve, PrimalSearchFindsAndImprovesPlans) {
   const Instance instance = two_doors();
   IncumbentWatcher watcher;
   const Solution solution = solve_until(instance, SolveOptions(), watcher, 5);
@@ -240,10 +240,10 @@ TEST(Solve, ThePrimalSearchFindsAndImprovesPlans) {
   EXPECT_EQ(watcher.sources.front(), PlanSource::kPrioritizedPlanning);
   EXPECT_EQ(watcher.sources.back(), PlanSource::kLns);
   EXPECT_GT(solution.stats.counts.at("primal_low_level_calls"), 0);
-  EXPECT_GT(solution.stats.counts.at("primal_neighborhoods"), 0);
+  EXPECT_GT(solution.stats.counts.at("primal_lns_iterations"), 0);
 }
 
-TEST(Solve, BetterPlansAreCountedByWhereTheyCameFrom) {
+TEST(Solve, IncumbentsAreCountedBySource) {
   IncumbentWatcher watcher;
   auto counts = solve_until(two_doors(), SolveOptions(), watcher, 5).stats.counts;
   ASSERT_GT(watcher.costs.size(), 1u);
@@ -272,7 +272,7 @@ TEST(Solve, TwoRunsFindTheSamePlans) {
   EXPECT_NE(first.costs, other_seed.costs);
 }
 
-TEST(Solve, ThePrimalSearchCanBeSwitchedOffAndIsNotOfThePaper) {
+TEST(Solve, PrimalSearchIsOffIfDisabledAndForTheFixedPolicy) {
   const Instance instance = two_doors();
   SolveOptions without;
   without.techniques = Techniques::defaults().without(Technique::kPrimal);
@@ -286,15 +286,15 @@ TEST(Solve, ThePrimalSearchCanBeSwitchedOffAndIsNotOfThePaper) {
   }
 }
 
-TEST(Solve, ConfigurationsCanBeSwitchedOffAlone) {
+TEST(Solve, LacamCanBeDisabledSeparately) {
   const Instance instance = testing::random_crowd({.agents = 50, .tasks = 50}, 1);
   for (const bool with : {true, false}) {
     SolveOptions options;
-    if (!with) options.techniques = options.techniques.without(Technique::kConfigurations);
+    if (!with) options.techniques = options.techniques.without(Technique::kLacam);
     const testing::LimitOfLooks limits(20'000);
     const Solution solution = solve(instance, options, limits);
     EXPECT_GT(solution.stats.counts.at("primal_attempts"), 1);
-    EXPECT_EQ(solution.stats.counts.at("primal_joint_steps") > 0, with);
+    EXPECT_EQ(solution.stats.counts.at("primal_lacam_steps") > 0, with);
     EXPECT_TRUE(!with || solution.plan);
     if (solution.plan) {
       EXPECT_TRUE(check(instance, solution).empty());
@@ -302,7 +302,7 @@ TEST(Solve, ConfigurationsCanBeSwitchedOffAlone) {
   }
 }
 
-TEST(Solve, AStartPlanIsTheFirstIncumbent) {
+TEST(Solve, StartPlanIsTheFirstIncumbent) {
   const Instance instance = two_doors();
   IncumbentWatcher watcher;
   SolveOptions options;
@@ -322,7 +322,7 @@ TEST(Solve, AStartPlanIsTheFirstIncumbent) {
   }
 }
 
-TEST(Solve, AnOptimalStartPlanEndsAsSoonAsTheBoundIsThere) {
+TEST(Solve, OptimalStartPlanEndsTheRunOnceTheBoundReachesIt) {
   const Instance instance =
       instance_of({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
   const Solution best = solve_to(instance, "0", Policy::kFree);
@@ -338,7 +338,7 @@ TEST(Solve, AnOptimalStartPlanEndsAsSoonAsTheBoundIsThere) {
   }
 }
 
-TEST(Solve, AStartPlanOutlivesADeadlineThatIsPast) {
+TEST(Solve, StartPlanIsReturnedAfterAnExpiredDeadline) {
   const Instance instance =
       instance_of({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
   SolveOptions options;
@@ -351,7 +351,7 @@ TEST(Solve, AStartPlanOutlivesADeadlineThatIsPast) {
   EXPECT_LE(solution.lower_bound, 11);
 }
 
-TEST(Solve, AnInvalidStartPlanIsRefused) {
+TEST(Solve, InvalidStartPlanIsRefused) {
   const Instance instance = two_doors();
   SolveOptions options;
   options.start = Plan{1, std::vector<AgentPlan>(20)};

@@ -14,7 +14,7 @@ namespace occupancy_planning_test {
 
 using std::numbers::pi;
 
-// Rows from the top, as one reads them: '.' free, '#' occupied, '?' unknown. A pixel has 10 cm.
+// Rows from top to bottom: '.' free, '#' occupied, '?' unknown. A pixel is 10 cm wide.
 Occupancy occupancy(const std::vector<std::string>& rows, Pose2d origin = {}) {
   Occupancy map{.width = static_cast<int>(rows[0].size()),
                 .height = static_cast<int>(rows.size()),
@@ -39,7 +39,7 @@ std::string refusal(const auto& act) {
   return "none";
 }
 
-TEST(OccupancyPlanning, ACellIsFreeIfAllOfItIs) {
+TEST(OccupancyPlanning, CellIsFreeIfAllItsPixelsAre) {
   const PlanningGrid grid(occupancy(kRows), 0.2);
   ASSERT_EQ(grid.world().width(), 3);
   ASSERT_EQ(grid.world().height(), 2);
@@ -51,13 +51,13 @@ TEST(OccupancyPlanning, ACellIsFreeIfAllOfItIs) {
           << x << ' ' << y;
 }
 
-TEST(OccupancyPlanning, ACellIsAtLeastAsLargeAsAsked) {
+TEST(OccupancyPlanning, CellIsAtLeastAsLargeAsRequested) {
   EXPECT_DOUBLE_EQ(PlanningGrid(occupancy(kRows), 0.2).cell_size(), 0.2);
   EXPECT_DOUBLE_EQ(PlanningGrid(occupancy(kRows), 0.21).cell_size(), 0.1 * 3);
   EXPECT_DOUBLE_EQ(PlanningGrid(occupancy(kRows), 0.01).cell_size(), 0.1);
 }
 
-TEST(OccupancyPlanning, CellsAndTheirMiddlesAreEachOthers) {
+TEST(OccupancyPlanning, CellAndItsMiddleAreInverse) {
   for (const double yaw : {0.0, 0.3, pi / 2, -2.5}) {
     const PlanningGrid grid(occupancy(kRows, {.x = -3, .y = 7, .yaw = yaw}), 0.1);
     for (int y = 0; y < 4; ++y)
@@ -68,19 +68,19 @@ TEST(OccupancyPlanning, CellsAndTheirMiddlesAreEachOthers) {
   }
 }
 
-TEST(OccupancyPlanning, TheOriginIsLowerLeft) {
+TEST(OccupancyPlanning, OriginIsTheLowerLeftCorner) {
   const PlanningGrid grid(occupancy(kRows, {.x = 1, .y = 2}), 0.1);
   EXPECT_EQ(grid.cell_at({.x = 1.05, .y = 2.05}, "f"), (grove::Cell{0, 3}));
   EXPECT_EQ(grid.cell_at({.x = 1.55, .y = 2.35}, "f"), (grove::Cell{5, 0}));
   const Pose2d middle = grid.middle({0, 3});
   EXPECT_NEAR(middle.x, 1.05, 1e-9);
   EXPECT_NEAR(middle.y, 2.05, 1e-9);
-  // A map that lies on its side: its x points up.
+  // A rotated map: its x axis points up.
   const PlanningGrid turned(occupancy(kRows, {.x = 1, .y = 2, .yaw = pi / 2}), 0.1);
   EXPECT_EQ(turned.cell_at({.x = 0.95, .y = 2.55}, "f"), (grove::Cell{5, 3}));
 }
 
-TEST(OccupancyPlanning, WhatIsWrongIsNamed) {
+TEST(OccupancyPlanning, ErrorsNameTheField) {
   const PlanningGrid grid(occupancy(kRows), 0.1);
   const auto errand = [&](std::vector<Pose2d> places) {
     return refusal([&] { instance_of(grid, {{.robot = "a", .places = places}}); });
@@ -102,7 +102,7 @@ TEST(OccupancyPlanning, WhatIsWrongIsNamed) {
             "/map");
 }
 
-TEST(OccupancyPlanning, APlanGoesWhereItWasAskedTo) {
+TEST(OccupancyPlanning, PlanVisitsAllPlaces) {
   const PlanningGrid grid(occupancy(kRows, {.x = -1, .y = -1, .yaw = 0.7}), 0.1);
   const std::vector<Errand> errands{
       {.robot = "a",
@@ -116,38 +116,38 @@ TEST(OccupancyPlanning, APlanGoesWhereItWasAskedTo) {
   ASSERT_EQ(solution.status, grove::Status::optimal);
   EXPECT_TRUE(grove::check(instance, solution).empty());
   for (std::size_t robot = 0; robot < errands.size(); ++robot) {
-    const auto way = waypoints(grid, solution.plan->agents[robot], 2.0);
-    ASSERT_FALSE(way.empty());
+    const auto path = waypoints(grid, solution.plan->agents[robot], 2.0);
+    ASSERT_FALSE(path.empty());
     const auto is_at = [&](const Pose2d& at, const Pose2d& place) {
       return std::hypot(at.x - place.x, at.y - place.y) < 1e-9;
     };
-    EXPECT_TRUE(is_at(way.front().pose, errands[robot].places.front()));
-    EXPECT_TRUE(is_at(way.back().pose, errands[robot].places.back()));
+    EXPECT_TRUE(is_at(path.front().pose, errands[robot].places.front()));
+    EXPECT_TRUE(is_at(path.back().pose, errands[robot].places.back()));
     for (const Pose2d& place : errands[robot].places)
-      EXPECT_TRUE(std::any_of(way.begin(), way.end(),
+      EXPECT_TRUE(std::any_of(path.begin(), path.end(),
                               [&](const Waypoint& w) { return is_at(w.pose, place); }));
-    for (std::size_t i = 0; i < way.size(); ++i) {
-      EXPECT_DOUBLE_EQ(way[i].seconds, 2.0 * static_cast<double>(i));
-      if (i + 1 == way.size()) break;
-      const double dx = way[i + 1].pose.x - way[i].pose.x;
-      const double dy = way[i + 1].pose.y - way[i].pose.y;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      EXPECT_DOUBLE_EQ(path[i].seconds, 2.0 * static_cast<double>(i));
+      if (i + 1 == path.size()) break;
+      const double dx = path[i + 1].pose.x - path[i].pose.x;
+      const double dy = path[i + 1].pose.y - path[i].pose.y;
       if (std::hypot(dx, dy) < 1e-9) continue;
       EXPECT_NEAR(std::hypot(dx, dy), 0.1, 1e-9);
-      EXPECT_NEAR(std::cos(way[i].pose.yaw) * dy, std::sin(way[i].pose.yaw) * dx, 1e-9);
-      EXPECT_GT(std::cos(way[i].pose.yaw) * dx + std::sin(way[i].pose.yaw) * dy, 0);
+      EXPECT_NEAR(std::cos(path[i].pose.yaw) * dy, std::sin(path[i].pose.yaw) * dx, 1e-9);
+      EXPECT_GT(std::cos(path[i].pose.yaw) * dx + std::sin(path[i].pose.yaw) * dy, 0);
     }
   }
 }
 
-// It looks where it goes next, while it waits, too; at the end where it went last.
-TEST(OccupancyPlanning, WhereItLooks) {
+// The robot faces its next move, also while it waits; after the last move it keeps its direction.
+TEST(OccupancyPlanning, RobotFacesItsNextMove) {
   const PlanningGrid grid(occupancy(kRows), 0.1);
   const auto at = [](int x, int y) { return grove::Pose{.place = grove::Cell{x, y}}; };
   const grove::AgentPlan plan{.id = "a",
                               .path = {at(0, 0), at(0, 0), at(0, 1), at(1, 1), at(1, 1)}};
-  const auto way = waypoints(grid, plan, 1);
+  const auto path = waypoints(grid, plan, 1);
   const std::vector<double> yaws{-pi / 2, -pi / 2, 0, 0, 0};
-  for (std::size_t i = 0; i < yaws.size(); ++i) EXPECT_NEAR(way[i].pose.yaw, yaws[i], 1e-9) << i;
+  for (std::size_t i = 0; i < yaws.size(); ++i) EXPECT_NEAR(path[i].pose.yaw, yaws[i], 1e-9) << i;
   EXPECT_EQ(waypoints(grid, {.id = "a", .path = {at(0, 0)}}, 1).size(), 1U);
 }
 

@@ -13,13 +13,13 @@
 #include "tests/support/instances.h"
 
 namespace grove::detail {
-namespace passing_order_test {
+namespace action_dependency_graph_test {
 
 using testing::AgentSpec;
 using ::testing::ElementsAre;
 using testing::instance_of;
 
-// A plan of paths written as cells; costs do not matter here.
+// A plan from paths that are written as cells.
 Plan plan_of(const Instance& instance, const std::vector<std::vector<Position>>& paths) {
   Plan plan;
   for (const auto& cells : paths) {
@@ -32,14 +32,14 @@ Plan plan_of(const Instance& instance, const std::vector<std::vector<Position>>&
   return plan;
 }
 
-std::vector<ActionIndex> afters(const ActionDependencyGraph& order) {
-  std::vector<ActionIndex> afters;
+std::vector<ActionIndex> dependencies(const ActionDependencyGraph& order) {
+  std::vector<ActionIndex> dependencies;
   for (ActionIndex a = 0; a < static_cast<ActionIndex>(order.actions().size()); ++a)
-    afters.push_back(order.after(a));
-  return afters;
+    dependencies.push_back(order.after(a));
+  return dependencies;
 }
 
-TEST(ActionDependencyGraph, LeavesOutWaits) {
+TEST(ActionDependencyGraph, OmitsWaits) {
   const Instance instance = instance_of({"..."}, {AgentSpec{{0, 0}, Position{2, 0}}});
   const ActionDependencyGraph order(instance,
                                     plan_of(instance, {{{0, 0}, {0, 0}, {1, 0}, {1, 0}, {2, 0}}}));
@@ -49,16 +49,17 @@ TEST(ActionDependencyGraph, LeavesOutWaits) {
   EXPECT_EQ(order.waits(), 0);
 }
 
-TEST(ActionDependencyGraph, WhoFollowsWaitsForTheArrival) {
+TEST(ActionDependencyGraph, FollowerDependsOnTheMoveOfItsLeader) {
   const Instance instance =
       instance_of({"...."}, {AgentSpec{{1, 0}, Position{3, 0}}, AgentSpec{{0, 0}, Position{2, 0}}});
   const ActionDependencyGraph order(
       instance, plan_of(instance, {{{1, 0}, {2, 0}, {3, 0}}, {{0, 0}, {1, 0}, {2, 0}}}));
-  EXPECT_THAT(afters(order), ElementsAre(kNoAction, kNoAction, 0, 1));
+  EXPECT_THAT(dependencies(order), ElementsAre(kNoAction, kNoAction, 0, 1));
 }
 
-// The second agent enters three places after the first: but it has waited for it to be away once.
-TEST(ActionDependencyGraph, LeavesOutWhatFollowsAnyway) {
+// The second agent enters places that the first has left. A dependency is omitted if an earlier one
+// implies it, because the first agent left that place earlier.
+TEST(ActionDependencyGraph, OmitsTransitiveDependencies) {
   const Instance instance = instance_of(
       {"....", "...."}, {AgentSpec{{0, 0}, Position{3, 1}}, AgentSpec{{0, 1}, Position{3, 0}}});
   const ActionDependencyGraph order(
@@ -66,7 +67,7 @@ TEST(ActionDependencyGraph, LeavesOutWhatFollowsAnyway) {
       plan_of(instance,
               {{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}},
                {{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {1, 1}, {2, 1}, {2, 0}, {3, 0}}}));
-  EXPECT_EQ(order.waits(), 2);  // for (2, 0) and (3, 0), which are left one after the other
+  EXPECT_EQ(order.waits(), 2);  // for (2, 0) and (3, 0): the second is left after the first
   const Instance back = instance_of(
       {"....", "...."}, {AgentSpec{{0, 0}, Position{3, 1}}, AgentSpec{{0, 1}, Position{0, 0}}});
   const ActionDependencyGraph backwards(
@@ -78,7 +79,7 @@ TEST(ActionDependencyGraph, LeavesOutWhatFollowsAnyway) {
   EXPECT_EQ(backwards.transitive_waits(), 2);
 }
 
-TEST(ActionDependencyGraph, ARingIsOneStep) {
+TEST(ActionDependencyGraph, RotationIsOneStep) {
   const Instance instance = instance_of(
       {"..", ".."}, {AgentSpec{{0, 0}, Position{1, 0}}, AgentSpec{{1, 0}, Position{1, 1}},
                      AgentSpec{{1, 1}, Position{0, 1}}, AgentSpec{{0, 1}, Position{0, 0}}});
@@ -105,12 +106,13 @@ TEST(ActionDependencyGraph, RefusesCollisions) {
 
 // --- random plans ---
 
-// By the definition and nothing else: for each place, in order of time, whoever enters after
-// another robot waits for that one's leaving; and an agent's actions for each other. Then all that
-// follows. By pairs: first must be completed before second begins.
+// All dependencies by definition, as pairs: `first` must be completed before `second` begins. For
+// each place, in order of time, a robot that enters it after another robot waits until that one has
+// left. The actions of one agent depend on each other in their order. close_transitively() adds the
+// implied ones.
 std::set<std::pair<ActionIndex, ActionIndex>> all_waits(const World& world,
                                                         const ActionDependencyGraph& order,
-                                                        const std::vector<bool>& in_ring) {
+                                                        const std::vector<bool>& in_rotation) {
   const auto actions = order.actions();
   const auto count = static_cast<ActionIndex>(actions.size());
   std::set<std::pair<ActionIndex, ActionIndex>> waits;
@@ -121,7 +123,7 @@ std::set<std::pair<ActionIndex, ActionIndex>> all_waits(const World& world,
       } else if (actions[a].kind == Action::Kind::kMove && actions[b].kind == Action::Kind::kMove &&
                  world.place(actions[a].from) == world.place(actions[b].to) &&
                  actions[a].begin <= actions[b].begin &&
-                 !(in_ring[a] && in_ring[b] && actions[a].begin == actions[b].begin)) {
+                 !(in_rotation[a] && in_rotation[b] && actions[a].begin == actions[b].begin)) {
         waits.emplace(a, b);
       }
     }
@@ -134,7 +136,8 @@ void close_transitively(std::set<std::pair<ActionIndex, ActionIndex>>& waits,
   const auto count = static_cast<ActionIndex>(order.actions().size());
   std::vector<std::vector<bool>> is(count, std::vector<bool>(count));
   for (const auto& [a, b] : waits) is[a][b] = true;
-  // What one of a ring waits for all of it do, and who waits for one of it waits for all.
+  // A dependency of one action of a rotation holds for all its actions, and an action that depends
+  // on one of them depends on all.
   for (std::int32_t step = 0; step < order.step_count(); ++step)
     for (const ActionIndex b : order.step(step))
       for (const ActionIndex c : order.step(step))
@@ -163,7 +166,7 @@ std::set<std::pair<ActionIndex, ActionIndex>> waits_of(const ActionDependencyGra
   return waits;
 }
 
-TEST(ActionDependencyGraph, SaysWhatTheDefinitionSaysAndNothingTwice) {
+TEST(ActionDependencyGraph, EqualsTheDefinitionWithoutRedundancy) {
   int plans = 0;
   int rings = 0;
   std::int64_t left_out = 0;
@@ -178,16 +181,16 @@ TEST(ActionDependencyGraph, SaysWhatTheDefinitionSaysAndNothingTwice) {
     const ActionDependencyGraph order(instance, *solution.plan);
     rings += static_cast<int>(order.rings());
     left_out += order.transitive_waits();
-    std::vector<bool> in_ring(order.actions().size());
+    std::vector<bool> in_rotation(order.actions().size());
     for (std::int32_t step = 0; step < order.step_count(); ++step)
-      for (const ActionIndex a : order.step(step)) in_ring[a] = order.step(step).size() > 1;
-    auto expected = all_waits(instance.world(), order, in_ring);
+      for (const ActionIndex a : order.step(step)) in_rotation[a] = order.step(step).size() > 1;
+    auto expected = all_waits(instance.world(), order, in_rotation);
     close_transitively(expected, order);
-    auto said = waits_of(order);
-    close_transitively(said, order);
-    EXPECT_EQ(said, expected) << seed;
+    auto actual = waits_of(order);
+    close_transitively(actual, order);
+    EXPECT_EQ(actual, expected) << seed;
     for (ActionIndex a = 0; a < static_cast<ActionIndex>(order.actions().size()); ++a) {
-      EXPECT_FALSE(expected.contains({a, a})) << seed;  // nobody waits for itself
+      EXPECT_FALSE(expected.contains({a, a})) << seed;  // no action waits for itself
       if (order.after(a) == kNoAction) continue;
       auto less = waits_of(order, a);
       close_transitively(less, order);
@@ -199,5 +202,5 @@ TEST(ActionDependencyGraph, SaysWhatTheDefinitionSaysAndNothingTwice) {
   EXPECT_GT(left_out, 50);
 }
 
-}  // namespace passing_order_test
+}  // namespace action_dependency_graph_test
 }  // namespace grove::detail

@@ -18,15 +18,15 @@ namespace advance_test {
 using testing::AgentSpec;
 using testing::instance_of;
 
-std::string wrong_with(const Instance& instance, const Plan& plan) {
+std::string first_violation(const Instance& instance, const Plan& plan) {
   Solution solution;
   solution.plan = plan;
   solution.status = status_of(plan.cost, 0, solution.omega);
   const auto wrong = check(instance, solution, 1);
-  return wrong.empty() ? "" : wrong.front().place + ": " + wrong.front().message;
+  return wrong.empty() ? "" : wrong.front().json_pointer + ": " + wrong.front().message;
 }
 
-TEST(Advance, WhatIsVisitedIsGone) {
+TEST(Advance, RemovesVisitedTasks) {
   const Instance instance =
       instance_of({"....."}, {AgentSpec{{0, 0}, Position{4, 0}, {Position{1, 0}, Position{3, 0}}}});
   const Solution solution = solve(instance, {}, Limits());
@@ -35,10 +35,10 @@ TEST(Advance, WhatIsVisitedIsGone) {
   EXPECT_EQ(rest.instance.task(0).id, instance.task(1).id);
   EXPECT_EQ(rest.instance.agent(0).start, instance.grid().cell({2, 0}));
   EXPECT_EQ(rest.plan.cost, 2);
-  EXPECT_EQ(wrong_with(rest.instance, rest.plan), "");
+  EXPECT_EQ(first_violation(rest.instance, rest.plan), "");
 }
 
-TEST(Advance, WhatIsLeftIsAPlanOfWhatIsLeft) {
+TEST(Advance, RemainingPlanSolvesTheRemainingInstance) {
   int moments = 0;
   for (std::uint64_t seed = 5000; seed < 5400; ++seed) {
     const Instance instance = fuzz::random_world(seed).build();
@@ -50,9 +50,9 @@ TEST(Advance, WhatIsLeftIsAPlanOfWhatIsLeft) {
     const Time end = std::ranges::max(plan->agents, {}, &AgentPlan::cost).cost;
     for (Time time = 0; time <= end + 1; ++time, ++moments) {
       const Remainder rest = advance(instance, *plan, time);
-      ASSERT_EQ(wrong_with(rest.instance, rest.plan), "") << seed << " after " << time;
+      ASSERT_EQ(first_violation(rest.instance, rest.plan), "") << seed << " after " << time;
       EXPECT_LE(rest.plan.cost, plan->cost);
-      // A step later it is what it would have been.
+      // To advance by `time` and then by 1 is the same as to advance by `time` + 1.
       const Remainder next = advance(rest.instance, rest.plan, 1);
       const Remainder both = advance(instance, *plan, time + 1);
       EXPECT_EQ(next.plan.cost, both.plan.cost) << seed << " after " << time;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Do robots collide that drive like this? Written from what robots are, not from the passing order.
+// Collision test for execution traces, from the definition of a collision only, not from the
+// passing order.
 #pragma once
 
 #include <string>
@@ -9,10 +10,11 @@
 
 namespace grove::detail::testing {
 
-// A robot is on its place until it has left it and on the next one from the begin of its move: two
-// robots on one place at one time collide. But one may enter a place exactly while the other leaves
-// it, both moves beginning and ending together, as in one step of a plan; unless they swap. Empty:
-// nobody does; else what happens first, in words. Actions that are never begun do not happen.
+// Describes a collision in the trace; empty if there is none. A robot is on its place until its
+// move away from it ends, and on the next place from the beginning of that move. Two robots on one
+// place at one time collide. Exception: one may enter a place exactly while the other leaves it, if
+// both moves begin and end together, as in one step of a plan, and the two do not swap. Actions
+// that are never begun are ignored.
 std::string collision(const World& world, const ActionDependencyGraph& order,
                       const ExecutionTrace& drive, const std::vector<State>& starts);
 

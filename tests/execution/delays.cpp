@@ -8,26 +8,26 @@
 namespace grove::detail::testing {
 namespace {
 
-double part(std::mt19937_64& dice) {
+double random_fraction(std::mt19937_64& dice) {
   return std::uniform_real_distribution<double>(0, 1)(dice);
 }
 
 }  // namespace
 
-Delays::Delays(const ActionDependencyGraph& order, std::uint64_t seed, bool may_die)
+Delays::Delays(const ActionDependencyGraph& order, std::uint64_t seed, bool may_fail)
     : order_(order),
       seed_(seed),
       dice_(seed),
-      delayed_(part(dice_)),
-      stops_(part(dice_) * 0.1),
+      delayed_(random_fraction(dice_)),
+      stops_(random_fraction(dice_) * 0.1),
       last_(static_cast<std::size_t>(order.agent_count()), kNoAction) {
   for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
-    slowness_.push_back(part(dice_) < 0.2 ? 1 + 4 * part(dice_) : 1);
+    slowness_.push_back(random_fraction(dice_) < 0.2 ? 1 + 4 * random_fraction(dice_) : 1);
     const ActionIndex actions = order.end_of(agent) - order.begin_of(agent);
-    if (!may_die || actions == 0 || part(dice_) > 0.2) continue;
+    if (!may_fail || actions == 0 || random_fraction(dice_) > 0.2) continue;
     last_[agent] =
         order.begin_of(agent) + std::uniform_int_distribution<ActionIndex>(0, actions - 1)(dice_);
-    dies_ = true;
+    fails_ = true;
   }
 }
 

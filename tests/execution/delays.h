@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random troubles of robots.
+// Random disturbances of an execution.
 #pragma once
 
 #include <cstdint>
@@ -10,24 +10,24 @@
 
 namespace grove::detail::testing {
 
-// One schedule: actions that take longer now and then, slower robots, long stops, and with
-// `may_die` robots that stop for good. The same seed makes the same one, whenever actions begin.
+// One random schedule: some actions take longer, some robots are slower, there are long stops, and
+// with `may_fail` some robots fail. It depends only on the seed, not on when actions begin.
 class Delays {
  public:
-  Delays(const ActionDependencyGraph& order, std::uint64_t seed, bool may_die = false);
+  Delays(const ActionDependencyGraph& order, std::uint64_t seed, bool may_fail = false);
 
   Time operator()(ActionIndex action, Time begin);
-  bool anybody_dies() const { return dies_; }
+  bool any_robot_fails() const { return fails_; }
 
  private:
   const ActionDependencyGraph& order_;
   std::uint64_t seed_;
-  std::mt19937_64 dice_;           // of the robots
-  double delayed_ = 0;             // how often an action takes longer
-  double stops_ = 0;               // how often it takes very long
+  std::mt19937_64 dice_;           // draws the parameters of the robots
+  double delayed_ = 0;             // probability that an action takes longer
+  double stops_ = 0;               // probability that it takes much longer
   std::vector<double> slowness_;   // by agent
-  std::vector<ActionIndex> last_;  // by agent: in which it dies; kNoAction: it does not
-  bool dies_ = false;
+  std::vector<ActionIndex> last_;  // by agent: action in which it fails; kNoAction: none
+  bool fails_ = false;
 };
 
 }  // namespace grove::detail::testing

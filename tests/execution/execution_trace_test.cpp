@@ -13,12 +13,12 @@
 #include "tests/support/clocks.h"
 
 namespace grove::detail {
-namespace drive_test {
+namespace execution_trace_test {
 
 using testing::collision;
 using testing::Delays;
 
-std::optional<Plan> solved(const Instance& instance) {
+std::optional<Plan> plan_of(const Instance& instance) {
   SolveOptions options;
   options.omega = Omega::infinite();
   const testing::LimitOfLooks limits(10'000);
@@ -31,11 +31,11 @@ std::vector<State> starts_of(const Instance& instance) {
   return starts;
 }
 
-TEST(ExecutionTrace, NobodyCollidesAndEverybodyArrives) {
+TEST(ExecutionTrace, AllRobotsArriveWithoutCollisions) {
   int drives = 0;
   for (std::uint64_t seed = 1000; seed < 1150; ++seed) {
     const Instance instance = fuzz::random_world(seed).build();
-    const auto plan = solved(instance);
+    const auto plan = plan_of(instance);
     if (!plan) continue;
     const ActionDependencyGraph order(instance, *plan);
     for (std::uint64_t schedule = 0; schedule < 50; ++schedule, ++drives) {
@@ -53,11 +53,11 @@ TEST(ExecutionTrace, NobodyCollidesAndEverybodyArrives) {
   EXPECT_GT(drives, 3000);
 }
 
-TEST(ExecutionTrace, WhereSomeDieTheOthersGoOnAsFarAsTheyCan) {
+TEST(ExecutionTrace, OnlyRobotsBehindFailedOnesAreBlocked) {
   int held_up = 0;
   for (std::uint64_t seed = 2000; seed < 2100; ++seed) {
     const Instance instance = fuzz::random_world(seed).build();
-    const auto plan = solved(instance);
+    const auto plan = plan_of(instance);
     if (!plan) continue;
     const ActionDependencyGraph order(instance, *plan);
     for (std::uint64_t schedule = 0; schedule < 20; ++schedule) {
@@ -65,28 +65,28 @@ TEST(ExecutionTrace, WhereSomeDieTheOthersGoOnAsFarAsTheyCan) {
       const ExecutionTrace driven = drive(order, std::ref(delays));
       ASSERT_EQ(collision(instance.world(), order, driven, starts_of(instance)), "") << seed;
       const std::vector<BlockedRobot> all = stuck(order, driven);
-      EXPECT_LE(delays.anybody_dies() ? 0 : all.size(), 0u);
-      bool has_dead = all.empty();
+      EXPECT_LE(delays.any_robot_fails() ? 0 : all.size(), 0u);
+      bool has_failed = all.empty();
       for (const BlockedRobot& s : all) {
         ASSERT_GE(s.waits_for, 0);
-        has_dead |= s.waits_for == s.agent;
+        has_failed |= s.waits_for == s.agent;
         held_up += s.waits_for != s.agent ? 1 : 0;
-        // Whom somebody waits for stands still, too.
+        // The robot that it waits for is blocked, too.
         EXPECT_TRUE(std::ranges::find(all, s.waits_for, &BlockedRobot::agent) != all.end());
       }
-      EXPECT_TRUE(has_dead) << seed << ", " << schedule;
+      EXPECT_TRUE(has_failed) << seed << ", " << schedule;
     }
   }
   EXPECT_GT(held_up, 50);
 }
 
-// Where nobody enters a place in the step in which another leaves it.
-TEST(ExecutionTrace, UndisturbedItTakesNoLongerThanAPlanWithoutFollowing) {
+// Plans in which no robot enters a place in the step in which another leaves it.
+TEST(ExecutionTrace, NominalTakesNoLongerThanPlanWithoutFollowing) {
   int without_following = 0;
   int longer = 0;
   for (std::uint64_t seed = 3000; seed < 3300; ++seed) {
     const Instance instance = fuzz::random_world(seed).build();
-    const auto plan = solved(instance);
+    const auto plan = plan_of(instance);
     if (!plan) continue;
     const ActionDependencyGraph order(instance, *plan);
     const ExecutionTrace driven = simulate_nominal(order);
@@ -106,5 +106,5 @@ TEST(ExecutionTrace, UndisturbedItTakesNoLongerThanAPlanWithoutFollowing) {
   EXPECT_GT(longer, 0);
 }
 
-}  // namespace drive_test
+}  // namespace execution_trace_test
 }  // namespace grove::detail

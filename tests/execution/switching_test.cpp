@@ -23,15 +23,15 @@ using testing::collision;
 using testing::Delays;
 using testing::instance_of;
 
-std::optional<Plan> solved(const Instance& instance) {
+std::optional<Plan> plan_of(const Instance& instance) {
   SolveOptions options;
   options.omega = Omega::infinite();
   const testing::LimitOfLooks limits(10'000);
   return solve(instance, options, limits).plan;
 }
 
-// A dozen robots on a small hall with pillars.
-Instance crowd(std::uint64_t seed) {
+// Up to ten robots in a small hall with pillars.
+Instance dense_instance(std::uint64_t seed) {
   Random random(seed);
   const int width = 8;
   const int height = 6;
@@ -51,12 +51,12 @@ Instance crowd(std::uint64_t seed) {
   return std::move(builder).build();
 }
 
-std::string wrong_with(const Instance& instance, const Plan& plan) {
+std::string first_violation(const Instance& instance, const Plan& plan) {
   Solution solution;
   solution.plan = plan;
   solution.status = status_of(plan.cost, 0, solution.omega);
   const auto wrong = check(instance, solution, 1);
-  return wrong.empty() ? "" : wrong.front().place + ": " + wrong.front().message;
+  return wrong.empty() ? "" : wrong.front().json_pointer + ": " + wrong.front().message;
 }
 
 Cost cost_of(const ActionDependencyGraph& order, const ExecutionTrace& drive) {
@@ -66,8 +66,8 @@ Cost cost_of(const ActionDependencyGraph& order, const ExecutionTrace& drive) {
   return cost;
 }
 
-// Red crosses blue's way first, by the plan, but stands still before it does.
-TEST(Switching, WhoWaitsForALateOneGoesFirst) {
+// By the plan robot 0 crosses the path of robot 1 first, but it is delayed before the crossing.
+TEST(Switching, RobotThatWaitsForADelayedOneGoesFirst) {
   const Instance instance =
       instance_of({"@@@.@@@", "@@@.@@@", ".......", "@@@.@@@", "@@@.@@@"},
                   {AgentSpec{{0, 2}, Position{6, 2}, {}}, AgentSpec{{3, 0}, Position{3, 4}, {}}});
@@ -83,7 +83,7 @@ TEST(Switching, WhoWaitsForALateOneGoesFirst) {
   plan.agents.push_back(
       {6, {}, path({{3, 0}, {3, 1}, {3, 1}, {3, 1}, {3, 2}, {3, 3}, {3, 4}}), {}});
   plan.cost = 12;
-  ASSERT_EQ(wrong_with(instance, plan), "");
+  ASSERT_EQ(first_violation(instance, plan), "");
   const ActionDependencyGraph order(instance, plan);
   const Duration stops = [&](ActionIndex a, Time) { return a == 0 ? 50 : 1; };
   const SwitchableTrace switched = simulate_switchable(instance.world(), plan, order, stops);
@@ -93,14 +93,16 @@ TEST(Switching, WhoWaitsForALateOneGoesFirst) {
   EXPECT_EQ(switched.drive.finish(order, 0), 55);
 }
 
-// In a corridor that both have to pass nobody can go first once the other is in it.
-TEST(Switching, NobodyWaitsInACircle) {
+// In a corridor that two robots must pass, their order cannot be switched once one of them is in
+// it.
+TEST(Switching, CausesNoDeadlock) {
   std::int64_t switches = 0;
   Cost fixed = 0;
   Cost switching = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
-    const Instance instance = seed % 2 == 0 ? crowd(seed) : fuzz::random_world(seed).build();
-    const auto plan = solved(instance);
+    const Instance instance =
+        seed % 2 == 0 ? dense_instance(seed) : fuzz::random_world(seed).build();
+    const auto plan = plan_of(instance);
     if (!plan) continue;
     const ActionDependencyGraph order(instance, *plan);
     std::vector<State> starts;
@@ -111,7 +113,8 @@ TEST(Switching, NobodyWaitsInACircle) {
                                                            1 + static_cast<Time>(seed % 5));
       ASSERT_EQ(collision(instance.world(), order, switched.drive, starts), "") << seed;
       ASSERT_TRUE(switched.stuck.empty()) << seed << ", " << schedule;
-      ASSERT_EQ(wrong_with(instance, executed_plan(instance, *plan, order, switched.drive)), "")
+      ASSERT_EQ(first_violation(instance, executed_plan(instance, *plan, order, switched.drive)),
+                "")
           << seed;
       switches += switched.switches;
       switching += cost_of(order, switched.drive);
@@ -122,25 +125,25 @@ TEST(Switching, NobodyWaitsInACircle) {
   EXPECT_LT(switching, fixed);
 }
 
-TEST(Switching, WhereSomeDieTheOthersGoOnAsFarAsTheyCan) {
+TEST(Switching, OnlyRobotsBehindFailedOnesAreBlocked) {
   std::int64_t stuck_fixed = 0;
   std::int64_t stuck_switching = 0;
   for (std::uint64_t seed = 0; seed < 60; seed += 2) {
-    const Instance instance = crowd(seed);
-    const auto plan = solved(instance);
+    const Instance instance = dense_instance(seed);
+    const auto plan = plan_of(instance);
     if (!plan) continue;
     const ActionDependencyGraph order(instance, *plan);
     for (std::uint64_t schedule = 0; schedule < 10; ++schedule) {
       const Delays delays(order, schedule, true);
       const SwitchableTrace switched = simulate_switchable(instance.world(), *plan, order, delays);
       const std::vector<BlockedRobot> fixed = stuck(order, drive(order, delays));
-      bool has_dead = switched.stuck.empty();
+      bool has_failed = switched.stuck.empty();
       for (const BlockedRobot& s : switched.stuck) {
-        has_dead |= s.waits_for == s.agent;
+        has_failed |= s.waits_for == s.agent;
         EXPECT_TRUE(std::ranges::find(switched.stuck, s.waits_for, &BlockedRobot::agent) !=
                     switched.stuck.end());
       }
-      EXPECT_TRUE(has_dead) << seed << ", " << schedule;
+      EXPECT_TRUE(has_failed) << seed << ", " << schedule;
       stuck_fixed += std::ssize(fixed);
       stuck_switching += std::ssize(switched.stuck);
     }

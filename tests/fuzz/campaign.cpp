@@ -20,7 +20,7 @@ std::string problem_of(const TinyInstance& instance) {
   return mg == std::ssize(instance.agents) ? "MG" : "mixed";
 }
 
-// What the instance has beyond a grid, agents that turn freely and tasks that take no time.
+// Name of the kind of world: grid or roads, with turning agents or tasks with a duration.
 std::string world_of(const TinyInstance& instance) {
   std::string world = instance.roads.empty() ? "grid" : "roads";
   const auto agent_with = [&](auto what) { return std::ranges::any_of(instance.agents, what); };
@@ -98,7 +98,8 @@ std::string Tally::summary() const {
 
 std::string Failure::report() const {
   return fmt::format(
-      "The solver is wrong:\n  {}\non this case (a line to commit it with above):\n\n{}\n"
+      "The solver is wrong:\n  {}\nin this case (to commit it, add a comment line at the "
+      "top):\n\n{}\n"
       "shrunk from:\n\n{}",
       fmt::join(result.complaints, "\n  "), shrunk.to_text(), original.to_text());
 }
@@ -112,9 +113,9 @@ Failure explain(const FuzzCase& fuzz_case, CaseResult first, const Solver& solve
   };
   Failure failure{fuzz_case, shrink(fuzz_case, fails, limits), {}};
   failure.result = run_case(failure.shrunk, solver, patience);
-  if (failure.result.complaints.empty()) {  // with threads a run may go another way
+  if (failure.result.complaints.empty()) {  // with several threads a run need not be repeatable
     failure.result = std::move(first);
-    failure.result.complaints.push_back("(at first; not when the case was run again)");
+    failure.result.complaints.push_back("(in the first run only; a repetition did not fail)");
   }
   return failure;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many random cases in a row.
+// Runs random fuzz cases until one fails or a limit is reached.
 #pragma once
 
 #include <chrono>
@@ -17,41 +17,41 @@ namespace grove::detail::fuzz {
 struct Tally {
   std::int64_t passed = 0;
   std::int64_t failed = 0;
-  std::int64_t too_large = 0;   // skipped: the oracle gave up
+  std::int64_t too_large = 0;   // skipped: too many joint states for the oracle
   std::int64_t infeasible = 0;  // no plan exists
-  std::int64_t unstopped = 0;   // a plan exists, and nothing was meant to stop the search ...
-  std::int64_t unsolved = 0;    // ... but its patience did
+  std::int64_t unstopped = 0;   // a plan exists, and the case has no limit but the patience
+  std::int64_t unsolved = 0;    // those of `unstopped` that did not finish within the patience
   std::map<std::string, std::int64_t> by_status;
   std::map<std::string, std::int64_t> by_omega;
   std::map<std::string, std::int64_t> by_kind;   // CTS, MG, mixed
   std::map<std::string, std::int64_t> by_world;  // grid, roads; turning, work
-  std::map<std::string, std::int64_t> by_trait;  // what else there is; a case may have several
+  std::map<std::string, std::int64_t> by_trait;  // further properties; a case may have several
 
   void add(const FuzzCase& fuzz_case, const CaseResult& result);
-  // Of the unstopped cases. Being slow is no wrong claim; being slow often means a search that goes
-  // in circles.
+  // Percentage of `unstopped` that is `unsolved`. A slow run is not a wrong claim, but the
+  // search often makes no progress in it.
   double unsolved_percent() const;
   std::string summary() const;
 };
 
-// A case that fails, what is wrong with it, and the smallest one like it.
+// A failing case, and the smallest case found that fails too.
 struct Failure {
   FuzzCase original;
   FuzzCase shrunk;
-  CaseResult result;  // of the shrunk one
+  CaseResult result;  // of `shrunk`
 
   std::string report() const;
 };
 
 struct Campaign {
-  std::int64_t count = 0;                          // how many cases
-  std::uint64_t seed = 0;                          // of the first; the next ones count up
-  std::optional<double> seconds = std::nullopt;    // at most so long
+  std::int64_t count = 0;  // number of cases
+  std::uint64_t seed = 0;  // of the first case; each next case has the next seed
+  std::optional<double> seconds = std::nullopt;    // time limit; nullopt: none
   std::chrono::milliseconds patience = kPatience;  // see run_case()
-  std::filesystem::path trace = {};  // if given, holds the case under way: for crashes
+  std::filesystem::path trace = {};  // file for the current case, in case of a crash; empty: none
 };
 
-// Runs until the first failure, which it shrinks, or the end.
+// Runs cases until the first failure, and shrinks it. Returns nullopt if no case failed.
 std::optional<Failure> run_campaign(const Campaign& campaign, const Solver& solver, Tally& tally);
 
 // Shrinks a failing case.

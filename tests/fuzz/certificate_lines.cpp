@@ -20,7 +20,7 @@ std::vector<std::string> certificate_lines(const std::filesystem::path& file) {
   while (from.pos < from.size) {
     ZSTD_outBuffer to{buffer.data(), buffer.size(), 0};
     if (ZSTD_isError(ZSTD_decompressStream(context, &to, &from)))
-      throw std::runtime_error("a certificate that is not compressed as it should be");
+      throw std::runtime_error("the certificate is not valid zstd data");
     text.append(buffer.data(), to.pos);
   }
   ZSTD_freeDCtx(context);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is in the file of a certificate.
+// Reads the lines of a compressed certificate file.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace grove::detail::fuzz {
 
-// Of one that is compressed; without their ends. Throws where it is not as it should be.
+// Returns the lines without line ends. Throws std::runtime_error if `file` is not valid zstd data.
 std::vector<std::string> certificate_lines(const std::filesystem::path& file);
 
 }  // namespace grove::detail::fuzz

@@ -52,7 +52,7 @@ class Claims {
 
   void examine_plan() {
     for (const Violation& violation : check(instance_, solution_))
-      expect(false, "the plan is wrong: {}: {}", violation.place, violation.message);
+      expect(false, "the plan is invalid: {}: {}", violation.json_pointer, violation.message);
   }
 
   void examine_against(Cost optimum) {
@@ -76,11 +76,11 @@ class Claims {
            "status {}, but there is no plan", to_string(solution_.status));
   }
 
-  // Only a limit, or w = inf, excuses a run that did not get there.
+  // A run must reach the requested status unless a limit was reached or omega = inf.
   void examine_effort() {
     if (stopped_ || omega_.is_infinite()) return;
     expect(solution_.status != Status::kUnknown && solution_.status != Status::kFeasible,
-           "status {} though no limit struck", to_string(solution_.status));
+           "status {} although no limit was reached", to_string(solution_.status));
   }
 
   const Instance& instance_;

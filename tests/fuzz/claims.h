@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Holds what a solver says against the truth.
+// Checks the claims of a solver against the answer of the oracle.
 #pragma once
 
 #include <string>
@@ -10,8 +10,9 @@
 
 namespace grove::detail::fuzz {
 
-// Everything that is false in `solution`, or that it owes; empty: nothing. `truth` must not be
-// kTooLarge. `omega` is what was asked for; `stopped`: a limit struck before the end.
+// Returns all complaints about `solution`: false claims, and missing results; empty if there are
+// none. `truth` must not be kTooLarge. `omega` is the tolerance that was requested. `stopped`: a
+// limit was reached before the end.
 std::vector<std::string> false_claims(const Instance& instance, const oracle::Answer& truth,
                                       Omega omega, const Solution& solution, bool stopped);
 

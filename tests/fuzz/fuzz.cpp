@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove-fuzz: random tiny instances against the oracle. Exit codes: 0 all is well, 1 the solver is
-// wrong, 2 bad usage.
+// grove-fuzz: compares the solver with the oracle on random tiny instances. Exit codes: 0 no
+// failure, 1 the solver is wrong, 2 bad usage.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -29,7 +29,7 @@ FuzzCase read_case(const std::string& path) {
   return FuzzCase::parse(text.str());
 }
 
-// Grove, with an eye on whether it ever loses the optimum.
+// Solves `instance` with Grove and throws if the search loses the optimal plan of `truth`.
 Solution solve_watched(const Instance& instance, const SolveOptions& options, const Limits& limits,
                        const oracle::Answer& truth) {
   if (!truth.plan) return solve(instance, options, limits);
@@ -68,18 +68,19 @@ int run(const std::vector<std::string>& paths, const Campaign& campaign, double 
 int main_of(int argc, char** argv) {
   Campaign campaign{.count = 1000};
   std::vector<std::string> paths;
-  CLI::App app("Solves random tiny instances and holds every answer against an exhaustive search.");
-  app.add_option("--count", campaign.count, "how many instances")->capture_default_str();
-  app.add_option("--seed", campaign.seed, "of the first one")->capture_default_str();
-  app.add_option("--seconds", campaign.seconds, "at most so long");
+  CLI::App app("Solves random tiny instances and compares every answer with an exhaustive search.");
+  app.add_option("--count", campaign.count, "number of instances")->capture_default_str();
+  app.add_option("--seed", campaign.seed, "seed of the first instance")->capture_default_str();
+  app.add_option("--seconds", campaign.seconds, "time limit");
   double patience = 2;
-  app.add_option("--patience", patience, "seconds for a run that no other limit stops")
+  app.add_option("--patience", patience, "time limit in seconds of a run without another limit")
       ->capture_default_str();
   double max_unsolved = 100;
-  app.add_option("--max-unsolved", max_unsolved, "fail if more percent of them take longer")
+  app.add_option("--max-unsolved", max_unsolved,
+                 "fail if a larger percentage of these runs takes longer")
       ->capture_default_str();
-  app.add_option("--trace", campaign.trace, "write each case here before it runs");
-  app.add_option("--case", paths, "run these files instead")->check(CLI::ExistingFile);
+  app.add_option("--trace", campaign.trace, "write each case to this file before it runs");
+  app.add_option("--case", paths, "run the cases in these files instead")->check(CLI::ExistingFile);
   try {
     app.parse(argc, argv);
     campaign.patience = std::chrono::milliseconds(std::llround(patience * 1000));

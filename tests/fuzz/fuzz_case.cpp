@@ -93,7 +93,7 @@ void read_option(const std::string& line, FuzzCase& fuzz_case) {
     throw std::invalid_argument(fmt::format("did not expect the option '{}'", key));
 }
 
-// All, none, all but one, one alone, or any.
+// All techniques, none, all but one, only one, or a random set.
 Techniques random_techniques(Random& random) {
   const Technique one = kTechniques[random.below(static_cast<int>(kTechniques.size()))].technique;
   switch (random.below(6)) {
@@ -120,30 +120,30 @@ Omega random_omega(Random& random) {
   return Omega::parse(kChoices[random.below(std::size(kChoices))]);
 }
 
-// Mostly as much as it takes; else so little that nodes must be given up.
+// Mostly unlimited; otherwise so little that nodes must be evicted.
 std::size_t random_node_memory(Random& random) {
   constexpr std::size_t kUnlimited = SolveOptions::kUnlimited;
   return random.pick<std::size_t>({kUnlimited, kUnlimited, kUnlimited, 1'000, 3'000, 10'000});
 }
 
-// Mostly what it is; else a few numbers are at an end of their range, or far from their default
-// but not so far that a run takes longer than the fuzzer waits.
+// Mostly the default; otherwise a few tunables are at a bound of their range, or far from their
+// default, but not so far that a run exceeds the time limit of the fuzzer.
 Tuning random_tuning(Random& random) {
   Tuning tuning;
-  // Else tiny instances are solved before the joint search is due.
+  // Otherwise tiny instances are solved before the joint search starts.
   if (random.percent(20)) {
-    tuning.joint_begins_work = 0;
+    tuning.joint_start_work = 0;
     tuning.joint_step_work = random.pick<std::int64_t>({1, 20, 4000});
   }
-  // Nor would it be tried with so few agents.
+  // Otherwise the Lagrangian bound does not run with so few agents.
   if (random.percent(30)) {
-    tuning.lagrangian_agents = 1;
-    tuning.lagrangian_begins_work = 0;
-    tuning.most_lagrangian = random.pick<double>({0.5, 4, 100});
+    tuning.lagrangian_min_agents = 1;
+    tuning.lagrangian_start_work = 0;
+    tuning.lagrangian_max_share = random.pick<double>({0.5, 4, 100});
     tuning.lagrangian_step_work = random.pick<std::int64_t>({1, 100, 4000});
     tuning.lagrangian_level = random.pick<double>({0.03, 0.3});
-    tuning.first_price_list = random.between(1, 3);
-    tuning.priced_gap = random.pick<double>({0.1, 10});
+    tuning.first_dual_solution_round = random.between(1, 3);
+    tuning.lagrangian_lns_max_gap = random.pick<double>({0.1, 10});
   }
   if (random.below(4) > 0) return tuning;
   const auto all = tunables();
@@ -154,8 +154,8 @@ Tuning random_tuning(Random& random) {
           using Number = std::remove_cvref_t<decltype(tuning.*at)>;
           const double usual = static_cast<double>(Tuning().*at);
           const double some =
-              random.pick<double>({t.least, usual / 8, usual / 2, 2 * usual, 8 * usual});
-          tuning.*at = static_cast<Number>(std::clamp(some, t.least, t.most));
+              random.pick<double>({t.min, usual / 8, usual / 2, 2 * usual, 8 * usual});
+          tuning.*at = static_cast<Number>(std::clamp(some, t.min, t.max));
         },
         t.place);
   }
@@ -225,7 +225,7 @@ FuzzCase random_case(std::uint64_t seed) {
   fuzz_case.options.node_memory = random_node_memory(random);
   fuzz_case.options.threads = random.pick<int>({1, 1, 1, 1, 1, 2, 2, 3, 4});
   fuzz_case.options.deterministic = random.below(8) == 0;
-  // What the published low levels are for.
+  // The problems that the published low levels support.
   if (fuzz_case.options.policy != Policy::kFixed && random.below(6) == 0 && on_plain_grid)
     fuzz_case.options.low_level = random.pick<LowLevel>(
         {LowLevel::kVisitedSets, LowLevel::kSingleLegs, LowLevel::kTimeIntervalForest});

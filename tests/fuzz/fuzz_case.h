@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An instance and the options to solve it with: one thing the fuzzer tries.
+// A fuzz case: an instance, and the options to solve it with.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@
 
 namespace grove::detail::fuzz {
 
-// What may strike during a run.
+// Limit that a run is subject to.
 enum class Strike : std::uint8_t {
-  kNothing,    // only a generous deadline
+  kNothing,    // only a long deadline
   kExpired,    // the deadline has passed when the run begins
   kSoon,       // the deadline comes within a millisecond
-  kMemory,     // there is hardly any memory
-  kInterrupt,  // the interrupt flag is up when the run begins
+  kMemory,     // the memory limit is hardly above the memory in use
+  kInterrupt,  // the interrupt flag is set when the run begins
 };
 
-// As text: a TinyInstance, followed by
+// As text: a TinyInstance, followed by these lines, of which any may be missing:
 //
 //     options
 //     omega 0.01
@@ -30,12 +30,10 @@ enum class Strike : std::uint8_t {
 //     seed 7
 //     threads 2
 //     deterministic yes
-//     without bypass       (a technique; may come again)
+//     without bypass       (a technique; repeatable)
 //     node-memory 4000     (bytes)
-//     tune bypasses=2      (a number of the search; may come again)
+//     tune bypasses=2      (a tunable; repeatable)
 //     strike nothing       (nothing, expired, soon, memory, interrupt)
-//
-// in which every line may be missing.
 struct FuzzCase {
   FuzzCase() { options.audit = true; }
 
@@ -48,7 +46,7 @@ struct FuzzCase {
   static FuzzCase parse(std::string_view text);
 };
 
-// A random instance with random options. The same seed makes the same case.
+// Returns a random instance with random options. The same seed gives the same case.
 FuzzCase random_case(std::uint64_t seed);
 
 }  // namespace grove::detail::fuzz

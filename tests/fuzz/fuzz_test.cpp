@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The fuzzer itself under test: every kind of lie must be caught, and shrunk to its core.
+// Tests of the fuzzer: it must catch every kind of false claim, and shrink the case.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// Knows the answer and tells it.
+// A solver that returns the answer of the oracle.
 Solution honest(const Instance&, const SolveOptions& options, const Limits& limits,
                 const oracle::Answer& truth) {
   Solution solution;
@@ -31,8 +31,8 @@ Solution honest(const Instance&, const SolveOptions& options, const Limits& limi
   return solution;
 }
 
-// Knows the answer and tells it in `twisted` form.
-Solver liar(const std::function<void(const Instance&, Solution&)>& twist) {
+// A solver that returns the answer of the oracle as changed by `twist`.
+Solver false_solver(const std::function<void(const Instance&, Solution&)>& twist) {
   return [twist](const Instance& instance, const SolveOptions& options, const Limits& limits,
                  const oracle::Answer& truth) {
     Solution solution = honest(instance, options, limits, truth);
@@ -49,7 +49,7 @@ constexpr const char* kCorner = "map\n...\n...\nagents\n0,0 -> 2,0\n2,0 -> 0,0\n
 constexpr const char* kSwap = "map\n...\nagents\n0,0 -> 2,0\n2,0 -> 0,0\n";
 constexpr const char* kFourSteps = "map\n.....\nagents\n0,0 -> 4,0\n";
 
-// A plan of one step more: waits at the start first.
+// Makes the plan one step longer: the agent waits at its start first.
 void delay(Solution& solution) {
   AgentPlan& agent = solution.plan->agents[0];
   agent.path.insert(agent.path.begin(), agent.path.front());
@@ -57,7 +57,7 @@ void delay(Solution& solution) {
   ++solution.plan->cost;
 }
 
-TEST(Fuzz, HasNothingAgainstTheTruth) {
+TEST(Fuzzer, AcceptsTrueAnswers) {
   Tally tally;
   const auto failure = run_campaign({.count = 300, .seed = 1}, honest, tally);
   EXPECT_FALSE(failure) << failure->report();
@@ -67,46 +67,47 @@ TEST(Fuzz, HasNothingAgainstTheTruth) {
   EXPECT_GT(tally.by_status["unknown"], 0);
 }
 
-TEST(Fuzz, CatchesAWrongCost) {
-  EXPECT_THAT(complaints(kCorner, liar([](auto&, Solution& s) {
+TEST(Fuzzer, CatchesWrongCost) {
+  EXPECT_THAT(complaints(kCorner, false_solver([](auto&, Solution& s) {
                            --s.plan->cost;
                            --s.lower_bound;
                          })),
               Contains(HasSubstr("below the optimum")));
-  EXPECT_THAT(complaints(kCorner, liar([](auto&, Solution& s) { --s.plan->agents[0].cost; })),
-              Contains(HasSubstr("the plan is wrong")));
+  EXPECT_THAT(
+      complaints(kCorner, false_solver([](auto&, Solution& s) { --s.plan->agents[0].cost; })),
+      Contains(HasSubstr("the plan is invalid")));
 }
 
-TEST(Fuzz, CatchesABoundThatIsTooHigh) {
-  EXPECT_THAT(complaints(kCorner, liar([](auto&, Solution& s) { ++s.lower_bound; })),
+TEST(Fuzzer, CatchesBoundAboveOptimum) {
+  EXPECT_THAT(complaints(kCorner, false_solver([](auto&, Solution& s) { ++s.lower_bound; })),
               Contains(HasSubstr("exceeds the optimum")));
-  // Also when it comes without a plan, from a run that was stopped.
+  // Also without a plan, from a run that was stopped.
   EXPECT_THAT(complaints("map\n..\nagents\n0,0 -> 1,0\noptions\nstrike expired\n",
-                         liar([](auto&, Solution& s) { s.lower_bound = 2; })),
+                         false_solver([](auto&, Solution& s) { s.lower_bound = 2; })),
               Contains(HasSubstr("exceeds the optimum")));
 }
 
-TEST(Fuzz, CatchesFalseInfeasibility) {
-  EXPECT_THAT(complaints(kCorner, liar([](auto&, Solution& s) {
+TEST(Fuzzer, CatchesFalseInfeasibility) {
+  EXPECT_THAT(complaints(kCorner, false_solver([](auto&, Solution& s) {
                            s.plan.reset();
                            s.status = Status::kInfeasible;
                          })),
               Contains(HasSubstr("infeasible, but a plan")));
 }
 
-TEST(Fuzz, CatchesFalseOptimality) {
-  const Solver solver = liar([](auto&, Solution& s) {
+TEST(Fuzzer, CatchesFalseOptimality) {
+  const Solver solver = false_solver([](auto&, Solution& s) {
     delay(s);
     ++s.lower_bound;
   });
   EXPECT_THAT(complaints(kFourSteps, solver), Contains(HasSubstr("optimal with cost 5")));
-  // Without the bound to match it does not even agree with itself.
-  EXPECT_THAT(complaints(kFourSteps, liar([](auto&, Solution& s) { delay(s); })),
+  // Without the matching bound, the solution contradicts itself.
+  EXPECT_THAT(complaints(kFourSteps, false_solver([](auto&, Solution& s) { delay(s); })),
               Contains(HasSubstr("status optimal where")));
 }
 
-TEST(Fuzz, CatchesFalseBoundedness) {
-  const Solver solver = liar([](auto&, Solution& s) {
+TEST(Fuzzer, CatchesFalseBoundedness) {
+  const Solver solver = false_solver([](auto&, Solution& s) {
     delay(s);
     s.lower_bound = 5;
     delay(s);
@@ -116,7 +117,7 @@ TEST(Fuzz, CatchesFalseBoundedness) {
   EXPECT_THAT(wrong, Contains(HasSubstr("bounded with cost 6")));
 }
 
-TEST(Fuzz, CatchesPlansThatCollide) {
+TEST(Fuzzer, CatchesCollisionsInPlans) {
   const Solver solver = [](const Instance& instance, const SolveOptions&, const Limits&,
                            const oracle::Answer&) {
     Solution solution;
@@ -128,27 +129,27 @@ TEST(Fuzz, CatchesPlansThatCollide) {
   };
   EXPECT_THAT(complaints(kSwap, solver), Contains(HasSubstr("but there is none")));
   EXPECT_THAT(complaints("map\n...\n...\nagents\n0,0 -> 2,0\n2,0 -> 0,0\n", solver),
-              Contains(HasSubstr("the plan is wrong")));
+              Contains(HasSubstr("the plan is invalid")));
 }
 
-TEST(Fuzz, CatchesGivingUpWithoutALimit) {
-  const Solver solver = liar([](auto&, Solution& s) {
+TEST(Fuzzer, CatchesUnknownStatusWithoutALimit) {
+  const Solver solver = false_solver([](auto&, Solution& s) {
     s.plan.reset();
     s.status = Status::kUnknown;
   });
-  EXPECT_THAT(complaints(kCorner, solver), Contains(HasSubstr("no limit struck")));
+  EXPECT_THAT(complaints(kCorner, solver), Contains(HasSubstr("no limit was reached")));
   EXPECT_THAT(complaints("map\n..\nagents\n0,0 -> 1,0\noptions\nomega inf\n", solver), IsEmpty());
   EXPECT_THAT(complaints("map\n..\nagents\n0,0 -> 1,0\noptions\nstrike expired\n", solver),
               IsEmpty());
 }
 
-TEST(Fuzz, CatchesExceptionsDeafnessAndWhims) {
+TEST(Fuzzer, CatchesExceptionsOverrunsAndNondeterminism) {
   const Solver thrower = [](const Instance&, const SolveOptions&, const Limits&,
                             const oracle::Answer&) -> Solution {
     throw std::runtime_error("out of luck");
   };
   EXPECT_THAT(complaints(kSwap, thrower), Contains(HasSubstr("threw: out of luck")));
-  const Solver deaf = liar([](auto&, auto&) {
+  const Solver deaf = false_solver([](auto&, auto&) {
     const std::clock_t begin = std::clock();
     while (std::clock() - begin < 7 * CLOCKS_PER_SEC / 2) continue;
   });
@@ -166,7 +167,7 @@ TEST(Fuzz, CatchesExceptionsDeafnessAndWhims) {
               Contains(HasSubstr("differently the second time")));
 }
 
-TEST(Fuzz, CountsWhoRunsOutOfPatience) {
+TEST(Fuzzer, CountsRunsThatReachTheTimeLimit) {
   const Solver slow = [](const Instance&, const SolveOptions& options, const Limits& limits,
                          const oracle::Answer&) {
     while (!limits.stop_requested()) std::this_thread::yield();
@@ -182,9 +183,10 @@ TEST(Fuzz, CountsWhoRunsOutOfPatience) {
   EXPECT_EQ(tally.unsolved_percent(), 100);
 }
 
-TEST(Shrink, ReachesTheCoreOfALie) {
-  // Wrong where an MG agent has a task on another's destination (and one more, to finish on).
-  const Solver solver = liar([](const Instance& instance, Solution& s) {
+TEST(Shrink, FindsMinimalCaseOfFalseClaim) {
+  // Wrong if an MG agent has a task on another agent's destination (and a second task, to finish
+  // on).
+  const Solver solver = false_solver([](const Instance& instance, Solution& s) {
     for (const Task& task : instance.tasks())
       for (const Agent& agent : instance.agents())
         if (agent.goal == task.cell && !instance.agent(task.agents[0]).goal) s.lower_bound = 1000;
@@ -209,14 +211,14 @@ TEST(Shrink, OffersOnlyValidAndSimplerCases) {
   }
 }
 
-TEST(Shrink, RemovesRowsAndColumnsThatNothingUses) {
+TEST(Shrink, RemovesUnusedRowsAndColumns) {
   const FuzzCase fuzz_case = FuzzCase::parse("map\n@...\n@@@.\n@@@.\nagents\n1,0 -> 3,2\n");
   const FuzzCase shrunk = shrink(
       fuzz_case, [](const FuzzCase& c) { return c.instance.agents.size() == 1; }, Limits());
   EXPECT_EQ(shrunk.instance.to_text(), "map\n.@\n@.\nagents\n0,0 -> 1,1\n");
 }
 
-TEST(FuzzCase, SurvivesItsText) {
+TEST(FuzzCase, RoundTripsThroughText) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const FuzzCase fuzz_case = random_case(seed);
     EXPECT_EQ(FuzzCase::parse(fuzz_case.to_text()).to_text(), fuzz_case.to_text());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Methods on tiny instances against the truth: those that are exact must all find the optimum, and
-// the adaptations must not claim more than they prove. GROVE_FUZZ_FACTOR multiplies the instances.
+// Compares methods with the oracle on tiny instances: the exact ones must find the optimum, and the
+// adaptations must not claim more than they prove. GROVE_FUZZ_FACTOR multiplies the number of
+// instances.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +20,7 @@
 namespace grove::detail::fuzz {
 namespace methods_test {
 
-// With agents that may end on any of their tasks, if they have one.
+// A random instance in which every agent with a task may end on any of its tasks.
 Instance mg_instance(std::uint64_t seed) {
   TinyInstance tiny = random_instance(seed);
   for (std::size_t agent = 0; agent < tiny.agents.size(); ++agent)
@@ -81,8 +82,9 @@ INSTANTIATE_TEST_SUITE_P(, ExactMethods,
                            return name;
                          });
 
-// The cost of one agent on its own.
-Cost alone(const Instance& instance, AgentIndex agent, std::optional<Cell> goal, TaskIndex end) {
+// Cost of one agent, ignoring the others.
+Cost single_agent_cost(const Instance& instance, AgentIndex agent, std::optional<Cell> goal,
+                       TaskIndex end) {
   const Grid& grid = instance.grid();
   InstanceBuilder builder(grid);
   const Agent& a = instance.agent(agent);
@@ -96,27 +98,29 @@ Cost alone(const Instance& instance, AgentIndex agent, std::optional<Cell> goal,
   return answer.plan ? answer.plan->cost : kInfiniteCost;
 }
 
-// All choices of distinct destinations from `agent` on.
+// Minimum cost over all choices of distinct destinations for `agent` and all later agents.
 Cost best_choice(const Instance& instance, AgentIndex agent, std::vector<Cell>& taken) {
   if (agent == instance.agent_count()) return 0;
   if (const auto goal = instance.agent(agent).goal)
-    return alone(instance, agent, goal, kNoTask) + best_choice(instance, agent + 1, taken);
+    return single_agent_cost(instance, agent, goal, kNoTask) +
+           best_choice(instance, agent + 1, taken);
   Cost best = kInfiniteCost;
   for (TaskIndex task : instance.agent(agent).tasks) {
     const Cell cell = instance.task(task).cell;
     if (std::ranges::count(taken, cell) > 0) continue;
     taken.push_back(cell);
     const Cost visitors = std::ssize(instance.task(task).agents) - 1;
-    best = std::min(best, alone(instance, agent, cell, task) + Tuning().visitor_steps * visitors +
+    best = std::min(best, single_agent_cost(instance, agent, cell, task) +
+                              Tuning().visitor_steps * visitors +
                               best_choice(instance, agent + 1, taken));
     taken.pop_back();
   }
   return best;
 }
 
-TEST(Destinations, AreTheCheapestDistinctOnes) {
+TEST(Destinations, AreDistinctAndCheapest) {
   int chosen = 0;
-  int dearer = 0;  // than without the demand that they be distinct
+  int raised = 0;  // instances in which distinctness raises the cost
   const std::uint64_t seeds = testing::fuzz_rounds(80);
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -132,24 +136,24 @@ TEST(Destinations, AreTheCheapestDistinctOnes) {
     std::vector<Cell> taken;
     const Instance with = with_destinations(instance, *destinations);
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
-      bound += alone(instance, agent, instance.agent(agent).goal, kNoTask);
-      cost += alone(with, agent, with.agent(agent).goal, kNoTask);
+      bound += single_agent_cost(instance, agent, instance.agent(agent).goal, kNoTask);
+      cost += single_agent_cost(with, agent, with.agent(agent).goal, kNoTask);
       if (const TaskIndex end = destinations->tasks[agent]; end != kNoTask)
         cost += Tuning().visitor_steps * (std::ssize(instance.task(end).agents) - 1);
       if (const auto goal = instance.agent(agent).goal) taken.push_back(*goal);
     }
     EXPECT_EQ(destinations->bound, bound);
     EXPECT_EQ(cost, best_choice(instance, 0, taken));
-    if (cost > bound) ++dearer;
+    if (cost > bound) ++raised;
   }
   EXPECT_GT(chosen, 30);
-  EXPECT_GT(dearer, 1);
+  EXPECT_GT(raised, 1);
 }
 
-// What is announced on the way, held against the truth.
-class Announced : public RunObserver {
+// Checks every reported plan and bound against the oracle.
+class CheckedEvents : public RunObserver {
  public:
-  Announced(const Instance& instance, const oracle::Answer& truth)
+  CheckedEvents(const Instance& instance, const oracle::Answer& truth)
       : instance_(instance), truth_(truth) {}
 
   void on_incumbent(const Plan& plan, PlanSource, const Progress& progress) override {
@@ -179,7 +183,7 @@ class Announced : public RunObserver {
     }
   }
   bool ended() const { return ended_; }
-  // Is what was announced last what came out?
+  // True if the solution agrees with the last reported plan and bound.
   bool is_result(const Solution& solution) const {
     return solution.lower_bound >= bound_ &&
            (solution.plan ? solution.plan->cost : kInfiniteCost) == best_;
@@ -202,19 +206,20 @@ struct Adaptation {
 
 class Adaptations : public ::testing::TestWithParam<Adaptation> {};
 
-// B's own bound is 6: a1 must come before a0 rests on their task, or rest there itself.
+// With the destinations that B chooses, the bound is 6: a1 must visit their shared task before a0
+// rests there, or rest there itself.
 Instance worse_with_destinations() {
   return testing::instance_of({"...."}, {{{0, 0}, std::nullopt, {{0, 0}, {1, 0}}},
                                          {{3, 0}, std::nullopt, {{1, 0}, {3, 0}}}});
 }
 
-TEST_P(Adaptations, AnnounceNoBoundOfTheirDestinationsAlone) {
+TEST_P(Adaptations, ReportNoBoundOfChosenDestinations) {
   const Instance instance = worse_with_destinations();
   const oracle::Answer truth = oracle::solve_jointly(instance);
   ASSERT_EQ(truth.plan->cost, 4);
-  Announced announced(instance, truth);
+  CheckedEvents events(instance, truth);
   const auto [solution, stopped] =
-      run(GetParam().method, instance, {}, GetParam().anytime, &announced);
+      run(GetParam().method, instance, {}, GetParam().anytime, &events);
   EXPECT_EQ(solution.status,
             GetParam().method == Method::kCtsCbsB ? Status::kFeasible : Status::kOptimal);
 }
@@ -232,13 +237,13 @@ TEST_P(Adaptations, ClaimNoMoreThanTheyProve) {
     SolveOptions options;
     options.omega = Omega::parse(seed % 3 == 0 ? "0" : seed % 3 == 1 ? "0.1" : "inf");
     options.policy = seed % 2 == 0 ? Policy::kFixed : Policy::kFree;
-    Announced announced(instance, truth);
+    CheckedEvents events(instance, truth);
     const auto [solution, stopped] =
-        run(GetParam().method, instance, options, GetParam().anytime, &announced);
+        run(GetParam().method, instance, options, GetParam().anytime, &events);
     EXPECT_EQ(false_claims(instance, truth, options.omega, solution, true),
               std::vector<std::string>());
-    EXPECT_TRUE(announced.ended() || !solution.plan);
-    EXPECT_TRUE(announced.is_result(solution));
+    EXPECT_TRUE(events.ended() || !solution.plan);
+    EXPECT_TRUE(events.is_result(solution));
     if (solution.status == Status::kOptimal || solution.status == Status::kBounded) {
       EXPECT_EQ(solution.stats.texts.count("remark"), 0u);
     }
@@ -258,16 +263,18 @@ INSTANTIATE_TEST_SUITE_P(, Adaptations,
                                            Adaptation{"Anytime", Method::kCtsCbsC, true}),
                          [](const auto& all) { return std::string(all.param.name); });
 
-// On a line one agent is left of the other for ever, so it cannot end on its only task, which is
-// right of all of the other's. No search of a constraint tree finds that out: A is stopped by the
-// time limit. Then B sees that the ends it chose allow no plan, which says nothing of others.
-TEST(AdaptationC, IsStoppedByWhatStoppedAIfBFindsNothing) {
+// On a line the agents cannot change places, so one agent cannot end on its only task, which lies
+// beyond all tasks of the other. No constraint tree search proves this: A is stopped by the time
+// limit. Then B finds that its destinations allow no plan, which proves nothing about other
+// destinations.
+TEST(AdaptationC, ReportsStopReasonOfAIfBFindsNoPlan) {
   const Instance instance = testing::instance_of(
       {".@", "..", "@.", ".."},
       {{{1, 2}, std::nullopt, {{1, 1}, {1, 2}, {0, 1}}}, {{0, 1}, std::nullopt, {{1, 2}}}});
   SolveOptions options;
   options.omega = Omega::parse("0");
-  options.techniques = options.techniques.without(Technique::kJointSearch);  // it would end
+  options.techniques =
+      options.techniques.without(Technique::kJointSearch);  // it would prove infeasibility
   for (const bool anytime : {false, true}) {
     const testing::LimitOfLooks limits(5'000);
     const Solution solution =
@@ -280,7 +287,7 @@ TEST(AdaptationC, IsStoppedByWhatStoppedAIfBFindsNothing) {
   }
 }
 
-// B's plan is the best that ends there, no more and no less.
+// The plan of B is optimal for the destinations that B chooses.
 TEST(AdaptationB, IsOptimalForItsDestinations) {
   int compared = 0;
   const std::uint64_t seeds = testing::fuzz_rounds(60);
@@ -302,8 +309,8 @@ TEST(AdaptationB, IsOptimalForItsDestinations) {
   EXPECT_GT(compared, 20);
 }
 
-// A crowd that hardly any search comes to an end with in a tenth of a second.
-Instance crowd(unsigned seed) {
+// A dense instance that hardly any search solves in a tenth of a second.
+Instance dense_instance(unsigned seed) {
   constexpr int kSide = 8;
   constexpr int kAgents = 16;
   std::mt19937 random(seed);
@@ -319,14 +326,14 @@ Instance crowd(unsigned seed) {
   return testing::instance_of(std::vector<std::string>(kSide, std::string(kSide, '.')), agents);
 }
 
-// The best of what its searches announce.
-class Heard : public RunObserver {
+// Best plan and bound reported by the searches.
+class RecordedEvents : public RunObserver {
  public:
   void on_incumbent(const Plan& plan, PlanSource, const Progress& progress) override {
     best_ = std::min(best_, plan.cost);
-    hear(progress);
+    record(progress);
   }
-  void on_event(RunEvent, const Progress& progress) override { hear(progress); }
+  void on_event(RunEvent, const Progress& progress) override { record(progress); }
   void on_note(std::string_view note) override { notes_.emplace_back(note); }
 
   Cost best() const { return best_; }
@@ -334,7 +341,7 @@ class Heard : public RunObserver {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
-  void hear(const Progress& progress) {
+  void record(const Progress& progress) {
     EXPECT_GE(progress.lower_bound, bound_);
     bound_ = progress.lower_bound;
   }
@@ -344,37 +351,37 @@ class Heard : public RunObserver {
   std::vector<std::string> notes_;
 };
 
-TEST(AdaptationC, EndsWithTheBestOfBothSearches) {
+TEST(AdaptationC, ReturnsBestOfBothSearches) {
   int of_both = 0;
   const int seeds = testing::fuzz_rounds(12);
   for (int seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const Instance instance = crowd(static_cast<unsigned>(seed));
+    const Instance instance = dense_instance(static_cast<unsigned>(seed));
     SolveOptions options;
     options.omega = Omega::parse("0");
     options.policy = seed % 4 < 2 ? Policy::kFixed : Policy::kFree;
     const testing::LimitOfLooks limits(1'000 + 300 * (seed % 4));
-    Heard heard;
+    RecordedEvents events;
     const Solution solution =
-        solve_by(Method::kCtsCbsC, seed % 2 == 0, instance, options, limits, &heard);
-    EXPECT_EQ(solution.lower_bound, heard.bound());
-    EXPECT_EQ(solution.plan ? solution.plan->cost : kInfiniteCost, heard.best());
-    of_both += heard.notes().size() == 2 ? 1 : 0;
+        solve_by(Method::kCtsCbsC, seed % 2 == 0, instance, options, limits, &events);
+    EXPECT_EQ(solution.lower_bound, events.bound());
+    EXPECT_EQ(solution.plan ? solution.plan->cost : kInfiniteCost, events.best());
+    of_both += events.notes().size() == 2 ? 1 : 0;
   }
   EXPECT_GT(of_both, seeds * 3 / 4);
 }
 
-TEST(AdaptationC, SearchesOnceWhereThatSettlesIt) {
+TEST(AdaptationC, RunsOneSearchIfItProvesOptimality) {
   const Instance instance = testing::instance_of({"...."}, {{{0, 0}, std::nullopt, {{3, 0}}}});
   for (const bool anytime : {false, true}) {
-    Heard heard;
-    const Solution solution = solve_by(Method::kCtsCbsC, anytime, instance, {}, Limits(), &heard);
+    RecordedEvents events;
+    const Solution solution = solve_by(Method::kCtsCbsC, anytime, instance, {}, Limits(), &events);
     EXPECT_EQ(solution.status, Status::kOptimal);
-    EXPECT_EQ(heard.notes().size(), 1u);
+    EXPECT_EQ(events.notes().size(), 1u);
   }
 }
 
-TEST(Method, HasTheLowLevelOfItsName) {
+TEST(Method, SelectsItsLowLevel) {
   EXPECT_EQ(options_of(Method::kOptimalCbs, {}).low_level, LowLevel::kVisitedSets);
   EXPECT_EQ(options_of(Method::kHcbs, {}).low_level, LowLevel::kSingleLegs);
   EXPECT_EQ(options_of(Method::kMgcbs, {}).low_level, LowLevel::kTimeIntervalForest);
@@ -383,12 +390,12 @@ TEST(Method, HasTheLowLevelOfItsName) {
     EXPECT_EQ(options_of(method, {}).low_level, LowLevel::kOwn);
 }
 
-TEST(Method, NamesAreReadBack) {
+TEST(Method, NamesRoundTrip) {
   for (Method method : all_methods()) EXPECT_EQ(parse_method(name_of(method)), method);
   EXPECT_EQ(parse_method("cbs"), std::nullopt);
 }
 
-TEST(Method, RefusesOptionsThatDoNotGoWithIt) {
+TEST(Method, RefusesUnsupportedOptions) {
   SolveOptions fixed;
   fixed.policy = Policy::kFixed;
   EXPECT_THROW(options_of(Method::kHcbs, fixed), std::invalid_argument);
@@ -403,7 +410,7 @@ TEST(Method, RefusesOptionsThatDoNotGoWithIt) {
   EXPECT_TRUE(options_of(Method::kSCbs, {}).omega.is_infinite());
 }
 
-TEST(Method, RefusesInstancesItIsNotFor) {
+TEST(Method, RefusesUnsupportedInstances) {
   const Instance all_end =
       TinyInstance::parse("map\n...\nagents\n0,0 -> 2,0\ntasks\n1,0: 0\n").build();
   for (Method method : {Method::kCtsCbsA, Method::kCtsCbsB, Method::kCtsCbsC})

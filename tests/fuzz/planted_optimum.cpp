@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Why a search that loses the plan is wrong although others may be as cheap: pruning by bound is
-// the gate's business alone, and it never prunes below the incumbent's cost. Everything else -
-// splitting a conflict, discarding a child, choosing the trees - must lose no plan at all.
+// Why is a search wrong that loses the plan, although other plans may have the same cost? Pruning
+// by bound is left to the global bounds, which never prune below the cost of the incumbent. All
+// other operations (splitting a conflict, discarding a child, choosing the trees) must not lose any
+// plan.
 #include "tests/fuzz/planted_optimum.h"
 
 #include <fmt/format.h>
@@ -20,7 +21,8 @@ bool may_be_next(const SequenceClass& sequences, const Sequence& so_far, Stop st
   return so_far.size() > fixed || (sequences.forbidden_next >> stop & 1) == 0;
 }
 
-// Extends a sequence stop by stop, each at its first visit after the one before.
+// Enumerates the sequences that a path realizes: each stop at its first visit after the previous
+// stop.
 class RealizedSequences {
  public:
   RealizedSequences(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
@@ -59,8 +61,8 @@ class RealizedSequences {
 
 }  // namespace
 
-bool obeys_all(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
-               std::span<const Constraint> constraints, const Path& path) {
+bool satisfies_all(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
+                   std::span<const Constraint> constraints, const Path& path) {
   const auto satisfies = [&](const Constraint& c) {
     return testing::satisfies(instance.world(), path, c);
   };
@@ -79,8 +81,8 @@ bool PlantedOptimum::held_by(const Node& node) const {
   for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
     constraints.clear();
     node.constraints(agent, constraints);
-    if (!obeys_all(instance_, agent, node.tree().orders[agent]->sequences, constraints,
-                   paths_[agent]))
+    if (!satisfies_all(instance_, agent, node.tree().orders[agent]->sequences, constraints,
+                       paths_[agent]))
       return false;
   }
   return true;
@@ -102,7 +104,7 @@ void PlantedOptimum::on_root(const NodePtr& root) {
 
 void PlantedOptimum::on_expanded(const NodePtr& node, const Expansion& expansion, int) {
   if (holding_.erase(node.get()) == 0) return;
-  // A worker may know of an incumbent as good before it is announced.
+  // A worker may have an incumbent of this cost before it is reported.
   bool kept = expansion.cutoff <= optimum_.cost ||
               (expansion.plan && expansion.plan->cost <= optimum_.cost);
   for (const NodePtr& child : expansion.children) {
@@ -122,7 +124,7 @@ void PlantedOptimum::on_pruned(Cost bound) {
         fmt::format("nodes were pruned from {} on, but the optimum is {}", bound, optimum_.cost));
 }
 
-// What the search had proven by then it need not take back.
+// A bound that was proven before the eviction stays valid.
 void PlantedOptimum::on_evicted(const NodePtr& node) {
   if (holding_.erase(node.get()) > 0)
     evicted_bound_ = std::min(evicted_bound_, std::max(node->bound(), claimed_));
@@ -130,14 +132,14 @@ void PlantedOptimum::on_evicted(const NodePtr& node) {
 
 void PlantedOptimum::on_event(RunEvent, const Progress& progress) {
   claimed_ = progress.lower_bound;
-  // What is proven beside the trees no node needs to hold.
+  // A bound proven outside the trees does not depend on the evicted nodes.
   if (std::exchange(raised_beside_, false))
     evicted_bound_ = std::max(evicted_bound_, progress.lower_bound);
   found_ = progress.incumbent && *progress.incumbent <= optimum_.cost;
   if (found_) holding_.clear();
   if (!found_ && progress.lower_bound > evicted_bound_)
     complaints_.push_back(
-        fmt::format("lower bound {}, but a node of bound {} that held a plan was given up",
+        fmt::format("lower bound {}, but a node of bound {} that held a plan was evicted",
                     progress.lower_bound, evicted_bound_));
   if (progress.lower_bound > optimum_.cost)
     complaints_.push_back(fmt::format("lower bound {}, but a plan of cost {} exists{}",

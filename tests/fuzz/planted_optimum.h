@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Watches a search through the eyes of an optimal plan (as HiGHS does with planted solutions).
+// Checks that a search never loses a given optimal plan (like the debug solutions of MIP solvers,
+// such as HiGHS).
 #pragma once
 
 #include <span>
@@ -12,11 +13,11 @@
 
 namespace grove::detail::fuzz {
 
-// Follows the nodes that hold a given optimal plan: those whose tree allows its orders of visits
-// and whose constraints it obeys. From the first root that holds it on, some live node must,
-// whatever is branched, pruned or forbidden, until a plan as cheap is found; and none of them, nor
-// the search as a whole, may claim a bound above its cost. If the last of them is given up for want
-// of memory, the search may claim no more than its bound until it restarts.
+// Follows the nodes that hold a given optimal plan: nodes whose tree allows the visit orders of the
+// plan and whose constraints the plan satisfies. From the first root that holds it, some live node
+// must hold it, whatever is branched, pruned or forbidden, until a plan of the same cost is found.
+// Neither these nodes nor the search as a whole may claim a bound above its cost. If the last of
+// these nodes is evicted, the search may not claim more than that node's bound until it restarts.
 class PlantedOptimum : public RunObserver {
  public:
   // `instance` must outlive this. `optimum` must be valid and cost-optimal.
@@ -30,11 +31,11 @@ class PlantedOptimum : public RunObserver {
   void on_pruned(Cost bound) override;
   void on_evicted(const NodePtr& node) override;
 
-  // What went wrong, in the order in which it did; empty: nothing.
+  // Errors in the order in which they occurred; empty if there are none.
   const std::vector<std::string>& complaints() const { return complaints_; }
-  // Nodes so far that held the plan.
+  // Number of nodes so far that held the plan.
   std::size_t nodes_followed() const { return nodes_followed_; }
-  // Does `node` hold the plan?
+  // True if `node` holds the plan.
   bool held_by(const Node& node) const;
 
  private:
@@ -43,19 +44,20 @@ class PlantedOptimum : public RunObserver {
   const Instance& instance_;
   const Plan optimum_;
   std::vector<Path> paths_;  // as the search walks them
-  // Live nodes that hold the plan; by address, for the nodes do not outlive the search. Nothing is
-  // followed any more once a plan as cheap is found: from then on the gate may drop them.
+  // Live nodes that hold the plan, by address, because the nodes must not outlive the search. Empty
+  // once a plan of the same cost is found: from then on the search may prune them.
   std::unordered_set<const Node*> holding_;
   bool found_ = false;
-  bool raised_beside_ = false;          // the bound, if it rises now
+  bool raised_beside_ = false;          // the next rise of the bound comes from outside the tree
   Cost claimed_ = 0;                    // the search's lower bound
-  Cost evicted_bound_ = kInfiniteCost;  // of the nodes given up that held the plan
+  Cost evicted_bound_ = kInfiniteCost;  // least bound of evicted nodes that held the plan
   std::size_t nodes_followed_ = 0;
   std::vector<std::string> complaints_;
 };
 
-// Does `path` realize a sequence of the class, and do it and that sequence obey the constraints?
-bool obeys_all(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
-               std::span<const Constraint> constraints, const Path& path);
+// True if `path` realizes a sequence of the class such that the path and this sequence satisfy the
+// constraints.
+bool satisfies_all(const Instance& instance, AgentIndex agent, const SequenceClass& sequences,
+                   std::span<const Constraint> constraints, const Path& path);
 
 }  // namespace grove::detail::fuzz

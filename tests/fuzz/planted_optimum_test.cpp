@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The search never loses the optimum; and if it did, this would be seen.
+// Tests that the search never loses the optimum, and that a loss would be detected.
 #include "tests/fuzz/planted_optimum.h"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// Two agents that meet head on, with one bay to step aside: the root has a conflict.
+// Two agents in a corridor with one bay, in opposite directions: the root has a conflict.
 class PlantedInABay : public ::testing::Test {
  protected:
   const Instance instance_ =
@@ -45,7 +45,7 @@ class PlantedInABay : public ::testing::Test {
   }
 };
 
-TEST_F(PlantedInABay, IsKeptByTheRealExpander) {
+TEST_F(PlantedInABay, IsKeptByTheExpander) {
   planted_.on_root(root_);
   const Expansion expansion = expander_.expand(root_, kInfiniteCost, limits_);
   planted_.on_expanded(root_, expansion, 0);
@@ -54,7 +54,7 @@ TEST_F(PlantedInABay, IsKeptByTheRealExpander) {
   EXPECT_TRUE(holder(expansion));
 }
 
-TEST_F(PlantedInABay, IsMissedWhenItsChildIsDropped) {
+TEST_F(PlantedInABay, LossIsReportedWhenItsChildIsDropped) {
   planted_.on_root(root_);
   Expansion expansion = expander_.expand(root_, kInfiniteCost, limits_);
   std::erase_if(expansion.children, [&](const NodePtr& c) { return planted_.held_by(*c); });
@@ -62,7 +62,7 @@ TEST_F(PlantedInABay, IsMissedWhenItsChildIsDropped) {
   EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("lost it")));
 }
 
-TEST_F(PlantedInABay, IsMissedWhenAConstraintForbidsIt) {
+TEST_F(PlantedInABay, LossIsReportedWhenAConstraintForbidsIt) {
   planted_.on_root(root_);
   Expansion expansion = expander_.expand(root_, kInfiniteCost, limits_);
   for (NodePtr& child : expansion.children) {
@@ -75,7 +75,7 @@ TEST_F(PlantedInABay, IsMissedWhenAConstraintForbidsIt) {
   EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("lost it")));
 }
 
-TEST_F(PlantedInABay, SeesABoundThatIsTooHigh) {
+TEST_F(PlantedInABay, ReportsNodeBoundAboveOptimum) {
   planted_.on_root(root_);
   Expansion expansion = expander_.expand(root_, kInfiniteCost, limits_);
   for (NodePtr& child : expansion.children) {
@@ -88,7 +88,7 @@ TEST_F(PlantedInABay, SeesABoundThatIsTooHigh) {
   EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("claims the bound")));
 }
 
-TEST_F(PlantedInABay, SeesFalseClaimsOfTheWholeSearch) {
+TEST_F(PlantedInABay, ReportsFalseClaimsOfTheSearch) {
   planted_.on_event(RunEvent::kBound, {.lower_bound = optimum_.cost, .incumbent = std::nullopt});
   planted_.on_pruned(optimum_.cost);
   EXPECT_THAT(planted_.complaints(), IsEmpty());
@@ -98,17 +98,17 @@ TEST_F(PlantedInABay, SeesFalseClaimsOfTheWholeSearch) {
   EXPECT_EQ(planted_.complaints().size(), 3u);
 }
 
-TEST_F(PlantedInABay, AcceptsEvictionsAsTheFloorOfTheLedger) {
+TEST_F(PlantedInABay, EvictedNodeLimitsTheGlobalBound) {
   planted_.on_root(root_);
   planted_.on_evicted(root_);
   planted_.on_event(RunEvent::kBound, {.lower_bound = root_->bound(), .incumbent = std::nullopt});
   EXPECT_THAT(planted_.complaints(), IsEmpty());
   ASSERT_LT(root_->bound(), optimum_.cost);
   planted_.on_event(RunEvent::kBound, {.lower_bound = root_->bound() + 1, .incumbent = {}});
-  EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("given up")));
+  EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("evicted")));
 }
 
-TEST_F(PlantedInABay, AllowsTheBoundToRiseWhenTheSearchBeginsAnew) {
+TEST_F(PlantedInABay, BoundMayRiseAfterRestart) {
   planted_.on_root(root_);
   planted_.on_evicted(root_);
   planted_.on_root(root_);
@@ -116,21 +116,21 @@ TEST_F(PlantedInABay, AllowsTheBoundToRiseWhenTheSearchBeginsAnew) {
   EXPECT_THAT(planted_.complaints(), IsEmpty());
 }
 
-TEST(ObeysAll, ReadsOrdersOffAPath) {
+TEST(SatisfiesAll, DerivesVisitOrderFromPath) {
   const Instance instance =
       TinyInstance::parse("map\n....\nagents\n0,0 -> -\ntasks\n1,0: 0\n3,0: 0\n").build();
   const Path there{0, 1, 2, 3};
-  // Coming back to rest on the first task makes it the last.
+  // Returning to rest on the first task makes it the last visit.
   const Path back{0, 1, 2, 3, 2, 1};
-  EXPECT_TRUE(obeys_all(instance, 0, SequenceClass({0}, 0), {}, there));
-  EXPECT_FALSE(obeys_all(instance, 0, SequenceClass({}, 1), {}, there));
-  EXPECT_TRUE(obeys_all(instance, 0, SequenceClass({1}, 0), {}, back));
-  EXPECT_FALSE(obeys_all(instance, 0, SequenceClass({0}, 0), {}, back));
-  EXPECT_FALSE(obeys_all(instance, 0, SequenceClass({1}, 0), {}, there));
-  EXPECT_TRUE(obeys_all(instance, 0, SequenceClass({}, 1), {}, back));
+  EXPECT_TRUE(satisfies_all(instance, 0, SequenceClass({0}, 0), {}, there));
+  EXPECT_FALSE(satisfies_all(instance, 0, SequenceClass({}, 1), {}, there));
+  EXPECT_TRUE(satisfies_all(instance, 0, SequenceClass({1}, 0), {}, back));
+  EXPECT_FALSE(satisfies_all(instance, 0, SequenceClass({0}, 0), {}, back));
+  EXPECT_FALSE(satisfies_all(instance, 0, SequenceClass({1}, 0), {}, there));
+  EXPECT_TRUE(satisfies_all(instance, 0, SequenceClass({}, 1), {}, back));
 }
 
-// Interrupts its search after so many expansions: a limit that says the same on any machine.
+// Interrupts its search after `expansions` expansions: a limit that is the same on any machine.
 class InterruptingOptimum : public PlantedOptimum {
  public:
   InterruptingOptimum(const Instance& instance, Plan optimum, int expansions)
@@ -147,9 +147,9 @@ class InterruptingOptimum : public PlantedOptimum {
   std::atomic<bool> enough_{false};
 };
 
-// Solves the cases of so many seeds that have a plan, each for so many expansions at most, with the
-// options that `choose` makes of each, and shows `look` every answer with the optimum that was
-// followed.
+// Solves the cases of the first `seeds` seeds that have a plan, each with at most `expansions`
+// expansions and the options that `choose` derives from the options of the case. Calls `look` with
+// every solution and the planted optimum that was followed.
 template <class Choose, class Look>
 void follow_optima(std::uint64_t seeds, int expansions, Choose choose, Look look) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
@@ -184,8 +184,8 @@ TEST(PlantedOptimum, SurvivesWholeSearches) {
   EXPECT_GT(followed, 300u);
 }
 
-// With memory for a handful of nodes, plain CBS, so that there is something to give up.
-TEST(PlantedOptimum, SurvivesSearchesThatGiveNodesUp) {
+// Memory for a few nodes, and plain CBS, so that nodes must be evicted.
+TEST(PlantedOptimum, SurvivesNodeEviction) {
   std::int64_t evicted = 0;
   std::int64_t restarts = 0;
   int asked = 0;

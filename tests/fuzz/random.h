@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Dice for tests.
+// Random number generator for tests.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ class Random : public grove::detail::Random {
  public:
   using grove::detail::Random::Random;
 
-  // One of low .. high.
+  // Returns an integer from `low` to `high`, both included.
   int between(int low, int high) { return low + below(high - low + 1); }
   bool percent(int chance) { return below(100) < chance; }
 

@@ -15,12 +15,12 @@
 namespace grove::detail::fuzz {
 namespace {
 
-// --- tiny ones ---
+// --- tiny instances ---
 
 constexpr int kMostPlaces = 9;
 constexpr double kMostArrangements = 20'000;
 
-// Vertices are the cells of one row.
+// The vertices are the cells of one row.
 TinyInstance tiny_roads(Random& random) {
   TinyInstance crowd;
   const int vertices = random.between(3, kMostPlaces - 1);
@@ -32,7 +32,7 @@ TinyInstance tiny_roads(Random& random) {
     places += steps - 1;
     crowd.roads.push_back({{a, 0}, {b, 0}, steps, false});
   };
-  const int bends = random.below(100);  // how much the tree is like a path
+  const int bends = random.below(100);  // the higher, the more the tree is like a path
   for (int v = 1; v < vertices; ++v) add(random.percent(bends) ? v - 1 : random.below(v), v);
   for (int more = random.below(4); more > 0; --more) {
     const int a = random.below(vertices);
@@ -71,17 +71,17 @@ void shuffle_items(std::vector<Item>& items, Random& random) {
   for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[random.below(i)]);
 }
 
-// --- large ones ---
+// --- large instances ---
 
-// A board, and what is to be known of it to break a crowd on it.
+// A board, with the data needed to make an instance on it infeasible.
 struct CrowdBoard {
   enum class Kind { kOpen, kCorridors, kTree, kRing, kRooms, kTail, kTriangles };
   Kind kind;
   std::optional<Grid> grid;
   std::optional<Roadmap> roads;
   std::vector<std::vector<Place>> next_to = {};  // by place
-  std::vector<Place> places = {};                // that are no walls
-  // Of rooms: those in the first. Of a tail: those in it, from its end on.
+  std::vector<Place> places = {};                // not blocked
+  // kRooms: the places of the first room. kTail: the places of the tail, from its end.
   std::vector<Place> marked = {};
 
   Map map() const { return grid ? Map(*grid) : Map(*roads); }
@@ -122,7 +122,7 @@ CrowdBoard open_board(int places) {
   return on_grid(CrowdBoard::Kind::kOpen, rows);
 }
 
-// Two open rooms and a way between them of one cell.
+// Two open rooms joined by one cell.
 CrowdBoard two_rooms(int places) {
   const int side = std::max(3, static_cast<int>(std::sqrt(places / 2)));
   auto rows = wall(2 * side + 1, side);
@@ -149,7 +149,7 @@ CrowdBoard room_with_tail(int places, int tail) {
   return on_grid(CrowdBoard::Kind::kTail, rows, marked);
 }
 
-// Grows cell by cell; one that closes a ring is taken seldom.
+// Grows cell by cell; a cell that closes a ring is rarely added.
 CrowdBoard corridor_board(int places, Random& random) {
   const int side = static_cast<int>(2 * std::sqrt(places)) + 3;
   auto rows = wall(side, side);
@@ -180,7 +180,7 @@ CrowdBoard ring_board(int places) {
   return on_roads(CrowdBoard::Kind::kRing, places, joined);
 }
 
-// Each hangs on a corner of one before.
+// Each triangle shares a corner with an earlier triangle.
 CrowdBoard triangle_board(int places, Random& random) {
   std::vector<std::pair<int, int>> joined;
   int vertices = 1;
@@ -204,7 +204,7 @@ CrowdBoard with_places(CrowdBoard board) {
   return board;
 }
 
-// Agents going about at random, without collisions.
+// Moves agents at random without collisions.
 class Stroll {
  public:
   Stroll(const CrowdBoard& board, int agents, bool may_follow, Random& random)
@@ -230,7 +230,8 @@ class Stroll {
     where_[agent] = place;
     on_[place] = agent;
   }
-  // From a place next to it, and so on: the free place goes for a walk.
+  // Moves an agent from a neighbouring place to `free`, and so on: the free place makes a random
+  // walk.
   void fill(Place& free) {
     Place last = kNoPlace;
     for (int i = random_.between(1, 30); i > 0; --i) {
@@ -268,7 +269,7 @@ class Stroll {
   std::vector<Place> free_;
 };
 
-// How it is broken: these two end in each other's place.
+// Two agents whose goals are swapped, to make the instance infeasible.
 using Pair = std::pair<int, int>;
 
 class CrowdMaker {
@@ -323,12 +324,13 @@ class CrowdMaker {
     }
   }
 
-  // Such that there is no plan:
-  // - on a tree with one free place who is where follows from which place is free;
-  // - nobody passes anybody on a ring, or deeper in a tail than there are free places;
-  // - with one free place, and that the same at the end, each moves an even number of steps on a
-  //   grid, and so do all together: they end in an even permutation; so do full triangles;
-  // - nobody leaves a full room.
+  // Returns agents whose swapped goals leave no plan:
+  // - On a tree with at most one free place, the configuration follows from the free place.
+  // - On a ring no agent can pass another, nor deeper in a tail than there are free places.
+  // - With one free place, which is the same at the end, each agent moves an even number of steps
+  //   on a grid, and so do all together: they end in an even permutation. The same holds for
+  //   triangles without a free place.
+  // - No agent can leave a full room.
   std::optional<Pair> pair_to_swap(const std::vector<Place>& starts) {
     const auto agents = static_cast<int>(starts.size());
     const Pair any{0, random_.between(1, agents - 1)};
@@ -412,7 +414,7 @@ TinyInstance tiny_crowd(std::uint64_t seed) {
                           .goal = {}};
     crowd.agents.push_back(a);
   }
-  // Those for whom there is no cell begin on the roads.
+  // Agents for which no cell is left start on the roads.
   int agent = static_cast<int>(cells.size());
   for (int road = 0; road < static_cast<int>(crowd.roads.size()); ++road)
     for (Time along = 1; along < crowd.roads[road].steps && agent < agents; ++along, ++agent) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Crowds with little room, on maps where every step can be undone.
+// Dense instances (pebble motion), on maps where every step can be undone.
 #pragma once
 
 #include <cstdint>
@@ -9,19 +9,19 @@
 
 namespace grove::detail::fuzz {
 
-// Up to nine places of all shapes, grids and roads, full ones among them: agents and their starts,
-// nothing else. The same seed makes the same one.
+// Returns an instance of agents and their starts only, on up to nine places of all shapes, grids
+// and roadmaps, also without a free place. The same seed gives the same instance.
 TinyInstance tiny_crowd(std::uint64_t seed);
 
-// All have goals, and it is known whether there is a plan: it was made by one, or broken in a way
-// that anybody can see.
+// An instance in which all agents have goals and the existence of a plan is known: its goals come
+// from a random plan, possibly changed in a way that provably leaves no plan.
 struct KnownCrowd {
   Instance instance;
   bool has_plan;
   std::string board;
 };
 
-// Of 10 to 2,000 agents.
+// Returns an instance of 10 to 2,000 agents. The same seed gives the same instance.
 KnownCrowd known_crowd(std::uint64_t seed);
 
 }  // namespace grove::detail::fuzz

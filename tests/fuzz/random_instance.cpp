@@ -10,7 +10,8 @@
 namespace grove::detail::fuzz {
 namespace {
 
-// Joint moves an instance may have about: keeps the oracle quick even when there is no plan.
+// Approximate limit on the joint moves of an instance: keeps the oracle fast even if there is no
+// plan.
 constexpr double kMaxJointMoves = 2e7;
 constexpr int kMaxTasksEach = 4;
 
@@ -29,7 +30,7 @@ class Maker {
     places_ = static_cast<int>(cells_.size());
     if (roads_) add_roads();
     place_agents();
-    // Most instances are played out first, one move at a time, so that there is a plan.
+    // Most instances come from random moves of single agents, so that there is a plan.
     if (random_.percent(70))
       play();
     else
@@ -40,8 +41,8 @@ class Maker {
   }
 
  private:
-  // Roads instead of neighborhood: some long, some one way, some twice or missing, and now and then
-  // one to anywhere.
+  // Replaces the grid's adjacency by roads: some long, some one-way, some parallel or missing, and
+  // sometimes one between distant cells.
   void add_roads() {
     for (const Position p : cells_)
       for (const Position q : cells_)
@@ -90,7 +91,7 @@ class Maker {
     tasks_of_.assign(instance_.agents.size(), 0);
   }
 
-  // Destinations where the agents end up, tasks where they have been.
+  // Moves the agents at random: destinations are where they end, tasks are where they have been.
   void play() {
     const int agents = static_cast<int>(instance_.agents.size());
     for (int a = 0; a < agents; ++a) reach_[a] = {instance_.agents[a].start};
@@ -103,7 +104,7 @@ class Maker {
     }
   }
 
-  // Destinations and tasks anywhere; rarely where nobody can get: that is seen at once.
+  // Random destinations and tasks, rarely at unreachable cells, because presolve detects these.
   void throw_goals() {
     const bool everywhere = random_.percent(20);
     for (auto& agent : instance_.agents) agent.goal.reset();
@@ -120,7 +121,7 @@ class Maker {
     return std::ranges::any_of(instance_.agents, [&](const auto& a) { return a.goal == p; });
   }
 
-  // Makes MG agents of all, some or none; their destination becomes a task.
+  // Turns all, some or no agents into MG agents; their destination becomes a task.
   void make_mg() {
     constexpr int kChances[] = {0, 50, 100};
     const int chance = kChances[random_.below(3)];
@@ -132,7 +133,7 @@ class Maker {
     }
   }
 
-  // Half the tasks lie where it hurts: on someone's start or destination.
+  // Half of the tasks lie on the start or destination of some agent.
   Position task_cell(int agent) {
     const Position any = random_.pick(reach_[agent]);
     if (random_.percent(50)) return any;
@@ -151,7 +152,7 @@ class Maker {
     return tasks_of_[agent] < kMaxTasksEach && std::ldexp(moves, tasks) <= kMaxJointMoves;
   }
 
-  // Adds a task on `cell` for `agent`, or the agent to the task that is there.
+  // Adds a task on `cell` for `agent`, or adds the agent to the existing task there.
   void give(int agent, Position cell) {
     auto task =
         std::ranges::find_if(instance_.tasks, [&](const auto& t) { return t.cell == cell; });
@@ -177,8 +178,8 @@ class Maker {
   TinyInstance instance_;
   int places_ = 0;
   std::vector<Position> cells_;
-  std::vector<std::vector<Position>> reach_;  // where an agent's tasks may lie
-  std::vector<int> tasks_of_;                 // how many, by agent
+  std::vector<std::vector<Position>> reach_;  // by agent: possible cells of its tasks
+  std::vector<int> tasks_of_;                 // by agent: number of tasks
 };
 
 }  // namespace

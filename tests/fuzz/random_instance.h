@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random tiny instances, small enough for the oracle and nasty enough for the search.
+// Random tiny instances: small enough for the oracle, and difficult for the search.
 #pragma once
 
 #include <cstdint>
@@ -8,19 +8,19 @@
 
 namespace grove::detail::fuzz {
 
-// Always a valid instance; not always one that can be solved. The same seed makes the same one.
+// Returns a valid instance, possibly without a plan. The same seed gives the same instance.
 TinyInstance random_instance(std::uint64_t seed);
 
-// The same with exactly `agents` agents, if the map has room for them.
+// The same with exactly `agents` agents, or fewer if the map has no room for them.
 TinyInstance random_instance(std::uint64_t seed, int agents);
 
-// On a roadmap: roads of several lengths, some one way, some twice.
+// On a roadmap with roads of several lengths, some of them one-way or parallel.
 TinyInstance random_roads(std::uint64_t seed);
 
-// A mixture: on a grid or roads, agents that turn, work that takes time, several tasks on a cell,
-// agents with nothing to do, starts on the way.
+// A mixture: on a grid or a roadmap, with turning agents, tasks with a duration, several tasks on a
+// cell, idle agents, and starts on a road, during a turn or during a task.
 TinyInstance random_world(std::uint64_t seed);
-// This instance with agents that turn and the like, however large it is.
+// Adds such features to `instance`, of any size.
 TinyInstance with_motions(TinyInstance instance, std::uint64_t seed);
 
 }  // namespace grove::detail::fuzz

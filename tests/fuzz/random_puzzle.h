@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Few agents on small boards with corridors, where everybody is in everybody's way.
+// Random puzzles: few agents on small boards with corridors, where all agents block each other.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,9 @@
 
 namespace grove::detail::fuzz {
 
-// 3 to 5 agents on a board of 8 to 25 cells, one or two tasks for each, half of them without
-// destinations. Not always one that can be solved. The same seed makes the same one.
+// Returns 3 to 5 agents on a board of 8 to 25 cells, with one or two tasks each. In half of the
+// puzzles the agents have no destinations. Possibly without a plan. The same seed gives the same
+// puzzle.
 TinyInstance random_puzzle(std::uint64_t seed);
 
 }  // namespace grove::detail::fuzz

@@ -8,7 +8,7 @@
 namespace grove::detail::fuzz {
 namespace {
 
-// Joint states an instance may have about: keeps the oracle quick.
+// Approximate limit on the joint states of an instance, to keep the oracle fast.
 constexpr double kMostJointStates = 4e6;
 
 Heading random_heading(Random& random) {
@@ -51,7 +51,7 @@ class Decorator {
     }
   }
 
-  // Work at destinations too: there finish and arrival part.
+  // Tasks with a duration, also at destinations, where finish and arrival differ.
   void work() {
     for (TinyInstance::Task& task : instance_.tasks)
       if (random_.percent(60)) task.duration = random_.between(1, 4);
@@ -111,7 +111,7 @@ class Decorator {
     std::erase_if(instance_.tasks, [](const auto& task) { return task.agents.empty(); });
   }
 
-  // Some start where they have work to do, and are at it.
+  // Some agents start on a task of theirs, after a part of its duration.
   void begin_work() {
     for (int a = 0; a < agents(); ++a) {
       TinyInstance::Agent& agent = instance_.agents[a];

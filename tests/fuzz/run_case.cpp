@@ -17,8 +17,7 @@ namespace {
 using Clock = Limits::Clock;
 using std::chrono::milliseconds;
 
-// CBS need not end where there is no plan, so there "unknown" is due sooner: this share of the
-// time.
+// CBS need not terminate if there is no plan, so without a plan the time limit is divided by this.
 constexpr int kWithoutPlan = 10;
 constexpr milliseconds kSoon{1};
 constexpr milliseconds kAllowedOverrun{3000};
@@ -32,7 +31,7 @@ struct Run {
   Clock::duration overrun{};
 };
 
-// Whether `strike` takes place whatever the solver does.
+// True if the limit `strike` is reached whatever the solver does.
 bool excuses(Strike strike) {
   return strike == Strike::kExpired || strike == Strike::kInterrupt;
 }
@@ -62,7 +61,7 @@ Run run(const Instance& instance, const FuzzCase& fuzz_case, const oracle::Answe
                        stop != texts.end() && stop->second == "memory limit";
   run.stopped = limits.reason() != StopReason::kNone || excuses(fuzz_case.strike) || gave_up;
   run.duration = end - begin;
-  // A process that was kept waiting is not late: only what it worked beyond the deadline counts.
+  // A process that had to wait is not late: only its processor time beyond the deadline counts.
   const Clock::time_point due = std::max(begin, deadline);
   run.overrun = std::min(end - due, worked - (due - begin));
   return run;

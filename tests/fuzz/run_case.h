@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs one case through a solver and judges the answer.
+// Runs a solver on one fuzz case and checks its answer.
 #pragma once
 
 #include <chrono>
@@ -13,24 +13,25 @@
 
 namespace grove::detail::fuzz {
 
-// Any engine, or a liar. It is given the oracle's answer, so that it need not spend its time on it.
+// A solver under test, possibly one with false claims. Its last argument is the oracle's answer, so
+// that such a solver need not compute it.
 using Solver = std::function<Solution(const Instance&, const SolveOptions&, const Limits&,
                                       const oracle::Answer& truth)>;
 
 struct CaseResult {
-  bool too_large = false;               // for the oracle: the solver was not asked
+  bool too_large = false;               // for the oracle; the solver was not called
   bool solvable = false;                // the oracle found a plan
-  bool stopped = false;                 // a limit struck
-  Status status = Status::kUnknown;     // what the solver said
-  std::vector<std::string> complaints;  // empty: all is well
+  bool stopped = false;                 // a limit was reached
+  Status status = Status::kUnknown;     // as the solver reports it
+  std::vector<std::string> complaints;  // empty: no failure
 };
 
-// How long a run that is not meant to be stopped may take. Not a test of speed: it is stopped then,
-// and may say so.
+// Time limit of a run without another limit. It does not test speed: at the limit the run is
+// stopped, and may report this.
 inline constexpr std::chrono::milliseconds kPatience{2000};
 
-// Asks the oracle, then `solver`, then holds one against the other; a short run that no limit
-// struck is repeated and must end the same.
+// Runs the oracle and `solver`, and compares their answers. A short run that reached no limit is
+// repeated and must end the same.
 CaseResult run_case(const FuzzCase& fuzz_case, const Solver& solver,
                     std::chrono::milliseconds patience = kPatience);
 

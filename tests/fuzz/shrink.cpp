@@ -36,7 +36,7 @@ TinyInstance without_share(TinyInstance instance, std::size_t task, int agent) {
   return instance;
 }
 
-// Applies `move` to every position of agents and tasks.
+// Applies `move` to all positions of agents, tasks and roads.
 void move_all(TinyInstance& instance, const std::function<void(Position&)>& move) {
   for (auto& agent : instance.agents) {
     move(agent.start);
@@ -49,7 +49,7 @@ void move_all(TinyInstance& instance, const std::function<void(Position&)>& move
   }
 }
 
-// What is left of the roads when these cells are gone. False: none, though there were some.
+// Removes the roads at removed cells. Returns false if no road is left, although there were some.
 bool drop_roads(TinyInstance& instance, const std::function<bool(Position)>& is_gone) {
   if (instance.roads.empty()) return true;
   std::erase_if(instance.roads,
@@ -57,7 +57,7 @@ bool drop_roads(TinyInstance& instance, const std::function<bool(Position)>& is_
   return !instance.roads.empty();
 }
 
-// None when something lies in the row.
+// Returns nullopt if something lies in the row.
 std::optional<TinyInstance> without_row(TinyInstance instance, int row) {
   for (int x = 0; x < static_cast<int>(instance.rows[row].size()); ++x)
     if (in_use(instance, {x, row})) return std::nullopt;
@@ -97,7 +97,7 @@ class Steps {
     try {
       (void)candidate.instance.build();
     } catch (const std::invalid_argument&) {
-      return;  // it breaks a rule: an MG agent without a task, say
+      return;  // invalid, for instance an MG agent without a task
     }
     cases_.push_back(std::move(candidate));
   }
@@ -143,7 +143,7 @@ class Steps {
     }
   }
 
-  // Offers the instance with agent `a` changed, if that changes it.
+  // Adds the instance with agent `a` changed by `change`, if that changes it.
   template <typename Change>
   void change_agent(std::size_t a, Change change) {
     TinyInstance plainer = from_.instance;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes a failing case small enough to understand.
+// Shrinks a failing case.
 #pragma once
 
 #include <functional>
@@ -10,12 +10,12 @@
 
 namespace grove::detail::fuzz {
 
-// Every valid case that is one step simpler: an agent, a task, a share in a task, a passable cell,
-// a row or a column less, or a plainer option. Most drastic first.
+// Returns all valid cases that are one step simpler: one agent, task, agent of a task, passable
+// cell, row or column less, or one option reset to its default. The largest changes come first.
 std::vector<FuzzCase> simpler_cases(const FuzzCase& fuzz_case);
 
-// Takes steps as long as the case still fails; stops early when `limits` strike. The result fails,
-// and without a strike no case one step simpler does.
+// Takes steps while the case still fails, and stops early if `limits` are reached. The result
+// fails; if no limit was reached, no case that is one step simpler fails.
 FuzzCase shrink(FuzzCase fuzz_case, const std::function<bool(const FuzzCase&)>& fails,
                 const Limits& limits);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A tiny instance as one writes it down: easy to change, to print and to read back.
+// A tiny instance as plain data: easy to change, to print and to read back.
 #pragma once
 
 #include <optional>
@@ -23,13 +23,13 @@ namespace grove::detail::fuzz {
 //     3,0 -> -       (an MG agent)
 //     tasks
 //     2,0: 0 1       (cell: the agents that must visit it)
-//     2,0 takes 3: 0 (they must be at work there for 3 steps)
+//     2,0 takes 3: 0 (the task takes 3 steps)
 //
 // Behind an agent there may be, in this order:
 //
-//     turn 2 N       (it turns, a quarter in 2 steps, and looks north)
+//     turn 2 N       (a quarter turn takes 2 steps; it faces north)
 //     to E 1         (it has made one step of the turn to the east)
-//     end S          (it must look south at the end)
+//     end S          (it must face south at the end)
 //     work 0 2       (it has done 2 steps of task 0)
 //     road 1 2       (it starts 2 steps along road 1 instead)
 //
@@ -44,12 +44,12 @@ struct TinyInstance {
   struct Agent {
     Position start;
     std::optional<Position> goal;
-    Time turn_steps = 0;  // 0: it turns freely
+    Time turn_steps = 0;  // steps of a quarter turn; 0: turning takes no time
     Heading heading = Heading::kNorth;
     Heading to = Heading::kNorth;
     Time turned = 0;
     std::optional<Heading> goal_heading = {};
-    int work = -1;  // a task
+    int work = -1;  // index of a task that it has begun; -1: none
     Time done = 0;
     int road = -1;
     Time along = 0;
@@ -76,7 +76,7 @@ struct TinyInstance {
   std::vector<Task> tasks;
   bool may_follow = true;
 
-  // Throws InstanceError or std::invalid_argument where it breaks the rules.
+  // Throws InstanceError or std::invalid_argument if the instance is invalid.
   Instance build() const;
   std::string to_text() const;
   // Throws std::invalid_argument naming the line.
@@ -88,7 +88,7 @@ struct TinyInstance {
 // The passable cells, row by row.
 std::vector<Position> passable_cells(const std::vector<std::string>& rows);
 
-// Is some agent's start, destination or task on `p`?
+// True if `p` is some agent's start, destination or task.
 bool in_use(const TinyInstance& instance, Position p);
 
 }  // namespace grove::detail::fuzz

@@ -11,7 +11,7 @@
 namespace grove::detail::fuzz {
 namespace tiny_instance_test {
 
-TEST(TinyInstance, ReadsWhatAPersonWrites) {
+TEST(TinyInstance, ParsesCommentsAndBlankLines) {
   const TinyInstance instance = TinyInstance::parse(R"(# Two agents pass each other.
 map
 ....
@@ -33,7 +33,7 @@ tasks
   EXPECT_EQ(instance.build().agent_count(), 2);
 }
 
-TEST(TinyInstance, RefusesWhatItCannotRead) {
+TEST(TinyInstance, RefusesMalformedText) {
   for (const char* text :
        {"....\n", "map\n.x.\n", "map\n..\nagents\n0;0 -> 1,0\n", "map\n..\nagents\n0,0 => 1,0\n",
         "map\n..\nagents\n0,0 ->\n", "map\n..\nagents\n0,0 -> 1,0\ntasks\n1,0 0\n",
@@ -43,7 +43,7 @@ TEST(TinyInstance, RefusesWhatItCannotRead) {
                std::invalid_argument);
 }
 
-TEST(RandomInstance, IsValidAndSurvivesItsText) {
+TEST(RandomInstance, IsValidAndRoundTripsThroughText) {
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     const TinyInstance instance = random_instance(seed);
     ASSERT_NO_THROW(instance.build()) << instance.to_text();
@@ -51,7 +51,7 @@ TEST(RandomInstance, IsValidAndSurvivesItsText) {
   }
 }
 
-TEST(RandomWorld, IsValidAndSurvivesItsText) {
+TEST(RandomWorld, IsValidAndRoundTripsThroughText) {
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {
     const TinyInstance instance = random_world(seed);
     ASSERT_NO_THROW(instance.build()) << instance.to_text();
@@ -64,8 +64,8 @@ TEST(RandomInstance, IsTheSameForTheSameSeed) {
   EXPECT_NE(random_instance(7), random_instance(8));
 }
 
-// What the search finds hard must turn up, and often enough.
-TEST(RandomInstance, TurnsUpWhatHurts) {
+// Features that are difficult for the search must occur often enough.
+TEST(RandomInstance, CoversDifficultFeatures) {
   int mg = 0;
   int shared_tasks = 0;
   int tasks_on_destinations = 0;

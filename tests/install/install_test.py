@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
 }
 """
 MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-# What the shared library shows besides its front door: instances of the standard library's templates.
+# What the shared library shows besides its public API: instances of the standard library's templates.
 SHOWN = re.compile(r"^(grove::(?!detail::)|(typeinfo|typeinfo name|vtable|VTT) for grove::(?!detail::)|"
                    r"(\w+ )*std::|.* std::)")
 # Libraries of which users see nothing, whatever they link.
@@ -141,7 +141,7 @@ class Installed(unittest.TestCase):
         self.assertEqual(run(folder / "stranger", LD_LIBRARY_PATH=self.library.parent), "cost 3\n")
 
     def test_the_example(self):
-        example = next(self.prefix.glob("share/doc/**/front_door.cpp"))
+        example = next(self.prefix.glob("share/doc/**/minimal.cpp"))
         folder = self.project("example", "find_package(grove REQUIRED)", "grove::grove")
         shutil.copy(example, folder / "main.cpp")
         run(CMAKE, "-S", folder, "-B", folder / "build", f"-DCMAKE_CXX_COMPILER={COMPILER}",
@@ -195,7 +195,7 @@ class Installed(unittest.TestCase):
                      "grove/schemas/instance.schema.json"):
             self.assertGreater((self.prefix / "share" / file).stat().st_size, 100, file)
 
-    def test_the_interface_is_the_front_door(self):
+    def test_the_interface_is_the_public_api(self):
         shown = [line.split(" ", 2)[2] for line in run("nm", "-DC", "--defined-only", self.library).splitlines()]
         self.assertIn("grove::version()", shown)
         self.assertEqual([name for name in shown if not SHOWN.match(name) or HIDDEN.search(name)], [])

@@ -31,7 +31,7 @@ std::string writing(const std::string& path) {
   return writing_content(path, "new");
 }
 
-std::string asking(const std::string& path) {
+std::string checking_writable(const std::string& path) {
   return refusal([&] { require_writable(path); });
 }
 
@@ -63,31 +63,30 @@ TEST(WriteFileAtomically, KeepsPermissionsAndFollowsLinks) {
   EXPECT_EQ(fs::status(file).permissions(), fs::perms(0640));
 }
 
-TEST(WriteFileAtomically, RefusesWhatCannotBeWritten) {
+TEST(WriteFileAtomically, RefusesUnwritablePaths) {
   const TemporaryDirectory directory;
   directory.write("file", "old");
-  for (auto* said : {writing, asking}) {
-    EXPECT_EQ(said(directory / "missing/file"),
+  for (auto* result : {writing, checking_writable}) {
+    EXPECT_EQ(result(directory / "missing/file"),
               "file: cannot be written: No such file or directory");
-    EXPECT_EQ(said(directory / "file/file"), "file: cannot be written: Not a directory");
-    EXPECT_EQ(said(directory.path()),
-              directory.path().filename().string() +
-                  ": cannot be written: is a directory; expected a file name");
-    EXPECT_NE(said(""), "accepted");
-    EXPECT_NE(said(directory / "missing/"), "accepted");
-    EXPECT_NE(said(directory / std::string(300, 'x')), "accepted");
+    EXPECT_EQ(result(directory / "file/file"), "file: cannot be written: Not a directory");
+    EXPECT_EQ(result(directory.path()),
+              directory.path().filename().string() + ": is a directory; expected a file name");
+    EXPECT_NE(result(""), "accepted");
+    EXPECT_NE(result(directory / "missing/"), "accepted");
+    EXPECT_NE(result(directory / std::string(300, 'x')), "accepted");
   }
   EXPECT_EQ(directory.files(), Names{"file"});
   EXPECT_EQ(file_content(directory / "file"), "old");
 }
 
-// While it lives, a test run by root is somebody who may do nothing special.
-class NobodySpecial {
+// During its lifetime a test run by root has the rights of an unprivileged user.
+class UnprivilegedUser {
  public:
-  NobodySpecial() : was_root_(::geteuid() == 0) {
+  UnprivilegedUser() : was_root_(::geteuid() == 0) {
     if (was_root_ && ::seteuid(65534) != 0) ADD_FAILURE() << "seteuid";
   }
-  ~NobodySpecial() {
+  ~UnprivilegedUser() {
     if (was_root_ && ::seteuid(0) != 0) ADD_FAILURE() << "seteuid";
   }
 
@@ -100,41 +99,42 @@ TEST(WriteFileAtomically, RefusesWithoutPermission) {
   ::chmod(directory.write("file", "old").c_str(), 0444);
   ::chmod(directory.path().c_str(), 0777);
   {
-    const NobodySpecial nobody;
+    const UnprivilegedUser user;
     EXPECT_EQ(writing(directory / "file"), "file: cannot be written: Permission denied");
-    EXPECT_EQ(asking(directory / "file"), "file: cannot be written: Permission denied");
-    EXPECT_EQ(asking(directory / "other"), "accepted");
+    EXPECT_EQ(checking_writable(directory / "file"), "file: cannot be written: Permission denied");
+    EXPECT_EQ(checking_writable(directory / "other"), "accepted");
   }
   ::chmod(directory.path().c_str(), 0555);
   {
-    const NobodySpecial nobody;
+    const UnprivilegedUser user;
     EXPECT_EQ(writing(directory / "other"), "other: cannot be written: Permission denied");
-    EXPECT_EQ(asking(directory / "other"), "other: cannot be written: Permission denied");
+    EXPECT_EQ(checking_writable(directory / "other"),
+              "other: cannot be written: Permission denied");
   }
   ::chmod(directory.path().c_str(), 0755);
 }
 
 TEST(WriteFileAtomically, WritesSpecialFilesDirectly) {
   EXPECT_EQ(writing("/dev/null"), "accepted");
-  EXPECT_EQ(asking("/dev/null"), "accepted");
+  EXPECT_EQ(checking_writable("/dev/null"), "accepted");
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
   EXPECT_EQ(writing("/dev/full"), "full: cannot be written: No space left on device");
 }
 
-TEST(WriteFileAtomically, LeavesTheOldFileWhenTheDiskIsFull) {
+TEST(WriteFileAtomically, KeepsTheOldFileWhenTheDiskIsFull) {
   const TemporaryDirectory directory;
   directory.write("file", "old");
-  std::string said;
+  std::string result;
   {
     const FileSizeLimit limit(1000);
-    said = writing_content(directory / "file", std::string(5000, 'x'));
+    result = writing_content(directory / "file", std::string(5000, 'x'));
   }
-  EXPECT_EQ(said, "file: cannot be written: File too large");
+  EXPECT_EQ(result, "file: cannot be written: File too large");
   EXPECT_EQ(file_content(directory / "file"), "old");
   EXPECT_EQ(directory.files(), Names{"file"});
 }
 
-// A process that has begun to write `file`, until it is killed.
+// A process that has written half of `file` and waits until it is killed.
 class Writer {
  public:
   explicit Writer(const std::string& file) {
@@ -148,8 +148,8 @@ class Writer {
       for (;;) ::pause();
     }
     ::close(ends[1]);
-    char said = 0;
-    EXPECT_EQ(::read(ends[0], &said, 1), 1);
+    char result = 0;
+    EXPECT_EQ(::read(ends[0], &result, 1), 1);
     ::close(ends[0]);
   }
   ~Writer() { kill(); }
@@ -167,14 +167,14 @@ class Writer {
   pid_t process_ = -1;
 };
 
-// The file in the folder that is half written and not called `other`; "": none.
+// Name of the half-written file in the folder other than `other`, or "" if there is none.
 std::string half_written(const TemporaryDirectory& directory, const std::string& other) {
   for (const std::string& name : directory.files())
     if (name != other && file_content(directory / name) == "half") return name;
   return "";
 }
 
-TEST(WriteFileAtomically, ClearsWhatKilledProcessesLeft) {
+TEST(WriteFileAtomically, RemovesTemporaryFilesOfKilledProcesses) {
   const TemporaryDirectory directory;
   Writer killed(directory / "file");
   const std::string left = half_written(directory, "");
@@ -186,8 +186,8 @@ TEST(WriteFileAtomically, ClearsWhatKilledProcessesLeft) {
   EXPECT_EQ(directory.files(), (Names{live, "other"}));
 }
 
-// Whether another host has locked its file cannot be known on every file system.
-TEST(WriteFileAtomically, BelievesThatOthersAreDeadAfterAWhile) {
+// Not every file system shows whether another host has locked its file.
+TEST(WriteFileAtomically, RemovesOldTemporaryFilesOfOtherHosts) {
   const TemporaryDirectory directory;
   directory.write(".grove-1-1-1@elsewhere.tmp", "half");
   const std::string old = directory.write(".grove-1-1-2@elsewhere.tmp", "half");
@@ -197,7 +197,7 @@ TEST(WriteFileAtomically, BelievesThatOthersAreDeadAfterAWhile) {
   EXPECT_EQ(directory.files(), (Names{".grove-1-1-1@elsewhere.tmp", ".grove-mine", "file"}));
 }
 
-TEST(FlushFile, RefusesWhatIsNotThere) {
+TEST(FlushFile, RefusesMissingFiles) {
   const TemporaryDirectory directory;
   write_file_atomically(directory / "file", "new", Durability::kProcess);
   EXPECT_EQ(refusal([&] { flush_file(directory / "file"); }), "accepted");
@@ -205,7 +205,7 @@ TEST(FlushFile, RefusesWhatIsNotThere) {
             "none: cannot be written: No such file or directory");
 }
 
-TEST(AtomicFile, AppearsWhenAllItsPiecesAreThere) {
+TEST(AtomicFile, ReplacesTheFileOnCommit) {
   const TemporaryDirectory directory;
   directory.write("file", "old");
   AtomicFile file(directory / "file");
@@ -231,7 +231,7 @@ TEST(AtomicFile, LeavesNothingBehindUnlessCommitted) {
 
 TEST(RequireWritable, LeavesNothingBehind) {
   const TemporaryDirectory directory;
-  EXPECT_EQ(asking(directory / "new"), "accepted");
+  EXPECT_EQ(checking_writable(directory / "new"), "accepted");
   EXPECT_TRUE(directory.files().empty());
 }
 

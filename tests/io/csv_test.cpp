@@ -6,7 +6,7 @@
 namespace grove::detail {
 namespace csv_test {
 
-TEST(Csv, QuotesWhatMustBeQuoted) {
+TEST(Csv, QuotesCellsWithSpecialCharacters) {
   EXPECT_EQ(csv_cell(""), "");
   EXPECT_EQ(csv_cell("a b;c"), "a b;c");
   EXPECT_EQ(csv_cell("a,b"), "\"a,b\"");
@@ -31,7 +31,7 @@ TEST(Csv, NumberIsNoFormula) {
   EXPECT_EQ(csv_cell("-inf"), "'-inf");
 }
 
-// One apostrophe is the reader's to take away, so what has one already gets another.
+// A spreadsheet removes one apostrophe, so a value that begins with one gets another.
 TEST(Csv, ApostropheBeforeAFormulaIsDoubled) {
   EXPECT_EQ(csv_cell("'=1"), "''=1");
   EXPECT_EQ(csv_cell("''=1"), "'''=1");

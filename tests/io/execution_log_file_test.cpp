@@ -13,7 +13,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace grove::detail {
-namespace drive_file_test {
+namespace execution_log_file_test {
 
 using ::testing::HasSubstr;
 
@@ -37,7 +37,7 @@ const std::string kSeen =
 const std::string kDone =
     "{\"t\": 4, \"robot\": \"a\", \"at\": [2, 0], \"action\": 2, \"state\": \"done\"}\n";
 
-class DriveFile : public ::testing::Test {
+class ExecutionLogFile : public ::testing::Test {
  protected:
   ExecutionLog read(const std::string& content) {
     return read_drive_file(directory_.write("d.jsonl", content), instance_,
@@ -46,7 +46,7 @@ class DriveFile : public ::testing::Test {
   std::string refused(const std::string& content) {
     return refusal([&] { read(content); });
   }
-  // The second line with `from` replaced by `to`.
+  // Message for a log whose second line has `from` replaced by `to`.
   std::string refused_with(const std::string& from, const std::string& to) {
     std::string line = kSeen;
     EXPECT_NE(line.find(from), std::string::npos) << from;
@@ -57,7 +57,7 @@ class DriveFile : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(DriveFile, IsRead) {
+TEST_F(ExecutionLogFile, IsRead) {
   const ExecutionLog log = read(kHeader + kSeen + "\n" + kDone);
   EXPECT_EQ(log.order, "o.json");
   EXPECT_EQ(log.seconds_per_step, 1.5);
@@ -75,7 +75,7 @@ TEST_F(DriveFile, IsRead) {
   EXPECT_EQ(log.robots[0][1].completed, 2);
 }
 
-TEST_F(DriveFile, MayEndAnywhere) {
+TEST_F(ExecutionLogFile, MayBeTruncatedAnywhere) {
   const std::string whole = kHeader + kSeen + kDone;
   for (std::size_t size = kHeader.size(); size <= whole.size(); ++size) {
     const std::size_t lines = size < kHeader.size() + kSeen.size() ? 0u
@@ -85,16 +85,18 @@ TEST_F(DriveFile, MayEndAnywhere) {
   }
 }
 
-TEST_F(DriveFile, WhatIsNoneIsRefused) {
+TEST_F(ExecutionLogFile, OtherFilesAreRefused) {
   for (const std::string text : {"", "\n", "red\n", "[]\n", "{}\n", "{\"format\": 1}\n"})
-    EXPECT_THAT(refused(text), HasSubstr("d.jsonl: line 1: expected the log of a drive")) << text;
-  EXPECT_THAT(refused(kHeader.substr(0, 20)), HasSubstr("line 1: expected the log of a drive"));
+    EXPECT_THAT(refused(text), HasSubstr("d.jsonl: line 1: expected the log of an execution"))
+        << text;
+  EXPECT_THAT(refused(kHeader.substr(0, 20)),
+              HasSubstr("line 1: expected the log of an execution"));
   std::string other = kHeader;
   EXPECT_THAT(refused(other.replace(other.find("\"b\""), 3, "\"r2\"")),
               HasSubstr("line 1: /robots/1: found \"r2\"; expected a robot of the instance"));
 }
 
-TEST_F(DriveFile, LinesThatAreWrongAreNamed) {
+TEST_F(ExecutionLogFile, InvalidLinesAreNamed) {
   EXPECT_THAT(refused(kHeader + kSeen + "{\"t\": \n"),
               HasSubstr("d.jsonl: line 3: found {\"t\": ; expected a JSON object"));
   EXPECT_THAT(refused_with("\"a\"", "\"z\""),
@@ -112,7 +114,7 @@ TEST_F(DriveFile, LinesThatAreWrongAreNamed) {
               HasSubstr("line 3: /t: found 0.5; expected seconds from 4"));
 }
 
-TEST_F(DriveFile, DamagedFilesAreReadOrRefused) {
+TEST_F(ExecutionLogFile, DamagedFilesAreReadOrRefused) {
   std::mt19937 random(5);
   const std::string whole = kHeader + kSeen + kDone;
   int refusals = 0;
@@ -128,5 +130,5 @@ TEST_F(DriveFile, DamagedFilesAreReadOrRefused) {
   EXPECT_GT(refusals, 250);
 }
 
-}  // namespace drive_file_test
+}  // namespace execution_log_file_test
 }  // namespace grove::detail

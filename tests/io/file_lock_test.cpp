@@ -22,18 +22,18 @@ std::string locking(const std::string& path) {
   return refusal([&] { const FileLock lock(path); });
 }
 
-TEST(FileLock, KeepsOthersAwayAndSaysWhoHoldsIt) {
+TEST(FileLock, ExcludesOthersAndNamesItsHolder) {
   const TemporaryDirectory directory;
   FileLock lock(directory / "lock");
   EXPECT_TRUE(lock.is_held());
-  const std::string said = locking(directory / "lock");
-  EXPECT_TRUE(said.starts_with("lock: is locked by another run (process " +
-                               std::to_string(::getpid()) + " on host "))
-      << said;
+  const std::string message = locking(directory / "lock");
+  EXPECT_TRUE(message.starts_with("lock: is locked by another run (process " +
+                                  std::to_string(::getpid()) + " on host "))
+      << message;
   EXPECT_EQ(locking(directory / "other"), "accepted");
 }
 
-TEST(FileLock, EndsWithItsHolder) {
+TEST(FileLock, IsReleasedByItsDestructor) {
   const TemporaryDirectory directory;
   {
     FileLock first(directory / "lock");
@@ -51,12 +51,12 @@ TEST(FileLock, IsNotTakenThroughLinks) {
   std::filesystem::create_symlink(directory / "none", directory / "dangling");
   for (const char* name : {"link", "twin", "dangling"})
     EXPECT_EQ(locking(directory / name),
-              std::string(name) + ": is a link or no regular file; expected a lock file");
+              std::string(name) + ": is a link or not a regular file; expected a lock file");
   EXPECT_FALSE(std::filesystem::exists(directory / "none"));
   EXPECT_EQ(read_text(victim), "precious");
 }
 
-TEST(OutputLock, KeepsOthersAwayAndLeavesNothingBehind) {
+TEST(OutputLock, ExcludesOthersAndLeavesNoFiles) {
   const TemporaryDirectory directory;
   const auto locking_output = [](const std::string& path) {
     return refusal([&] { const OutputLock lock(path); });
@@ -75,15 +75,15 @@ TEST(OutputLock, KeepsOthersAwayAndLeavesNothingBehind) {
   }
   EXPECT_EQ(locking_output(directory / "plan.json"), "accepted");
   EXPECT_EQ(locking_output("/dev/null"), "accepted");
-  EXPECT_EQ(locking_output(directory / "none/plan.json"), "accepted");  // writing will tell
+  EXPECT_EQ(locking_output(directory / "none/plan.json"), "accepted");  // the write will fail
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(directory.path()))
     files += entry.path().filename() != "link" && entry.path().filename() != "plan.json";
   EXPECT_EQ(files, 0U);
 }
 
-// Nobody gives the lock of a killed process back but the kernel.
-TEST(FileLock, EndsWithAKilledProcess) {
+// Only the kernel releases the lock of a killed process.
+TEST(FileLock, IsReleasedWhenItsProcessIsKilled) {
   const TemporaryDirectory directory;
   const pid_t process = ::fork();
   if (process == 0) {
@@ -91,7 +91,8 @@ TEST(FileLock, EndsWithAKilledProcess) {
     for (;;) ::pause();
   }
   const std::filesystem::path file = directory / "lock";
-  while (!std::filesystem::exists(file) || std::filesystem::is_empty(file))  // says who holds it
+  // Until the holder has written its name:
+  while (!std::filesystem::exists(file) || std::filesystem::is_empty(file))
     std::this_thread::yield();
   EXPECT_NE(locking(file), "accepted");
   ::kill(process, SIGKILL);

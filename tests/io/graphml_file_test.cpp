@@ -9,7 +9,7 @@
 namespace grove::detail {
 namespace graphml_file_test {
 
-// As networkx writes an undirected graph: a key for each type of number, data in any order.
+// An undirected graph as written by networkx: a key for each type of number, data in any order.
 const std::string kNetworkx = R"(<?xml version='1.0' encoding='utf-8'?>
 <graphml xmlns="http://graphml.graphdrawing.org/xmlns"
          xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance">
@@ -39,7 +39,8 @@ const std::string kNetworkx = R"(<?xml version='1.0' encoding='utf-8'?>
 </graphml>
 )";
 
-// As yEd does: positions are in the drawing, other elements everywhere, all edges directed.
+// A graph as written by yEd: positions are in the drawing, other elements are everywhere, and all
+// edges are directed.
 const std::string kYed = R"(<?xml version="1.0" encoding="UTF-8" standalone="no"?>
 <graphml xmlns="http://graphml.graphdrawing.org/xmlns" xmlns:y="http://www.yworks.com/xml/graphml">
   <!--Created by yEd 3.22-->
@@ -79,13 +80,13 @@ const std::string kB = "<node id='B'><data key='x'>3</data><data key='y'>4</data
 std::string refused(const std::string& text) {
   return refusal([&] { parse_graphml(text, "g.graphml"); });
 }
-// With an edge from A to B that holds `inside`.
+// A network with an edge from A to B that contains `inside`.
 RoadNetwork with_edge(const std::string& inside, const std::string& before = "") {
   return parse_graphml(
       graphml(kA + kB + "<edge source='A' target='B'>" + inside + "</edge>", before), "g.graphml");
 }
 
-TEST(GraphmlFile, OfNetworkxIsRead) {
+TEST(GraphmlFile, ReadsFilesOfNetworkx) {
   std::vector<std::string> warnings;
   const RoadNetwork network = parse_graphml(kNetworkx, "g.graphml", &warnings);
   EXPECT_TRUE(warnings.empty());
@@ -99,11 +100,11 @@ TEST(GraphmlFile, OfNetworkxIsRead) {
   EXPECT_FALSE(network.links[0].seconds);
   EXPECT_EQ(network.links[1].from, 1);
   EXPECT_EQ(network.links[1].to, 2);
-  EXPECT_DOUBLE_EQ(network.links[1].metres, 5);  // the distance of its ends
+  EXPECT_DOUBLE_EQ(network.links[1].metres, 5);  // the distance between its ends
   EXPECT_EQ(network.links[1].place, "line 25, column 5");
 }
 
-TEST(GraphmlFile, OfYedIsRead) {
+TEST(GraphmlFile, ReadsFilesOfYed) {
   std::vector<std::string> warnings;
   const RoadNetwork network = parse_graphml(kYed, "g.graphml", &warnings);
   EXPECT_EQ(
@@ -119,7 +120,7 @@ TEST(GraphmlFile, OfYedIsRead) {
   EXPECT_EQ(network.links[1].metres, 7);
 }
 
-TEST(GraphmlFile, TheFirstNameOfALengthCounts) {
+TEST(GraphmlFile, FollowsThePreferenceOrderOfLengthNames) {
   EXPECT_EQ(with_edge("<data key='cost'>4</data><data key='weight'>3</data>").links[0].metres, 3);
   EXPECT_EQ(with_edge("<data key='weight'>3</data><data key='distance'>2</data>").links[0].metres,
             2);
@@ -130,7 +131,7 @@ TEST(GraphmlFile, TheFirstNameOfALengthCounts) {
   EXPECT_EQ(with_edge("<data key='time'> 8\n</data>").links[0].seconds, 8);
 }
 
-TEST(GraphmlFile, TextsAreReadWhole) {
+TEST(GraphmlFile, ReadsTextsWithEntitiesAndCdata) {
   EXPECT_EQ(with_edge("<data key='length'>1<!-- ! -->2<![CDATA[3]]></data>").links[0].metres, 123);
   const RoadNetwork network = parse_graphml(
       graphml("<node id='&#x41;&amp;\xC3\xA4'><data key='x'>0</data><data key='y'>0</data></node>"),
@@ -138,7 +139,7 @@ TEST(GraphmlFile, TextsAreReadWhole) {
   EXPECT_EQ(network.vertices[0].id, "A&\xC3\xA4");
 }
 
-TEST(GraphmlFile, PrefixesAndEdgesBeforeTheirNodesAreFine) {
+TEST(GraphmlFile, AcceptsPrefixesAndEdgesBeforeTheirNodes) {
   const RoadNetwork network = parse_graphml(
       "<g:graphml xmlns:g='http://graphml.graphdrawing.org/xmlns'><g:graph "
       "edgedefault='undirected'><g:edge source='A' target='A'><g:data key='length'>2</g:data>"
@@ -150,7 +151,7 @@ TEST(GraphmlFile, PrefixesAndEdgesBeforeTheirNodesAreFine) {
   EXPECT_EQ(network.links[0].from, network.links[0].to);
 }
 
-TEST(GraphmlFile, AByteOrderMarkAndAPlainDocumentTypeAreFine) {
+TEST(GraphmlFile, AcceptsAByteOrderMarkAndAPlainDocumentType) {
   const TemporaryDirectory directory;
   const std::string path = directory.write(
       "g.graphml",
@@ -158,7 +159,7 @@ TEST(GraphmlFile, AByteOrderMarkAndAPlainDocumentTypeAreFine) {
   EXPECT_EQ(read_graphml(path).vertices.size(), 1u);
 }
 
-TEST(GraphmlFile, WarnsOfWhatItDoesNotKnowOnce) {
+TEST(GraphmlFile, WarnsOnceAboutEachUnknownName) {
   std::vector<std::string> warnings;
   parse_graphml(graphml(kA + kB +
                         "<edge source='A' target='B'><data key='lanes'>2</data></edge>"
@@ -175,7 +176,7 @@ struct Bad {
   std::string message;  // after "g.graphml: "
 };
 
-TEST(GraphmlFile, EachWrongThingIsRefusedWithItsPlace) {
+TEST(GraphmlFile, RefusesInvalidFilesWithThePlace) {
   const auto node = [](const std::string& x) {
     return graphml("<node id='A'><data key='x'>" + x + "</data><data key='y'>0</data></node>");
   };
@@ -198,12 +199,12 @@ TEST(GraphmlFile, EachWrongThingIsRefusedWithItsPlace) {
       {std::string("<graphml>\n\0</graphml>", 21),
        "line 2, column 1: found a NUL character; expected text in UTF-8"},
       {"<?xml version='1.0' encoding='ISO-8859-1'?>" + graphml(kA),
-       "is in another encoding; expected UTF-8"},
-      {std::string("\xFF\xFE<\0g\0/\0>\0", 10), "is in another encoding; expected UTF-8"},
+       "is encoded in another way; expected UTF-8"},
+      {std::string("\xFF\xFE<\0g\0/\0>\0", 10), "is encoded in another way; expected UTF-8"},
       {"<svg/>", "line 1, column 1: found element 'svg'; expected 'graphml'"},
       {"<graphml/>", "line 1, column 1: has no element 'graph'; expected one"},
       {"<graphml><graph edgedefault='directed'/><graph edgedefault='directed'/></graphml>",
-       "line 1, column 41: a second graph; expected one in a file"},
+       "line 1, column 41: found a second graph; expected one per file"},
       {"<graphml><graph/></graphml>",
        "line 1, column 10: attribute 'edgedefault' is missing; expected it in this element"},
       {"<graphml><graph edgedefault='both'/></graphml>",
@@ -213,7 +214,8 @@ TEST(GraphmlFile, EachWrongThingIsRefusedWithItsPlace) {
        "line 1, column 40: attribute 'id' is missing; expected it in this element"},
       {graphml("<node id=''/>"), "line 1, column 40: expected an id that is not empty"},
       {graphml(kA + "\n" + kA), "line 2, column 1: id 'A' is used twice; expected distinct ids"},
-      {graphml("<node id='\xE4'/>"), "line 1, column 40: id '\\xe4' is no UTF-8; expected UTF-8"},
+      {graphml("<node id='\xE4'/>"),
+       "line 1, column 40: id '\\xe4' is not in UTF-8; expected UTF-8"},
       {graphml("<node id='A'/>"),
        "line 1, column 40: data 'x' is missing; expected x and y of the node, in metres"},
       {graphml("<node id='A'><data key='x'>1</data></node>"),
@@ -229,7 +231,7 @@ TEST(GraphmlFile, EachWrongThingIsRefusedWithItsPlace) {
       {node("1e999"), "line 1, column 53: found '1e999' for x; expected a finite number"},
       {node("0x10"), "line 1, column 53: found '0x10' for x; expected a finite number"},
       {graphml("<node id='A'>\n<graph edgedefault='directed'/></node>"),
-       "line 2, column 1: a graph within a node; expected a flat graph, without groups"},
+       "line 2, column 1: found a graph within a node; expected a graph without groups"},
       {graphml("<node id='A'><data key='d'><s><Geometry x='0' y='1' width='2'/></s></data></node>"),
        "line 1, column 70: attribute 'height' is missing; expected it in this element"},
       {edge("\n<hyperedge/>"), "line 2, column 1: a hyperedge; expected edges between two nodes"},
@@ -243,12 +245,12 @@ TEST(GraphmlFile, EachWrongThingIsRefusedWithItsPlace) {
        "line 2, column 1: found directed 'yes'; expected true or false"},
       {edge("\n<edge source='A' target='A'/>"),
        "line 2, column 1: has no length, and its ends are 0 m apart; expected data 'length', or "
-       "ends at some distance"},
+       "ends at a positive distance"},
       {graphml("<node id='A'><data key='x'>-1e308</data><data key='y'>0</data></node>"
                "<node id='B'><data key='x'>1e308</data><data key='y'>0</data></node>"
                "\n<edge source='A' target='B'/>"),
        "line 2, column 1: has no length, and its ends are inf m apart; expected data 'length', or "
-       "ends at some distance"},
+       "ends at a positive distance"},
       {length("0"), "line 2, column 29: found 0 for length; expected a positive number of metres"},
       {length("-2"),
        "line 2, column 29: found -2 for length; expected a positive number of metres"},
@@ -267,12 +269,12 @@ TEST(GraphmlFile, EachWrongThingIsRefusedWithItsPlace) {
       {graphml(kA, "<key/>"),
        "line 1, column 10: attribute 'id' is missing; expected it in this element"},
       {"<!DOCTYPE graphml [<!ENTITY a 'lol'><!ENTITY b '&a;&a;&a;&a;'>]>" + graphml(kA),
-       "its document type has declarations of its own; expected none: entities are not expanded"},
+       "its document type has declarations; expected none, because entities are not expanded"},
   };
   for (const Bad& bad : all) EXPECT_EQ(refused(bad.text), "g.graphml: " + bad.message) << bad.text;
 }
 
-TEST(GraphmlFile, DeepNestingIsNoMatter) {
+TEST(GraphmlFile, SurvivesDeepNesting) {
   std::string deep;
   for (int k = 0; k < 300'000; ++k) deep += "<a>";
   EXPECT_EQ(refused(deep).substr(0, 11), "g.graphml: ");
@@ -281,15 +283,15 @@ TEST(GraphmlFile, DeepNestingIsNoMatter) {
   EXPECT_EQ(parse_graphml(graphml(kA + closed), "g").vertices.size(), 1u);
 }
 
-// Of each text cut off somewhere, or with a byte changed: read or refused, nothing else.
-TEST(GraphmlFile, BrokenTextsAreReadOrRefused) {
+// Each text, truncated or with a bit changed, is either read or refused.
+TEST(GraphmlFile, DamagedTextsAreReadOrRefused) {
   for (const std::string& text : {kNetworkx, kYed})
     for (std::size_t k = 0; k < text.size(); ++k) {
       std::string changed = text;
       changed[k] = static_cast<char>(changed[k] ^ (1 << (k % 8)));
       for (const std::string& broken : {text.substr(0, k), changed}) {
-        const std::string said = refused(broken);
-        EXPECT_TRUE(said == "accepted" || said.starts_with("g.graphml: ")) << said;
+        const std::string message = refused(broken);
+        EXPECT_TRUE(message == "accepted" || message.starts_with("g.graphml: ")) << message;
       }
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Names that lead out of a folder, and small files that ask for gigabytes.
-// tests/tools/common/hostile_files_test.py tries the same by the programs.
+// File names that lead out of a folder, and small files that would need gigabytes of memory.
+// tests/tools/common/hostile_files_test.py tests the same through the programs.
 #include "io/input_rules.h"
 
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ class InputRulesTest : public ::testing::Test {
  protected:
   std::string named(const std::string& name) const {
     try {
-      return file_in_folder(kConfined, directory_ / "theirs", name).string();
+      return file_in_folder(kConfined, directory_ / "folder", name).string();
     } catch (const std::invalid_argument& error) {
       return error.what();
     }
@@ -48,25 +48,25 @@ class InputRulesTest : public ::testing::Test {
 };
 
 TEST_F(InputRulesTest, ConfinedNamesStayInTheFolder) {
-  const fs::path theirs = directory_ / "theirs";
-  fs::create_directories(theirs / "below");
+  const fs::path folder = directory_ / "folder";
+  fs::create_directories(folder / "below");
   directory_.write("out.map", kMap);
-  directory_.write("theirs/below/in.map", kMap);
-  fs::create_symlink("../out.map", theirs / "link.map");
-  fs::create_symlink("..", theirs / "up");
-  fs::create_symlink("below/in.map", theirs / "near.map");
+  directory_.write("folder/below/in.map", kMap);
+  fs::create_symlink("../out.map", folder / "link.map");
+  fs::create_symlink("..", folder / "up");
+  fs::create_symlink("below/in.map", folder / "near.map");
   for (const char* name :
-       {"../out.map", "link.map", "up/out.map", "up/theirs/../out.map", "..", "."})
-    EXPECT_THAT(named(name), HasSubstr("leads out of the folder of this file")) << name;
-  EXPECT_THAT(named((theirs / "below/in.map").string()), HasSubstr("is an absolute name"));
-  const std::string inside = fs::canonical(theirs / "below/in.map").string();
+       {"../out.map", "link.map", "up/out.map", "up/folder/../out.map", "..", "."})
+    EXPECT_THAT(named(name), HasSubstr("leads outside the folder of this file")) << name;
+  EXPECT_THAT(named((folder / "below/in.map").string()), HasSubstr("is an absolute path"));
+  const std::string inside = fs::canonical(folder / "below/in.map").string();
   for (const char* name :
-       {"below/in.map", "near.map", "below/../below/in.map", "up/theirs/near.map"})
+       {"below/in.map", "near.map", "below/../below/in.map", "up/folder/near.map"})
     EXPECT_EQ(named(name), inside) << name;
-  EXPECT_EQ(file_in_folder({}, theirs, "../out.map"), fs::path(directory_ / "out.map"));
+  EXPECT_EQ(file_in_folder({}, folder, "../out.map"), fs::path(directory_ / "out.map"));
 }
 
-TEST_F(InputRulesTest, MemoryIsRefusedBeforeItIsTaken) {
+TEST_F(InputRulesTest, LargeInputsAreRefusedBeforeAllocation) {
   constexpr std::string_view kRoads =
       R"({"vertices": [{"id": "A", "at": [0, 0]}, {"id": "B", "at": [1, 0]}],
     "edges": [{"from": "A", "to": "B", "steps": 67000000}]})";
@@ -99,13 +99,13 @@ TEST_F(InputRulesTest, StatesOfTurnsAndWorkCount) {
               HasSubstr("states of agents that turn or work need about"));
 }
 
-TEST_F(InputRulesTest, SmallOnesAreReadHoweverLittleMemoryThereIs) {
+TEST_F(InputRulesTest, SmallInstancesAreReadWithAnyMemoryLimit) {
   directory_.write("m.map", kMap);
   EXPECT_EQ(refused(R"("agents": [{"id": "a", "start": [0, 0]}], "tasks": [])", {.memory = 0}),
             "accepted");
 }
 
-TEST_F(InputRulesTest, WhatDoesNotBeginAsAMapIsNotQuoted) {
+TEST_F(InputRulesTest, OtherFilesAreNotQuoted) {
   for (const char* text : {"root:secret:1\n", "type secret\n", "{\"secret\": 1}"}) {
     directory_.write("m.map", text);
     EXPECT_THAT(refused(R"("agents": [], "tasks": [])"), Not(HasSubstr("secret"))) << text;

@@ -45,7 +45,7 @@ TEST_F(InstanceFile, IsRead) {
   EXPECT_EQ(loaded.map_path, directory_ / "m.map");
 }
 
-TEST_F(InstanceFile, IsReadFromATextToo) {
+TEST_F(InstanceFile, IsReadFromATextInMemory) {
   const std::string text = "{" + kMap + ", " + kAgents + ", " + kTasks + "}";
   EXPECT_EQ(parse_instance(text, "x", directory_.path()).map_path, directory_ / "m.map");
   EXPECT_EQ(refusal([&] { parse_instance("{}", "standard input", ""); }),
@@ -68,7 +68,7 @@ TEST_F(InstanceFile, AcceptsCrlfAndAByteOrderMark) {
             1);
 }
 
-TEST_F(InstanceFile, LeavesRemarksAlone) {
+TEST_F(InstanceFile, IgnoresRemarks) {
   const std::string rest = kMap + "," + kAgents + "," + kTasks + "}";
   EXPECT_TRUE(read(R"({"$schema": "instance.schema.json", )" + rest).warnings.empty());
   EXPECT_TRUE(read(R"({"_author": "me", )" + rest).warnings.empty());
@@ -90,10 +90,10 @@ TEST_F(InstanceFile, NamesLineAndColumnOfMalformedJson) {
             "double precision");
 }
 
-TEST_F(InstanceFile, NamesWhatPeopleWriteIntoJson) {
+TEST_F(InstanceFile, ExplainsCommonMistakesInJson) {
   const std::string comment =
-      ": malformed JSON: a comment, which JSON does not have; expected none, or a key that begins "
-      "with '_' for it";
+      ": malformed JSON: found a comment, which JSON does not allow; expected a key that begins "
+      "with '_' instead";
   EXPECT_EQ(refused("{} // note"), "i.json: line 1, column 4" + comment);
   EXPECT_EQ(refused("{\"map\": 1// note\n}"), "i.json: line 1, column 10" + comment);
   EXPECT_EQ(refused("{\n  // note\n \"map\": 1}"), "i.json: line 2, column 3" + comment);
@@ -101,15 +101,14 @@ TEST_F(InstanceFile, NamesWhatPeopleWriteIntoJson) {
   EXPECT_EQ(refused("# note\n{}"), "i.json: line 1, column 1" + comment);
   for (const char* number : {"NaN", "nan", "Infinity", "-Infinity", "inf"})
     EXPECT_EQ(refused(std::string("{\"map\": [") + number + "]}"),
-              "i.json: line 1, column 10: malformed JSON: this is no number in JSON; expected a "
+              "i.json: line 1, column 10: malformed JSON: found no valid JSON number; expected a "
               "finite number")
         << number;
-  EXPECT_EQ(
-      refused("{\"map\": True}"),
-      "i.json: line 1, column 9: malformed JSON: found True; expected true, in small letters");
+  EXPECT_EQ(refused("{\"map\": True}"),
+            "i.json: line 1, column 9: malformed JSON: found True; expected true, in lower case");
   for (const char* text : {"{\"map\": 1,}", "{\"map\": 1, }", "{\"map\": [1,\n]}"})
-    EXPECT_TRUE(refused(text).ends_with(
-        "malformed JSON: a comma behind the last value; expected none there"))
+    EXPECT_TRUE(
+        refused(text).ends_with("malformed JSON: a comma after the last value; expected none"))
         << refused(text);
 }
 
@@ -121,15 +120,16 @@ TEST_F(InstanceFile, PlacesAreCellsAndNotMetres) {
             std::string::npos);
 }
 
-TEST_F(InstanceFile, MapAndRoadmapAreNotEachOther) {
+TEST_F(InstanceFile, MapAndRoadmapAreNotInterchangeable) {
   directory_.write("r.roadmap.json", R"({"vertices": [{"id": "A", "at": [0, 0]}], "edges": []})");
   EXPECT_EQ(refused(R"({"map": "r.roadmap.json", "agents": [], "tasks": []})"),
             "i.json: /map: '" + (directory_ / "r.roadmap.json") +
-                "' is a JSON file; expected a map, or this name under the key \"roadmap\" if it is "
+                "' is a JSON file; expected a map, or this file under the key \"roadmap\" if it is "
                 "a roadmap");
-  EXPECT_EQ(refused(R"({"roadmap": "m.map", "agents": [], "tasks": []})"),
-            "i.json: /roadmap: '" + (directory_ / "m.map") +
-                "' is named like a map; expected a roadmap, or this name under the key \"map\"");
+  EXPECT_EQ(
+      refused(R"({"roadmap": "m.map", "agents": [], "tasks": []})"),
+      "i.json: /roadmap: '" + (directory_ / "m.map") +
+          "' has the suffix of a map; expected a roadmap, or this file under the key \"map\"");
 }
 
 TEST_F(InstanceFile, EveryTruncationIsRefused) {
@@ -138,16 +138,16 @@ TEST_F(InstanceFile, EveryTruncationIsRefused) {
     EXPECT_NE(refused(whole.substr(0, size)), "accepted") << size;
 }
 
-TEST_F(InstanceFile, IsAnObject) {
+TEST_F(InstanceFile, RefusesOtherJsonValues) {
   EXPECT_EQ(refused("[]"), "i.json: /: found an array; expected a JSON object");
   EXPECT_EQ(refused("3"), "i.json: /: found a number; expected a JSON object");
   EXPECT_EQ(refused("null"), "i.json: /: found null; expected a JSON object");
 }
 
 TEST_F(InstanceFile, RefusesDeepNesting) {
-  const std::string said = refused(std::string(100'000, '['));
-  EXPECT_NE(said.find("nested too deeply; expected at most 32 levels"), std::string::npos);
-  EXPECT_LT(said.size(), 200U);
+  const std::string message = refused(std::string(100'000, '['));
+  EXPECT_NE(message.find("nested too deeply; expected at most 32 levels"), std::string::npos);
+  EXPECT_LT(message.size(), 200U);
   EXPECT_NE(refused("{\"x\": " + std::string(1'000'000, '[') + "}"), "accepted");
   std::string objects;
   for (int k = 0; k < 100'000; ++k) objects += "{\"k\":";
@@ -199,7 +199,7 @@ TEST_F(InstanceFile, RefusesWrongTypes) {
             "i.json: /tasks/0/agents/0: found true; expected a string");
 }
 
-TEST_F(InstanceFile, RefusesNumbersThatAreNoCoordinates) {
+TEST_F(InstanceFile, RefusesInvalidCoordinates) {
   for (const char* wrong : {"1.5", "-1", "1.0", "99999999999", "18446744073709551615", "1e30",
                             "-9223372036854775808", "true", "\"1\"", "null", "[1]"})
     EXPECT_EQ(
@@ -208,7 +208,7 @@ TEST_F(InstanceFile, RefusesNumbersThatAreNoCoordinates) {
         << wrong;
 }
 
-TEST_F(InstanceFile, RefusesWhatTheRulesForbid) {
+TEST_F(InstanceFile, RefusesInvalidInstances) {
   EXPECT_EQ(refused_agent(R"({"id": "a", "start": [0, 0], "goal": [1, 0]})"),
             "i.json: /agents/0/goal: cell [1, 0] is blocked on the map; expected a passable cell");
   EXPECT_EQ(refused_agent(R"({"id": "a", "start": [3, 0], "goal": [2, 0]})").substr(0, 30),
@@ -228,10 +228,10 @@ TEST_F(InstanceFile, RefusesWhatTheRulesForbid) {
             "i.json: /tasks/0/agents");
 }
 
-TEST_F(InstanceFile, QuotesStrangeIdsOnOneLine) {
-  const std::string said = refused_agents(
+TEST_F(InstanceFile, QuotesIdsWithControlCharactersOnOneLine) {
+  const std::string message = refused_agents(
       R"([{"id": "a\n\u0007ü", "start": [0, 0]}, {"id": "a\n\u0007ü", "start": [0, 1]}])");
-  EXPECT_EQ(said, "i.json: /agents/1/id: id 'a\\n\\x07ü' is used twice; expected distinct ids");
+  EXPECT_EQ(message, "i.json: /agents/1/id: id 'a\\n\\x07ü' is used twice; expected distinct ids");
 }
 
 TEST_F(InstanceFile, RefusesNulInStrings) {
@@ -239,14 +239,14 @@ TEST_F(InstanceFile, RefusesNulInStrings) {
             "i.json: /agents/0/id: found \"a\\u0000b\"; expected a string without NUL characters");
 }
 
-TEST_F(InstanceFile, NamesTheMapThatCannotBeRead) {
+TEST_F(InstanceFile, NamesAnUnreadableMap) {
   EXPECT_EQ(refused("{\"map\": \"none.map\"}"), "i.json: /map: there is no file '" +
                                                     (directory_ / "none.map") +
                                                     "'; expected a map, relative to this file");
   EXPECT_TRUE(refused("{\"map\": \".\"}").starts_with("i.json: /map: found the folder"));
 }
 
-TEST_F(InstanceFile, IsAFile) {
+TEST_F(InstanceFile, RefusesFoldersAndMissingFiles) {
   EXPECT_NE(refusal([&] { read_instance(directory_.path()); }).find("is a folder; expected a file"),
             std::string::npos);
   EXPECT_EQ(refusal([&] { read_instance(directory_ / "none.json"); }),

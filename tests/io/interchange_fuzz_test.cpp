@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Valid files of other tools, broken at random: a reader returns an instance, which can be written
-// and is read back the same, or throws InputError. Nothing else. GROVE_FUZZ_FACTOR multiplies the
-// number of cases.
+// Random mutations of valid files of other tools. A reader either returns an instance, which can be
+// written and is read back the same, or throws InputError. GROVE_FUZZ_FACTOR multiplies the number
+// of cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -94,7 +94,8 @@ int cases() {
   return testing::fuzz_rounds(1000);
 }
 
-// Reads every mutation of `text`, and again what `write` makes of it. Tells how many were read.
+// Reads every mutation of `text`, and reads again what `write` writes. Returns how many mutations
+// were read.
 template <typename Read, typename Write>
 int survivors(const std::string& text, Read read, Write write) {
   const TemporaryDirectory directory;
@@ -122,19 +123,19 @@ Instance read_yaml(const std::string& path) {
   return read_libmrp_instance(path);
 }
 
-TEST(InterchangeFuzz, LibmrpInstances) {
+TEST(InterchangeFuzz, LibmrpInstancesAreReadOrRefused) {
   const int survived = survivors(kMapf, read_yaml, write_libmrp_instance);
   EXPECT_GT(survived, 10);
   EXPECT_LT(survived, cases());
 }
 
-TEST(InterchangeFuzz, MgcbsInstances) {
+TEST(InterchangeFuzz, MgcbsInstancesAreReadOrRefused) {
   const int survived = survivors(kMgMapf, read_yaml, write_mgcbs_instance);
   EXPECT_GT(survived, 10);
   EXPECT_LT(survived, cases());
 }
 
-TEST(InterchangeFuzz, MapfwProblems) {
+TEST(InterchangeFuzz, MapfwProblemsAreReadOrRefused) {
   const auto read = [](const std::string& path) { return read_mapfw_problem(path); };
   const int survived = survivors(kMapfw, read, write_mapfw_problem);
   EXPECT_GT(survived, 10);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Keys of Grove's own files: which there are, in every object, and what is said of others.
+// The known keys of each object in Grove's own files, and the messages for unknown keys.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -17,7 +17,7 @@
 namespace grove::detail {
 namespace known_keys_test {
 
-// In each text '~' is a place where a key can be added.
+// In each text '~' marks a place where a key can be added.
 const std::string kInstance = R"({~"map": "m.map",
   "agents": [{~"id": "a", "start": [0, 0], "goal": [2, 0], "working": {~"task": "w", "done": 1}}],
   "tasks": [{~"id": "w", "cell": [0, 0], "agents": ["a"], "duration": 2}]})";
@@ -33,7 +33,8 @@ const std::string kSolver = R"json({~"name": "s", "command": "{program} {map} {s
   "claims": {~"cost": {~"regex": "(.)"}},
   "trace": [{~"regex": "(.)(.)", "groups": ["cost", "seconds"]}]})json";
 
-// `text` with `member` at place `number` of those there are; empty if there are not so many.
+// `text` with `member` at marked place `number`, or "" if there are fewer places; a negative
+// `number` adds nothing.
 std::string with(const std::string& text, int number, const std::string& member) {
   std::string made;
   int count = 0;
@@ -79,7 +80,7 @@ struct File {
   std::vector<std::string> objects;
 };
 
-TEST_F(KnownKeys, UnknownOnesAreRefusedInEveryObject) {
+TEST_F(KnownKeys, UnknownKeysAreRefusedInEveryObject) {
   const std::vector<File> files{
       {"instance", kInstance, {"/", "/agents/0", "/agents/0/working", "/tasks/0"}},
       {"robots", kRobots, {"/", "/agents/0"}},
@@ -91,22 +92,22 @@ TEST_F(KnownKeys, UnknownOnesAreRefusedInEveryObject) {
   for (const File& file : files) {
     EXPECT_EQ(refused(file.kind, with(file.text, -1, "")), "accepted") << file.kind;
     for (int k = 0; k < static_cast<int>(file.objects.size()); ++k) {
-      const auto said = [&](const std::string& member) {
+      const auto refused_here = [&](const std::string& member) {
         return refused(file.kind, with(file.text, k, member));
       };
       const std::string place = "f: " + file.objects[k] + ": unknown key 'xyz'; expected one of ";
-      EXPECT_EQ(said(R"("xyz": 1)").substr(0, place.size()), place) << file.kind;
-      EXPECT_EQ(said(R"("_xyz": {"xyz": 1}, "_": null, "$schema": "s.json")"), "accepted")
+      EXPECT_EQ(refused_here(R"("xyz": 1)").substr(0, place.size()), place) << file.kind;
+      EXPECT_EQ(refused_here(R"("_xyz": {"xyz": 1}, "_": null, "$schema": "s.json")"), "accepted")
           << file.kind << " " << file.objects[k];
-      EXPECT_NE(said(R"("$other": 1)"), "accepted");
+      EXPECT_NE(refused_here(R"("$other": 1)"), "accepted");
     }
     EXPECT_EQ(with(file.text, static_cast<int>(file.objects.size()), "x"), "") << file.kind;
   }
 }
 
-TEST_F(KnownKeys, ACloseKeyIsHinted) {
+TEST_F(KnownKeys, CloseKeyIsSuggested) {
   const auto hint = [](const std::string& found, const std::string& meant) {
-    return "unknown key '" + found + "'; expected " + meant + ", if that is what it means";
+    return "unknown key '" + found + "'; expected " + meant + ", if that is meant";
   };
   const std::vector<std::vector<std::string>> cases{
       {"headin", "'heading'"}, {"turn-steps", "'turn_steps'"}, {"motions", "'motion'"},
@@ -124,17 +125,17 @@ TEST_F(KnownKeys, ACloseKeyIsHinted) {
               "f: /edges/0: " + hint(found, "'one_way' (true: only from 'from' to 'to')"));
   EXPECT_EQ(refused("roadmap", R"({"vertices": [{"id": "A", "position": [0, 0]}], "edges": []})"),
             "f: /vertices/0: " + hint("position", "'at'"));
-  // A key of another object, but nearly one of this.
+  // The key of another object, but close to one of this object.
   EXPECT_EQ(refused("instance", R"({"map": "m.map", "agents": [], "task": []})"),
             "f: /: " + hint("task", "'tasks'"));
-  // The key itself is there: another one was meant.
+  // The close key is present, so another one was meant.
   EXPECT_EQ(
       refused_member(kInstance, 1, R"("gaol": [1, 1])"),
       "f: /agents/0: unknown key 'gaol'; expected one of id, start, goal, motion, turn_steps, "
-      "heading, goal_heading, working, or a name that begins with '_' for a remark");
+      "heading, goal_heading, working, or a name that begins with '_', for a remark");
 }
 
-TEST_F(KnownKeys, WhatGroveDoesNotModelIsSaidToBeSo) {
+TEST_F(KnownKeys, UnsupportedFeaturesAreNamed) {
   const std::vector<std::vector<std::string>> of_tasks{
       {"deadline", "deadlines"},
       {"deadlines", "deadlines"},
@@ -162,7 +163,7 @@ TEST_F(KnownKeys, WhatGroveDoesNotModelIsSaidToBeSo) {
   EXPECT_EQ(refused_edge(R"("capacity": 2)"), "f: /edges/0: " + message("capacity", "capacities"));
 }
 
-TEST_F(KnownKeys, AKeyOfAnotherObjectIsSentThere) {
+TEST_F(KnownKeys, KeyOfAnotherObjectIsReferredThere) {
   EXPECT_EQ(refused_member(kInstance, 1, R"("duration": 3)"),
             "f: /agents/0: unknown key 'duration'; this key belongs to a task; expected it there");
   EXPECT_EQ(refused_member(kInstance, 3, R"("goal": [1, 1])"),
@@ -175,7 +176,7 @@ TEST_F(KnownKeys, AKeyOfAnotherObjectIsSentThere) {
             "f: /agents/0: unknown key 'begin'; this key belongs to work; expected it there");
 }
 
-TEST_F(KnownKeys, AFileOfAnotherKindIsNamed) {
+TEST_F(KnownKeys, FileOfAnotherKindIsNamed) {
   EXPECT_EQ(refused("instance", with(kPlan, -1, "")), "f: /: found a plan; expected an instance");
   EXPECT_EQ(refused("instance", with(kRoadmap, -1, "")),
             "f: /: found a roadmap; expected an instance");
@@ -187,10 +188,11 @@ TEST_F(KnownKeys, StatisticsOfAPlanMayHaveAnyKey) {
   EXPECT_EQ(refused("plan", with(kPlan, 0, R"("stats": {"xyz": 1, "goals": 2})")), "accepted");
 }
 
-TEST_F(KnownKeys, LongAndStrangeOnesAreQuotedOnOneLine) {
-  const std::string said = refused_member(kInstance, 0, '"' + std::string(5000, 'm') + R"(\n": 1)");
-  EXPECT_EQ(said.substr(0, 22), "f: /: unknown key 'mmm");
-  EXPECT_LT(said.size(), 900U);
+TEST_F(KnownKeys, LongKeysAreQuotedInShortOnOneLine) {
+  const std::string message =
+      refused_member(kInstance, 0, '"' + std::string(5000, 'm') + R"(\n": 1)");
+  EXPECT_EQ(message.substr(0, 22), "f: /: unknown key 'mmm");
+  EXPECT_LT(message.size(), 900U);
 }
 
 }  // namespace known_keys_test

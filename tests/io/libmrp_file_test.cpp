@@ -11,7 +11,7 @@
 namespace grove::detail {
 namespace libmrp_file_test {
 
-// . @ . . .   Wider than high, and the same neither mirrored nor turned round.
+// . @ . . .   Wider than high, and without any symmetry.
 // . . . . .
 // . . . @ @
 const std::string kMapText =
@@ -45,8 +45,8 @@ Instance mg_mapf(const std::string& last_task = "t2") {
   return std::move(builder).build();
 }
 
-// Agents, tasks and obstacles in a line, to compare instances with.
-std::string told(const Instance& instance) {
+// Agents, tasks and obstacles as one line, to compare instances.
+std::string summary(const Instance& instance) {
   const Grid& grid = instance.grid();
   const auto cell = [&](Cell c) {
     const Position p = grid.position(c);
@@ -82,7 +82,7 @@ class LibmrpFile : public ::testing::Test {
   std::vector<std::string> warnings_;
 };
 
-TEST_F(LibmrpFile, IsWrittenAsTheToolReadsIt) {
+TEST_F(LibmrpFile, IsWrittenForItsTools) {
   write_libmrp_instance(directory_ / "o.yaml", mapf());
   EXPECT_EQ(file_content(directory_ / "o.yaml"), kMapf);
   write_mgcbs_instance(directory_ / "o.yaml", mg_mapf());
@@ -95,33 +95,34 @@ TEST_F(LibmrpFile, IsWrittenForSolversThatAssignGoals) {
   EXPECT_NE(text.find("    start: [0, 0]\n    potentialGoals:\n      - [4, 0]\n"),
             std::string::npos)
       << text;
-  EXPECT_EQ(told(read(text)), told(mapf()));
+  EXPECT_EQ(summary(read(text)), summary(mapf()));
 }
 
 TEST_F(LibmrpFile, IsReadBack) {
-  EXPECT_EQ(told(read(kMapf)), told(mapf()));
-  EXPECT_EQ(told(read(kMapf)), "5x3 @(1,0) @(3,2) @(4,2) agent0(0,0)(4,0) on(3,0)(1,2)");
-  EXPECT_EQ(told(read(kMgMapf)), told(mg_mapf()));
+  EXPECT_EQ(summary(read(kMapf)), summary(mapf()));
+  EXPECT_EQ(summary(read(kMapf)), "5x3 @(1,0) @(3,2) @(4,2) agent0(0,0)(4,0) on(3,0)(1,2)");
+  EXPECT_EQ(summary(read(kMgMapf)), summary(mg_mapf()));
   EXPECT_TRUE(warnings_.empty());
 }
 
-TEST_F(LibmrpFile, ReadsOtherWaysToSayTheSame) {
-  EXPECT_EQ(told(read("{map: {dimensions: [5, 3], obstacles: [!!python/tuple [4, 2], [3, 2], "
-                      "[1, 0], [1, 0]]},\nagents: [{name: agent0, start: [0, 0], goal: [4, 0]}, "
-                      "{start: [3, 0], potentialGoals: [[1, 2]], name: 'on'}]}")),
-            told(mapf()));
-  EXPECT_EQ(told(read("map:\r\n  dimensions: [2, 1]\r\n  obstacles:\r\nagents:\r\n  - name: 7\r\n"
-                      "    start: [1, 0]\r\n    goal: [0, 0]\r\n")),
-            "2x1 7(1,0)(0,0)");
+TEST_F(LibmrpFile, ReadsEquivalentYaml) {
+  EXPECT_EQ(summary(read("{map: {dimensions: [5, 3], obstacles: [!!python/tuple [4, 2], [3, 2], "
+                         "[1, 0], [1, 0]]},\nagents: [{name: agent0, start: [0, 0], goal: [4, 0]}, "
+                         "{start: [3, 0], potentialGoals: [[1, 2]], name: 'on'}]}")),
+            summary(mapf()));
+  EXPECT_EQ(
+      summary(read("map:\r\n  dimensions: [2, 1]\r\n  obstacles:\r\nagents:\r\n  - name: 7\r\n"
+                   "    start: [1, 0]\r\n    goal: [0, 0]\r\n")),
+      "2x1 7(1,0)(0,0)");
 }
 
-TEST_F(LibmrpFile, OneDocumentMayBeginAndEndAsYamlSays) {
-  EXPECT_EQ(told(read("%YAML 1.2\n---\n" + kMapf + "...\n# the end\n")), told(mapf()));
-  EXPECT_EQ(told(read("\xEF\xBB\xBF# the beginning\n" + kMapf)), told(mapf()));
-  EXPECT_EQ(refused("# nothing\n"), "i.yaml: holds nothing; expected a YAML map");
+TEST_F(LibmrpFile, AcceptsDirectivesAndDocumentMarkers) {
+  EXPECT_EQ(summary(read("%YAML 1.2\n---\n" + kMapf + "...\n# the end\n")), summary(mapf()));
+  EXPECT_EQ(summary(read("\xEF\xBB\xBF# the beginning\n" + kMapf)), summary(mapf()));
+  EXPECT_EQ(refused("# nothing\n"), "i.yaml: is empty; expected a YAML map");
 }
 
-TEST_F(LibmrpFile, KeepsOddNames) {
+TEST_F(LibmrpFile, KeepsNamesThatYamlMustQuote) {
   for (const std::string name :
        {"null", "~",   "7", "a b",    "a: b", "#",   "'", "\"", "-",  "\n", "\t",   "\x01",
         "\x7f", "\\n", "é", "\u2028", "Yes",  "1e3", "[", " ",  "*a", "!t", "0x10", "a\r\nb"}) {
@@ -133,7 +134,7 @@ TEST_F(LibmrpFile, KeepsOddNames) {
   }
 }
 
-// As Python's yaml reads them, too: it takes them for the ends of lines.
+// Python's yaml takes these characters for line ends.
 TEST_F(LibmrpFile, WritesAsciiOnly) {
   InstanceBuilder builder(grid());
   builder.add_agent("\u2028\u0085\u00e9", {0, 0}, Position{4, 0});
@@ -143,14 +144,14 @@ TEST_F(LibmrpFile, WritesAsciiOnly) {
       << file_content(directory_ / "o.yaml");
 }
 
-TEST_F(LibmrpFile, AMapWithoutObstaclesSaysSo) {
+TEST_F(LibmrpFile, WritesAnEmptyListOfObstacles) {
   InstanceBuilder builder(testing::grid_of({"..", ".."}));
   builder.add_agent("a", {0, 0}, Position{1, 0});
   write_libmrp_instance(directory_ / "o.yaml", std::move(builder).build());
   EXPECT_EQ(file_content(directory_ / "o.yaml"),
             "map:\n  dimensions: [2, 2]\n  obstacles: []\nagents:\n  - name: a\n    start: [0, 0]\n"
             "    goal: [1, 0]\n");
-  EXPECT_EQ(told(read_libmrp_instance(directory_ / "o.yaml")), "2x2 a(0,0)(1,0)");
+  EXPECT_EQ(summary(read_libmrp_instance(directory_ / "o.yaml")), "2x2 a(0,0)(1,0)");
 }
 
 TEST_F(LibmrpFile, WarnsAboutUnknownKeys) {
@@ -161,14 +162,14 @@ TEST_F(LibmrpFile, WarnsAboutUnknownKeys) {
       << warnings_[0];
 }
 
-TEST_F(LibmrpFile, NamesWhatIsWrong) {
-  EXPECT_EQ(refused(""), "i.yaml: holds nothing; expected a YAML map");
+TEST_F(LibmrpFile, RefusesInvalidFilesWithThePlace) {
+  EXPECT_EQ(refused(""), "i.yaml: is empty; expected a YAML map");
   EXPECT_EQ(refused("hello"),
             "i.yaml: line 1, column 1: found 'hello'; expected a map with the keys 'map' and "
             "'agents'");
   EXPECT_EQ(refused(kMapf + "---\na: 1\n"),
-            "i.yaml: holds more than one YAML document; expected one");
-  EXPECT_EQ(refused("," + kMapf), "i.yaml: holds more than one YAML document; expected one");
+            "i.yaml: has more than one YAML document; expected one");
+  EXPECT_EQ(refused("," + kMapf), "i.yaml: has more than one YAML document; expected one");
   EXPECT_EQ(refused_with("[4, 0]", "[4, 0"),
             "i.yaml: line 11, column 9: malformed YAML: end of sequence flow not found; expected a "
             "YAML map");
@@ -205,8 +206,8 @@ TEST_F(LibmrpFile, NamesWhatIsWrong) {
             "i.yaml: line 8, column 5: expected exactly one of the keys 'goal', 'goals' and "
             "'potentialGoals'");
   EXPECT_EQ(refused_with("goal: [4, 0]", "potentialGoals: [[4, 0], [3, 0]]"),
-            "i.yaml: line 10, column 21: found 2 potential goals; expected one, for Grove "
-            "does not choose destinations");
+            "i.yaml: line 10, column 21: found 2 potential goals; expected one, because Grove does "
+            "not choose destinations");
   EXPECT_EQ(refused_with("goal: [4, 0]", "goal: [4, 0]\n    goal: [3, 1]"),
             "i.yaml: line 11, column 5: key 'goal' appears twice; expected distinct keys");
   EXPECT_EQ(refused_with("goal: [4, 0]", "goals: [[4, 0], [3, 1], [4, 0]]"),
@@ -220,7 +221,7 @@ TEST_F(LibmrpFile, NamesWhatIsWrong) {
   EXPECT_EQ(refused(kMapText + "agents: []\n"),
             "i.yaml: line 7, column 9: expected at least one agent");
   EXPECT_EQ(refused("roadmap:\n  undirected: true\nagents: []\n"),
-            "i.yaml: line 2, column 3: a roadmap; expected a grid, given by the key 'map'");
+            "i.yaml: line 2, column 3: found a roadmap; expected a grid, given by the key 'map'");
 }
 
 TEST_F(LibmrpFile, TakesOnlyDecimalIntegers) {
@@ -231,12 +232,11 @@ TEST_F(LibmrpFile, TakesOnlyDecimalIntegers) {
         << wrong;
   EXPECT_EQ(refused_with("[5, 3]", "[5, 0]"),
             "i.yaml: line 2, column 19: found '0'; expected a decimal integer from 1 to 16777216");
-  EXPECT_EQ(
-      refused_with("[5, 3]", "[16777216, 2]"),
-      "i.yaml: line 2, column 15: 16777216 x 2 cells are too many; expected at most 16777216");
+  EXPECT_EQ(refused_with("[5, 3]", "[16777216, 2]"),
+            "i.yaml: line 2, column 15: found 16777216 x 2 cells; expected at most 16777216");
 }
 
-TEST_F(LibmrpFile, SurvivesDepth) {
+TEST_F(LibmrpFile, SurvivesDeepNesting) {
   for (const std::string opening : {"[", "{a: ", "- ", "? "}) {
     std::string text;
     for (int k = 0; k < 20'000; ++k) text += opening;
@@ -245,7 +245,7 @@ TEST_F(LibmrpFile, SurvivesDepth) {
   }
 }
 
-TEST_F(LibmrpFile, MoreThan64GoalsAreRefusedWhereTheyStand) {
+TEST_F(LibmrpFile, RefusesMoreThan64GoalsWithThePlace) {
   std::string goals;
   for (int x = 1; x <= 65; ++x) goals += "      - [" + std::to_string(x) + ", 0]\n";
   EXPECT_EQ(refused("map:\n  dimensions: [70, 1]\n  obstacles: []\nagents:\n  - name: a\n"
@@ -254,7 +254,7 @@ TEST_F(LibmrpFile, MoreThan64GoalsAreRefusedWhereTheyStand) {
             "i.yaml: line 72, column 9: agent 'a' has more than 64 tasks; expected at most 64");
 }
 
-TEST_F(LibmrpFile, WhatTheToolsCannotSayIsNotWritten) {
+TEST_F(LibmrpFile, UnrepresentableInstancesAreNotWritten) {
   const auto problem = [&](auto write, const Instance& instance) -> std::string {
     try {
       write(directory_ / "o.yaml", instance);
@@ -264,14 +264,16 @@ TEST_F(LibmrpFile, WhatTheToolsCannotSayIsNotWritten) {
     return "written";
   };
   EXPECT_EQ(problem(write_libmrp_instance, mg_mapf()),
-            "agents/0: agent 'agent0' has no goal; expected one for every agent, for "
-            "libMultiRobotPlanning's YAML cannot do without");
+            "agents/0: agent 'agent0' has no goal; expected one for every agent, because "
+            "libMultiRobotPlanning's YAML requires it");
   EXPECT_EQ(problem(write_libmrp_instance,
                     testing::instance_of({"..."}, {{{0, 0}, Position{2, 0}, {{1, 0}}}})),
-            "tasks/0: task 't0' cannot be said in libMultiRobotPlanning's YAML; expected no tasks");
-  EXPECT_EQ(problem(write_mgcbs_instance, mapf()),
-            "agents/0: agent 'agent0' has a goal to end on, which cannot be said in MGCBS's YAML; "
-            "expected an agent that may end on any of its tasks (MG-MAPF)");
+            "tasks/0: task 't0' cannot be represented in libMultiRobotPlanning's YAML; expected no "
+            "tasks");
+  EXPECT_EQ(
+      problem(write_mgcbs_instance, mapf()),
+      "agents/0: agent 'agent0' has a goal to end on, which cannot be represented in MGCBS's YAML; "
+      "expected an agent that may end on any of its tasks (MG-MAPF)");
   EXPECT_EQ(problem(write_mgcbs_instance, mg_mapf("shelf")),
             "tasks/2: MGCBS's YAML has no ids of tasks: read back, task 'shelf' (number 2) would "
             "be 't2' (number 2); expected that");

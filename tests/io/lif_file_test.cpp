@@ -39,7 +39,7 @@ const std::string kFloors = R"({"layouts": [
   {"layoutId": "high", "nodes": [{"nodeId": "C", "nodePosition": {"x": 2, "y": 0}}],
    "edges": [{"edgeId": "CB", "startNodeId": "C", "endNodeId": "B"}]}]})";
 
-// What T1 and T2 may use is not the same.
+// T1 and T2 may use different nodes and edges.
 const std::string kTypes = R"({"layouts": [{"layoutId": "l", "nodes": [
     {"nodeId": "A", "nodePosition": {"x": 0, "y": 0}, "vehicleTypeNodeProperties":
       [{"vehicleTypeId": "T1"}, {"vehicleTypeId": "T2"}]},
@@ -63,7 +63,7 @@ std::string refused(const std::string& text, const LifChoice& choice = {}) {
   return refusal([&] { parse_lif(text, "p.lif.json", choice); });
 }
 
-TEST(LifFile, EdgesAreRoadsOfOneWay) {
+TEST(LifFile, EdgesAreOneWayRoads) {
   std::vector<std::string> warnings;
   const RoadNetwork network = parse_lif(kPlant, "p", {}, &warnings);
   EXPECT_TRUE(warnings.empty());
@@ -80,7 +80,7 @@ TEST(LifFile, EdgesAreRoadsOfOneWay) {
   EXPECT_EQ(network.links[1].place, "/layouts/0/edges/1");
 }
 
-TEST(LifFile, NullAndEmptyPropertiesTellNothing) {
+TEST(LifFile, NullAndEmptyPropertiesAreIgnored) {
   EXPECT_FALSE(parse_lif(replaced(kPlant, "0.5", "null"), "p").links[0].seconds);
   EXPECT_FALSE(
       parse_lif(replaced(kPlant, R"([{"vehicleTypeId": "T", "maxSpeed": 0.5}])", "[]"), "p")
@@ -88,7 +88,7 @@ TEST(LifFile, NullAndEmptyPropertiesTellNothing) {
           .seconds);
 }
 
-TEST(LifFile, OfSeveralLayoutsOneIsChosen) {
+TEST(LifFile, SeveralLayoutsRequireAChoice) {
   EXPECT_EQ(refused(kFloors),
             "p.lif.json: /layouts: 2 layouts; expected --layout with one of 'high', 'low'");
   EXPECT_EQ(refused(kFloors, {.layout = "roof"}),
@@ -98,19 +98,21 @@ TEST(LifFile, OfSeveralLayoutsOneIsChosen) {
   EXPECT_EQ(low.vertices.size(), 2u);
   ASSERT_EQ(low.links.size(), 1u);
   EXPECT_EQ(low.links[0].place, "/layouts/0/edges/0");
-  EXPECT_EQ(warnings, (std::vector<std::string>{"p: /layouts/0/edges: 1 of the edges lead from or "
-                                                "to another layout and are left out"}));
+  EXPECT_EQ(warnings,
+            (std::vector<std::string>{
+                "p: /layouts/0/edges: 1 edges lead from or to another layout and are left out"}));
   EXPECT_EQ(parse_lif(kFloors, "p", {.layout = "high"}).vertices[0].id, "C");
 }
 
-TEST(LifFile, OfSeveralVehicleTypesOneIsChosen) {
-  EXPECT_EQ(refused(kTypes),
-            "p.lif.json: /layouts/0: 2 vehicle types, with roads and speeds of their own; expected "
-            "--vehicle-type with one of 'T1', 'T2'");
+TEST(LifFile, SeveralVehicleTypesRequireAChoice) {
+  EXPECT_EQ(
+      refused(kTypes),
+      "p.lif.json: /layouts/0: found 2 vehicle types with different roads and speeds; expected "
+      "--vehicle-type with one of 'T1', 'T2'");
   EXPECT_EQ(refused(kTypes, {.vehicle_type = "T3"}),
             "p.lif.json: /layouts/0: there is no vehicle type 'T3'; expected one of 'T1', 'T2'");
   EXPECT_EQ(refused(kFloors, {.layout = "low", .vehicle_type = "T"}),
-            "p.lif.json: /layouts/0: names no vehicle types; expected no --vehicle-type");
+            "p.lif.json: /layouts/0: has no vehicle types; expected no --vehicle-type");
   const RoadNetwork first = parse_lif(kTypes, "p", {.vehicle_type = "T1"});
   EXPECT_EQ(first.vertices.size(), 3u);
   ASSERT_EQ(first.links.size(), 2u);  // AB and BC
@@ -124,7 +126,7 @@ TEST(LifFile, OfSeveralVehicleTypesOneIsChosen) {
 }
 
 TEST(LifFile, TrajectoriesGiveTheLength) {
-  // A quarter of a circle of radius 6, exactly; then a line with a corner, of the default degree.
+  // An exact quarter circle of radius 6; then a polyline with a corner, of the default degree.
   const RoadNetwork arc =
       parse_lif(with_trajectory(R"({"degree": 2.0, "knotVector": [0,0,0,1,1,1], "controlPoints": [
         {"x": 6, "y": 0}, {"x": 6, "y": 6, "weight": 0.70710678118654757}, {"x": 0, "y": 6}]})"),
@@ -135,13 +137,13 @@ TEST(LifFile, TrajectoriesGiveTheLength) {
         [{"x": 0, "y": 0}, {"x": 3, "y": 4}, {"x": 3, "y": 10}]})"),
                 "p");
   EXPECT_NEAR(corner.links[0].metres, 11, 1e-9);
-  // Cubic, with a knot inside: a straight line, whose length is known.
+  // Cubic with an interior knot: a straight line, whose length is known.
   const RoadNetwork straight = parse_lif(
       with_trajectory(R"({"degree": 3, "knotVector": [0,0,0,0,0.5,1,1,1,1], "controlPoints":
         [{"x": 0, "y": 0}, {"x": 1, "y": 0}, {"x": 4, "y": 0}, {"x": 5, "y": 0}, {"x": 8, "y": 0}]})"),
       "p");
   EXPECT_NEAR(straight.links[0].metres, 8, 1e-9);
-  // In coordinates of its own, as some exporters write: never less than the straight line.
+  // In local coordinates, as some exporters write: never less than the straight line.
   const RoadNetwork elsewhere = parse_lif(
       with_trajectory(
           R"({"knotVector": [0,0,1,1], "controlPoints": [{"x": 0, "y": 0}, {"x": 1, "y": 0}]})"),
@@ -149,7 +151,7 @@ TEST(LifFile, TrajectoriesGiveTheLength) {
   EXPECT_DOUBLE_EQ(elsewhere.links[0].metres, 5);
 }
 
-TEST(LifFile, WarnsOfUnknownKeysOnce) {
+TEST(LifFile, WarnsOnceAboutEachUnknownKey) {
   std::vector<std::string> warnings;
   std::string text = replaced(kPlant, "\"nodeId\": \"in\"", "\"nodeId\": \"in\", \"colour\": 1");
   parse_lif(replaced(text, "\"nodeId\": \"out\"", "\"nodeId\": \"out\", \"colour\": 1"), "p", {},
@@ -158,12 +160,12 @@ TEST(LifFile, WarnsOfUnknownKeysOnce) {
             (std::vector<std::string>{"p: /layouts/0/nodes/0: unknown key 'colour' is ignored"}));
 }
 
-TEST(LifFile, AByteOrderMarkIsFine) {
+TEST(LifFile, AcceptsAByteOrderMark) {
   const TemporaryDirectory directory;
   EXPECT_EQ(read_lif(directory.write("p.lif.json", "\xEF\xBB\xBF" + kPlant)).links.size(), 2u);
 }
 
-TEST(LifFile, EachWrongThingIsRefusedWithItsPlace) {
+TEST(LifFile, RefusesInvalidFilesWithThePlace) {
   const auto curve = [](const std::string& degree, const std::string& knots,
                         const std::string& points) {
     return with_trajectory("{\"degree\": " + degree + ", \"knotVector\": " + knots +
@@ -181,7 +183,7 @@ TEST(LifFile, EachWrongThingIsRefusedWithItsPlace) {
       {"", "is empty; expected a JSON object"},
       {"[]", "/: found an array; expected a JSON object"},
       {"{}", "/: key 'layouts' is missing; expected it in this object"},
-      {R"({"origins": []})", "/: has 'origins', as LIF 2 has; expected 'layouts', as in LIF 1"},
+      {R"({"origins": []})", "/: found 'origins', a key of LIF 2; expected 'layouts', as in LIF 1"},
       {R"({"layouts": {}})", "/layouts: found an object; expected an array"},
       {R"({"layouts": []})", "/layouts: expected at least one layout"},
       {R"({"layouts": [7]})", "/layouts/0: found 7; expected an object"},
@@ -217,9 +219,9 @@ TEST(LifFile, EachWrongThingIsRefusedWithItsPlace) {
       {replaced(kPlant, "\"endNodeId\": \"out\"", "\"endNodeId\": \"up\""),
        edge + "/endNodeId: there is no node 'up'; expected the id of one of this file"},
       {replaced(kPlant, "\"endNodeId\": \"out\"", "\"endNodeId\": \"in\""),
-       edge + ": leads over 0 m; expected ends, or a trajectory, at some distance"},
+       edge + ": has a length of 0 m; expected ends, or a trajectory, at a positive distance"},
       {replaced(replaced(kPlant, "\"x\": -1.5", "\"x\": -1e308"), "\"x\": 1.5", "\"x\": 1e308"),
-       edge + ": leads over inf m; expected ends, or a trajectory, at some distance"},
+       edge + ": has a length of inf m; expected ends, or a trajectory, at a positive distance"},
       {replaced(kPlant, "0.5", "0"),
        properties + "/maxSpeed: found 0; expected a positive number of metres per second"},
       {replaced(kPlant, "0.5", "-1"),
@@ -244,7 +246,7 @@ TEST(LifFile, EachWrongThingIsRefusedWithItsPlace) {
        properties +
            "/trajectory/knotVector: 3 knots; expected 4, for 2 control points and degree 1"},
       {curve("1", "[0,1,0.5,1]", two),
-       properties + "/trajectory/knotVector/2: found 0.5; expected no less than the knot before"},
+       properties + "/trajectory/knotVector/2: found 0.5; expected at least the knot before"},
       {curve("1", "[0,0,1,1]", R"([{"x": 0, "y": 0, "weight": 0}, {"x": 1, "y": 0}])"),
        properties + "/trajectory/controlPoints/0/weight: found 0; expected a positive number"},
       {replaced(kPlant, "\"layoutVersion\": \"1\"", "\"layoutId\": \"1\""),
@@ -253,13 +255,13 @@ TEST(LifFile, EachWrongThingIsRefusedWithItsPlace) {
   for (const Bad& bad : all) EXPECT_EQ(refused(bad.text), "p.lif.json: " + bad.message) << bad.text;
 }
 
-TEST(LifFile, BrokenTextsAreReadOrRefused) {
+TEST(LifFile, DamagedTextsAreReadOrRefused) {
   for (std::size_t k = 0; k < kPlant.size(); ++k) {
     std::string changed = kPlant;
     changed[k] = static_cast<char>(changed[k] ^ (1 << (k % 8)));
     for (const std::string& broken : {kPlant.substr(0, k), changed}) {
-      const std::string said = refused(broken);
-      EXPECT_TRUE(said == "accepted" || said.starts_with("p.lif.json: ")) << said;
+      const std::string message = refused(broken);
+      EXPECT_TRUE(message == "accepted" || message.starts_with("p.lif.json: ")) << message;
     }
   }
 }

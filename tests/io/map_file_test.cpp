@@ -35,7 +35,7 @@ TEST_F(MapFile, ReadsCellsRowByRow) {
   EXPECT_TRUE(warnings_.empty());
 }
 
-TEST_F(MapFile, AcceptsWhatOtherToolsWrite) {
+TEST_F(MapFile, AcceptsVariantsOfOtherTools) {
   EXPECT_EQ(read("type octile\r\nwidth 3\r\nheight 2\r\nmap\r\n...\r\n...\r\n").passable_count(),
             6);
   EXPECT_EQ(read(kHeader + "...\n...").passable_count(), 6);        // no last newline
@@ -63,25 +63,25 @@ TEST_F(MapFile, NamesLineAndColumnOfWrongCells) {
             "m.map: line 5, column 1: the row has 0 characters; expected 3");
 }
 
-TEST_F(MapFile, SaysHowObstaclesAreWritten) {
+TEST_F(MapFile, ExplainsHowObstaclesAreWritten) {
   EXPECT_EQ(refused(kHeader + "...\n.#.\n"),
             "m.map: line 6, column 2: found '#'; expected '@' where the map is blocked, as in "
             "Moving AI's maps");
 }
 
-TEST_F(MapFile, CountsRows) {
+TEST_F(MapFile, RefusesAWrongNumberOfRows) {
   EXPECT_EQ(refused(kHeader), "m.map: line 5, column 1: the map ends after 0 rows; expected 2");
   EXPECT_EQ(refused(kHeader + "...\n"),
             "m.map: line 6, column 1: the map ends after 1 rows; expected 2");
   EXPECT_EQ(refused(kHeader + "...\n...\n...\n"),
-            "m.map: line 7, column 1: the map goes on after 2 rows; expected no more");
+            "m.map: line 7, column 1: the map has more than 2 rows; expected no more");
 }
 
 TEST_F(MapFile, ReadsHeadersStrictly) {
   EXPECT_EQ(refused(""), "m.map: line 1, column 1: the file ends here; expected 'type octile'");
   EXPECT_EQ(refused("type tile\n"),
-            "m.map: line 1, column 1: does not begin as a map does; expected 'type octile' ('grove "
-            "convert' makes a map of a drawing)");
+            "m.map: line 1, column 1: is not a map; expected the first line 'type octile' ('grove "
+            "convert' converts drawings to maps)");
   EXPECT_EQ(refused("type octile\n"),
             "m.map: line 2, column 1: the file ends here; expected 'height' or 'width'");
   const std::string both = "expected 'height' and 'width', one per line, each with a number";
@@ -92,17 +92,17 @@ TEST_F(MapFile, ReadsHeadersStrictly) {
             "m.map: line 4, column 1: found 'maps'; expected 'map'");
 }
 
-TEST_F(MapFile, RefusesSizesThatCannotBe) {
+TEST_F(MapFile, RefusesInvalidSizes) {
   const auto with_height = [&](const std::string& height) {
     return refused("type octile\nheight " + height + "\nwidth 3\nmap\n").substr(0, 25);
   };
   for (const char* height : {"0", "-1", "2.5", "99999999999", "x", "1e3", "2 3"})
     EXPECT_EQ(with_height(height), "m.map: line 2, column 8: ") << height;
   EXPECT_EQ(refused("type octile\nheight 60000\nwidth 60000\nmap\n"),
-            "m.map: line 2, column 1: 60000 x 60000 cells are too many; expected at most 67108864");
+            "m.map: line 2, column 1: found 60000 x 60000 cells; expected at most 67108864");
 }
 
-TEST_F(MapFile, RefusesWhatIsNoFile) {
+TEST_F(MapFile, RefusesFoldersAndMissingFiles) {
   EXPECT_EQ(refusal([&] { read_map(directory_ / "none.map"); }),
             "none.map: cannot be read: No such file or directory");
   EXPECT_NE(refusal([&] { read_map(directory_.path()); }).find("is a folder; expected a file"),

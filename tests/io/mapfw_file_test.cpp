@@ -11,7 +11,7 @@
 namespace grove::detail {
 namespace mapfw_file_test {
 
-// . @ . . .   Wider than high, and the same neither mirrored nor turned round.
+// . @ . . .   Wider than high, and without any symmetry.
 // . . . . .
 // . . . @ @
 const std::vector<std::string> kMap = {".@...", ".....", "...@@"};
@@ -20,7 +20,7 @@ const std::string kProblem =
     " \"width\": 5,\n \"height\": 3,\n \"starts\": [\n  [0,0],\n  [3,0]],\n"
     " \"goals\": [\n  [4,0],\n  [1,2]],\n \"waypoints\": [\n  [[2,1]],\n  [[0,1],[2,1]]]}\n";
 
-// Task t0 is both agents'.
+// Both agents must visit task t0.
 Instance instance(const std::string& last_task = "t1") {
   InstanceBuilder builder(testing::grid_of(kMap));
   builder.add_agent("a0", {0, 0}, Position{4, 0});
@@ -50,7 +50,7 @@ class MapfwFile : public ::testing::Test {
   std::vector<std::string> warnings_;
 };
 
-TEST_F(MapfwFile, IsReadAsCellsOfColumnAndRow) {
+TEST_F(MapfwFile, ReadsCellsAsColumnAndRow) {
   const Instance read_back = read(kProblem);
   const Grid& grid = read_back.grid();
   EXPECT_EQ(grid.width(), 5);
@@ -71,8 +71,8 @@ TEST_F(MapfwFile, IsReadAsCellsOfColumnAndRow) {
   EXPECT_TRUE(warnings_.empty());
 }
 
-TEST_F(MapfwFile, IsWrittenWithATaskForEachOfItsAgents) {
-  // Agent a1 lists its waypoints as the tasks are numbered; their order means nothing.
+TEST_F(MapfwFile, ListsATaskForEachOfItsAgents) {
+  // Agent a1 lists its waypoints in the order of the tasks; their order has no meaning.
   std::string expected = kProblem;
   expected.replace(expected.find("[[0,1],[2,1]]"), 13, "[[2,1],[0,1]]");
   EXPECT_EQ(written(instance()), expected);
@@ -80,13 +80,13 @@ TEST_F(MapfwFile, IsWrittenWithATaskForEachOfItsAgents) {
   EXPECT_EQ(written(read(kProblem)), expected);
 }
 
-TEST_F(MapfwFile, AnyNumberButZeroIsAWall) {
+TEST_F(MapfwFile, ReadsAnyNonzeroNumberAsAnObstacle) {
   std::string text = kProblem;
   text.replace(text.find("[0,1,0"), 6, "[0,-7,0");
   EXPECT_EQ(written(read(text)), written(instance()));
 }
 
-TEST_F(MapfwFile, NamesWhatIsWrong) {
+TEST_F(MapfwFile, RefusesInvalidFilesWithThePlace) {
   EXPECT_EQ(refused_with("waypoints", "points"),
             "p.json: /: key 'waypoints' is missing; expected it in this object");
   EXPECT_EQ(refused_with("\"height\": 3", "\"height\": 2"),
@@ -122,7 +122,7 @@ TEST_F(MapfwFile, NamesWhatIsWrong) {
             "p.json: /starts: expected at least one agent");
 }
 
-TEST_F(MapfwFile, WhatItCannotSayIsNotWritten) {
+TEST_F(MapfwFile, UnrepresentableInstancesAreNotWritten) {
   const auto problem = [&](const Instance& i) -> std::string {
     try {
       return written(i);
@@ -134,12 +134,12 @@ TEST_F(MapfwFile, WhatItCannotSayIsNotWritten) {
             "tasks/1: MAPFW's JSON has no ids of tasks: read back, task 't7' (number 1) would be "
             "'t1' (number 1); expected that");
   EXPECT_EQ(problem(testing::instance_of({".."}, {{{0, 0}, std::nullopt, {{1, 0}}}})),
-            "agents/0: agent 'a0' has no goal; expected one for every agent, for MAPFW's JSON "
-            "cannot do without");
+            "agents/0: agent 'a0' has no goal; expected one for every agent, because MAPFW's JSON "
+            "requires it");
   EXPECT_TRUE(directory_.files().empty());
 }
 
-TEST(Expressible, TasksInAnotherOrderThanTheyAppearInAreOtherIds) {
+TEST(FormatSupport, TasksOutOfOrderNeedOtherDefaultIds) {
   InstanceBuilder builder(testing::grid_of({"......"}));
   builder.add_agent("a0", {0, 0}, Position{5, 0});
   builder.add_agent("a1", {1, 0}, Position{4, 0});
@@ -155,7 +155,7 @@ TEST(Expressible, TasksInAnotherOrderThanTheyAppearInAreOtherIds) {
   EXPECT_EQ(renamed.task(1).agents, (std::vector<AgentIndex>{1}));
 }
 
-TEST(Expressible, ReducedInstancesKeepTheRest) {
+TEST(FormatSupport, ReducedInstancesKeepAllElse) {
   InstanceBuilder builder(testing::grid_of({"...."}));
   builder.add_agent("red", {0, 0}, Position{3, 0});
   builder.add_task("shelf", {2, 0}, std::vector<std::string>{"red"});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Agents that turn, work that takes time and starts on the way, as files; and the plans of them.
+// Files of instances with agents that turn, and tasks that take time or are already begun; and
+// files of their plans.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -18,7 +19,7 @@ namespace motion_file_test {
 const std::string kRoads = R"({
  "vertices": [{"id": "A", "at": [0, 0]}, {"id": "B", "at": [3, 0]}],
  "edges": [{"from": "A", "to": "B", "steps": 3}]})";
-// The agents "a" and "b", and tasks at [1, 0] and [2, 0].
+// Tasks of the agents "a" and "b" on [1, 0].
 const std::string kWork =
     R"([{"id": "t", "cell": [1, 0], "agents": ["a"], "duration": 3},
         {"id": "u", "cell": [1, 0], "agents": ["a", "b"]}])";
@@ -38,7 +39,7 @@ class MotionFile : public ::testing::Test {
     write("i.json", "{" + map + R"(, "agents": )" + agents + R"(, "tasks": )" + tasks + "}");
     return read_instance(directory_.path() / "i.json").instance;
   }
-  // What is said of an agent "a" with these members beside its id.
+  // Message for an agent "a" with these members beside its id.
   std::string refused_agent(const std::string& members, const std::string& tasks = kWork) {
     return refusal([&] { instance(R"([{"id": "a", )" + members + "}" + kOther, tasks); });
   }
@@ -65,7 +66,7 @@ class MotionFile : public ::testing::Test {
 
 const std::string kTurns = R"("motion": "turning", )";
 
-TEST_F(MotionFile, SaysWhatAnAgentNeedsToTurn) {
+TEST_F(MotionFile, ReadsHeadingsAndDurations) {
   const Instance read = instance(
       R"([{"id": "a", "start": [0, 0], "goal": [3, 0], "motion": "turning", "turn_steps": 2,
            "heading": "W", "goal_heading": "S"},
@@ -80,7 +81,7 @@ TEST_F(MotionFile, SaysWhatAnAgentNeedsToTurn) {
   EXPECT_EQ(read.task(0).duration, 3);
 }
 
-TEST_F(MotionFile, IsReadAsItIsWritten) {
+TEST_F(MotionFile, RoundTrips) {
   const Instance first = instance(
       R"([{"id": "a", "start": [1, 0], "motion": "turning", "heading": "W",
            "working": {"task": "t", "done": 0}},
@@ -88,17 +89,17 @@ TEST_F(MotionFile, IsReadAsItIsWritten) {
            "turn_steps": 3, "goal_heading": "E"}])",
       kWork);
   write_instance(directory_.path() / "w.json", first, "m.map");
-  const Instance again = read_instance(directory_.path() / "w.json").instance;
+  const Instance restored = read_instance(directory_.path() / "w.json").instance;
   for (AgentIndex i = 0; i < 2; ++i) {
-    EXPECT_EQ(again.agent(i).start, first.agent(i).start);
-    EXPECT_EQ(again.agent(i).goal_heading, first.agent(i).goal_heading);
-    EXPECT_EQ(again.agent(i).motion, first.agent(i).motion);
+    EXPECT_EQ(restored.agent(i).start, first.agent(i).start);
+    EXPECT_EQ(restored.agent(i).goal_heading, first.agent(i).goal_heading);
+    EXPECT_EQ(restored.agent(i).motion, first.agent(i).motion);
   }
-  EXPECT_EQ(again.task(0).duration, 3);
-  EXPECT_EQ(again.world().state_count(), first.world().state_count());
+  EXPECT_EQ(restored.task(0).duration, 3);
+  EXPECT_EQ(restored.world().state_count(), first.world().state_count());
 }
 
-TEST_F(MotionFile, EachKeyIsRefusedWhereItIsWrong) {
+TEST_F(MotionFile, InvalidValuesAreRefusedWithThePlace) {
   const auto agent = [](const std::string& rest) { return "i.json: /agents/0/" + rest; };
   struct Case {
     std::string members;
@@ -133,7 +134,7 @@ TEST_F(MotionFile, EachKeyIsRefusedWhereItIsWrong) {
       {turning + R"("heading": "N", "goal": [2, 0], "goal_heading": "Q")",
        R"(goal_heading: found "Q"; expected "N", "E", "S" or "W")"},
       {turning + R"("heading": "N", "goal_heading": "N")",
-       "goal_heading: the agent has no goal; expected one, or no such key"},
+       "goal_heading: the agent has no goal; expected a goal, or no such key"},
       {turning + R"("heading": "N", "goal": [2, 0, "N"])",
        "goal: found an array; expected a cell [x, y]"},
       {R"("start": [1, 1], "motion": "turning", "heading": "N")",
@@ -164,13 +165,13 @@ TEST_F(MotionFile, EachKeyIsRefusedWhereItIsWrong) {
       {start + R"("working": {"task": "t", "done": -1})",
        "working/done: found -1; expected an integer from 0 to 65536"},
       {start + R"("working": {"task": "z", "done": 1})",
-       "working/task: there is no task 'z'; expected one of agent 'a'"},
+       "working/task: there is no task 'z'; expected a task of agent 'a'"},
       {start + R"("working": {"task": "t", "done": 1})",
-       "working/task: agent 'a' does not start on cell [1, 0]; expected a task where it starts"},
+       "working/task: agent 'a' does not start on cell [1, 0]; expected a task on its start"},
       {R"("start": [1, 0], "working": {"task": "t", "done": 3})",
        "working/done: found 3 steps of task 't'; expected 0 to 2, less than its duration"},
       {R"("start": [1, 0], "working": {"task": "u", "done": 0})",
-       "working/task: task 'u' takes no time; expected one with a duration"},
+       "working/task: task 'u' takes no time; expected a task with a duration"},
   };
   for (const Case& c : cases) {
     const bool is_missing = c.expected.starts_with("key");
@@ -182,10 +183,10 @@ TEST_F(MotionFile, EachKeyIsRefusedWhereItIsWrong) {
                            {"id": "b", "start": [1, 0], "working": {"task": "t", "done": 1}}])",
                        kWork);
             }),
-            "i.json: /agents/1/working/task: task 't' is none of agent 'b'; expected one of its "
-            "own");
+            "i.json: /agents/1/working/task: task 't' is not a task of agent 'b'; expected one of "
+            "its tasks");
   EXPECT_EQ(refused_on_roads(R"("motion": "turning", "heading": "N")"),
-            "i.json: /agents/0/motion: agents turn on grids only; expected no such key on a "
+            "i.json: /agents/0/motion: agents can turn only on grids; expected no such key on a "
             "roadmap");
   const std::string duration = "i.json: /tasks/0/duration: found ";
   for (const std::string wrong : {"-1", "1.5", "65537", "\"3\"", "null", "true"})
@@ -193,7 +194,7 @@ TEST_F(MotionFile, EachKeyIsRefusedWhereItIsWrong) {
               duration + wrong + "; expected an integer from 0 to 65536");
 }
 
-// A plan that heeds them not would be wrong for whoever wrote them.
+// A plan that ignored these keys would be wrong for the author of the file.
 TEST_F(MotionFile, KeysInTheWrongPlaceAreRefused) {
   EXPECT_EQ(
       refused_agent(R"("start": [0, 0], "duration": 3)"),
@@ -208,7 +209,7 @@ TEST_F(MotionFile, KeysInTheWrongPlaceAreRefused) {
             "i.json: /: unknown key 'motion'; this key belongs to an agent; expected it there");
 }
 
-TEST_F(MotionFile, AWorldHasItsLimits) {
+TEST_F(MotionFile, WorldsWithTooManyStatesAreRefused) {
   EXPECT_EQ(refused_agent(R"("start": [0, 0], "motion": "turning", "heading": "N",
                              "turn_steps": 65536)",
                           kWork),
@@ -219,10 +220,10 @@ TEST_F(MotionFile, AWorldHasItsLimits) {
   EXPECT_EQ(refused_agent(R"("start": [0, 0], "motion": "turning", "heading": "N",
                              "turn_steps": 65536)",
                           "[]"),
-            "i.json: /map: a world has 268435456 states at most");
+            "i.json: /map: a world has at most 268435456 states");
 }
 
-TEST_F(MotionFile, APlanTellsOfHeadingsAndWork) {
+TEST_F(MotionFile, PlansHoldHeadingsAndWork) {
   const Instance given = instance(
       R"([{"id": "a", "start": [0, 0], "goal": [1, 0], "motion": "turning", "heading": "N",
            "goal_heading": "S"}, {"id": "b", "start": [2, 0]}])",
@@ -233,10 +234,10 @@ TEST_F(MotionFile, APlanTellsOfHeadingsAndWork) {
            "path": [[0,0,"N"],[0,0,"E"],[1,0,"E"],[1,0,"E"],[1,0,"E"],[1,0,"E"],[1,0,"S"]]},
           {"id": "b", "sequence": ["u"], "cost": 8, "path": [[2,0],[2,0],[2,0],[2,0],[2,0],[2,0],
            [2,0],[2,0],[1,0]]}])";
-  // (They end on one cell: that is all that is wrong.)
-  const auto said = check(given, solution(given, good, 14));
-  ASSERT_EQ(said.size(), 1U);
-  EXPECT_EQ(said[0].message, "agents 'a' and 'b' are both on [1, 0] at time 8");
+  // Both agents end on one cell, which is the only violation.
+  const auto violations = check(given, solution(given, good, 14));
+  ASSERT_EQ(violations.size(), 1U);
+  EXPECT_EQ(violations[0].message, "agents 'a' and 'b' are both on [1, 0] at time 8");
 }
 
 }  // namespace motion_file_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The readers are strict; real files must pass all the same.
+// The readers are strict, but accept the real files.
 #include "tests/support/movingai.h"
 
 #include <gtest/gtest.h>

@@ -14,12 +14,12 @@
 namespace grove::detail {
 namespace plan_export_test {
 
-// . @ . . .   Wider than high, and the same neither mirrored nor turned round.
+// . @ . . .   Wider than high, and without any symmetry.
 // . . . . .
 // . . . @ @
 class PlanExport : public ::testing::Test {
  protected:
-  // Without tasks all the same: the paths stay.
+  // With or without tasks the paths are the same.
   static Instance make_instance(bool tasks) {
     InstanceBuilder builder(testing::grid_of({".@...", ".....", "...@@"}));
     builder.add_agent("red", {0, 0}, Position{4, 0});
@@ -29,7 +29,7 @@ class PlanExport : public ::testing::Test {
     return std::move(builder).build();
   }
 
-  // The first agent moves all the time, the second waits on the way and at the end, the third
+  // The first agent moves all the time, the second waits on its path and at the end, the third
   // rests.
   Solution make_solution(const Instance& instance) {
     const auto path = [&](const std::vector<Position>& positions) {
@@ -122,7 +122,7 @@ TEST_F(PlanExport, VisualizerTextIsPaddedAndEndsEveryPositionWithAComma) {
             "6:(4,0),(1,2),(0,2),\n");
 }
 
-TEST_F(PlanExport, LeavesOutWhatThePlanFileDoesNotTell) {
+TEST_F(PlanExport, OmitsStatsThatThePlanFileLacks) {
   solution_.stats = {};
   EXPECT_EQ(written([&](const std::string& path) {
               write_libmrp_schedule(path, instance_, solution_);
@@ -135,7 +135,7 @@ TEST_F(PlanExport, LeavesOutWhatThePlanFileDoesNotTell) {
 }
 
 TEST_F(PlanExport, LossCountsLeavingTheGoalButNoRestOnIt) {
-  // On its goal from 1 to 2 and again from 4 on: the rest in between is no loss, all else is.
+  // On its goal from 1 to 2 and again from 4 on: the stay in between is no loss, all else is.
   const Instance instance = testing::instance_of({"..."}, {{{0, 0}, Position{1, 0}}});
   Solution solution;
   solution.plan = Plan{4, {{4, {}, {0, 1, 1, 2, 1}}}};
@@ -171,7 +171,7 @@ TEST_F(PlanExport, TrackerRowsCanBeFlipped) {
             "\n");
 }
 
-TEST_F(PlanExport, TheTrackerKnowsNoTasks) {
+TEST_F(PlanExport, TrackerRowsRefuseTasks) {
   const auto write = [&](const Instance& instance) {
     write_tracker_row(directory_ / "out", instance, solution_, {"m", "even", 1},
                       TrackerLayout::kJson, TrackerUp::kTowardsRowZero);
@@ -182,7 +182,7 @@ TEST_F(PlanExport, TheTrackerKnowsNoTasks) {
   EXPECT_TRUE(directory_.files().empty());
 }
 
-TEST_F(PlanExport, CannotBeWrittenWhereThereIsNoFolder) {
+TEST_F(PlanExport, RefusesAMissingFolder) {
   EXPECT_EQ(refusal([&] { write_path_lists(directory_ / "none/o", instance_, solution_); }),
             "o: cannot be written: No such file or directory");
 }
@@ -198,9 +198,9 @@ TEST(TrackerScenario, IsTypeAndNumber) {
     EXPECT_FALSE(parse_tracker_scenario("m", wrong)) << wrong;
 }
 
-// Places are met at their times, waits have a begin and an end, tasks are named where they are
-// done.
-TEST_F(PlanExport, Waypoints) {
+// Each place is at its time, waits have a begin and an end, and tasks are named where they are
+// completed.
+TEST_F(PlanExport, WaypointsHaveTimesPosesAndTasks) {
   const Scale scale{{0.5, {10, 20}}, 2};
   const std::string text =
       written([&](const auto& path) { write_waypoints(path, instance_, solution_, scale); });
@@ -219,7 +219,7 @@ TEST_F(PlanExport, Waypoints) {
   EXPECT_NE(text.find("third one,0,10.25,20.25,0.000000,\n"), std::string::npos);
 }
 
-TEST_F(PlanExport, NavPaths) {
+TEST_F(PlanExport, NavPathsHaveStampsAndPoses) {
   const std::string text = written([&](const auto& path) {
     write_nav_paths(path, instance_, solution_, {{1, {}}, 0.5});
   });
@@ -232,8 +232,8 @@ TEST_F(PlanExport, NavPaths) {
             std::string::npos);
 }
 
-// U is one row down there.
-TEST_F(PlanExport, PlanViz) {
+// In PlanViz U moves one row down.
+TEST_F(PlanExport, PlanVizHasActionsAndEvents) {
   const std::string text =
       written([&](const auto& path) { write_planviz(path, instance_, solution_); });
   for (const char* part : {"\"actionModel\": \"MAPF\"", "[0,0,\"E\"]", "[2,0,\"E\"]",
@@ -242,7 +242,7 @@ TEST_F(PlanExport, PlanViz) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
 }
 
-TEST_F(PlanExport, PlanVizKnowsOneWayToTurn) {
+TEST_F(PlanExport, PlanVizRefusesTurnsOfSeveralSteps) {
   for (const Time steps : {1, 2}) {
     InstanceBuilder builder(testing::grid_of({".."}));
     builder.add_agent({.id = "a",

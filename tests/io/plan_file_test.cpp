@@ -99,7 +99,7 @@ TEST_F(PlanFile, HoldsEveryOmega) {
   }
 }
 
-TEST_F(PlanFile, SurvivesOddStats) {
+TEST_F(PlanFile, WritesStatsThatJsonCannotHold) {
   Solution s = solution();
   s.stats.measures["rate"] = std::numeric_limits<double>::infinity();
   s.stats.texts["host"] = "\xff\n\"";
@@ -116,7 +116,7 @@ TEST_F(PlanFile, TakesAgentsInAnyOrder) {
   EXPECT_EQ(back.plan->agents[1].cost, 5);
 }
 
-TEST_F(PlanFile, LeavesAgentsThatAreMissingForTheChecker) {
+TEST_F(PlanFile, AcceptsMissingAgentsForTheChecker) {
   const Solution back = read(R"({"status": "feasible", "cost": 0, "lower_bound": 0, "omega": 0,
     "agents": [{"id": "m", "sequence": [], "cost": 5, "path": []}]})");
   ASSERT_EQ(back.plan->agents.size(), 2U);
@@ -124,25 +124,25 @@ TEST_F(PlanFile, LeavesAgentsThatAreMissingForTheChecker) {
   EXPECT_TRUE(back.plan->agents[1].path.empty());
 }
 
-TEST_F(PlanFile, BelievesWrongNumbersForTheCheckerToRefute) {
+TEST_F(PlanFile, AcceptsWrongNumbersForTheChecker) {
   const Solution back =
       read(R"({"status": "optimal", "cost": 99, "lower_bound": -5, "omega": 0, "agents": []})");
   EXPECT_EQ(back.plan->cost, 99);
   EXPECT_EQ(back.lower_bound, -5);
 }
 
-TEST_F(PlanFile, NamesWhatIsMalformed) {
+TEST_F(PlanFile, RefusesInvalidFilesWithThePlace) {
   EXPECT_EQ(refused_with("\"optimal\"", "\"solved\""),
             "p.json: /status: found \"solved\"; expected optimal, bounded, feasible, infeasible or "
             "unknown");
   EXPECT_EQ(refused_with("\"status\"", "\"stat\""),
-            "p.json: /: unknown key 'stat'; expected 'status', if that is what it means");
+            "p.json: /: unknown key 'stat'; expected 'status', if that is meant");
   EXPECT_EQ(refused_with("\"lower_bound\"", "\"bound\""),
-            "p.json: /: unknown key 'bound'; expected 'lower_bound', if that is what it means");
+            "p.json: /: unknown key 'bound'; expected 'lower_bound', if that is meant");
   EXPECT_EQ(refused_with("\"cost\": 3", "\"cots\": 3"),
-            "p.json: /: unknown key 'cots'; expected 'cost', if that is what it means");
+            "p.json: /: unknown key 'cots'; expected 'cost', if that is meant");
   EXPECT_EQ(refused_with("\"agents\"", "\"agent\""),
-            "p.json: /: unknown key 'agent'; expected 'agents', if that is what it means");
+            "p.json: /: unknown key 'agent'; expected 'agents', if that is meant");
   EXPECT_EQ(refused_with("\"cost\": 3", "\"cost\": 3.5"),
             "p.json: /cost: found 3.5; expected an integer from 0 to 1152921504606846976");
   EXPECT_EQ(refused_with("\"cost\":2", "\"cost\":99999999999"),
@@ -163,7 +163,7 @@ TEST_F(PlanFile, NamesWhatIsMalformed) {
       "p.json: /stats: found 7; expected an object");
 }
 
-TEST_F(PlanFile, RefusesOmegasThatItCannotHold) {
+TEST_F(PlanFile, RefusesInvalidOmegas) {
   for (const char* omega :
        {"-0.1", "1e7", "\"infinity\"", "\"0.01\"", "null", "1e-10", "[]", "true"})
     EXPECT_EQ(refused_with("0.01", omega).substr(0, 15), "p.json: /omega:") << omega;
@@ -181,16 +181,16 @@ TEST_F(PlanFile, IsNotWrittenIfTheCheckerRefusesIt) {
     written(s);
     FAIL();
   } catch (const InvalidPlan& error) {
-    EXPECT_EQ(error.violation().place, "/agents/1/path/1");
+    EXPECT_EQ(error.violation().json_pointer, "/agents/1/path/1");
   }
   s = solution();
-  s.lower_bound = 2;  // then it is not proven to be optimal
+  s.lower_bound = 2;  // then the plan is not proven optimal
   EXPECT_THROW(written(s), InvalidPlan);
   EXPECT_FALSE(std::filesystem::exists(directory_ / "out.json"));
 }
 
-// The rules are those of the instance, and those that the solution claims to keep to.
-TEST_F(PlanFile, SaysWhereNoneFollows) {
+// Following is forbidden if the instance or the solution forbids it.
+TEST_F(PlanFile, RecordsThatFollowingIsForbidden) {
   EXPECT_NE(solution_text(instance().without_following(), solution()).find("\"following\": false"),
             std::string::npos);
   Solution s = solution();
@@ -208,7 +208,7 @@ TEST_F(PlanFile, SaysWhereNoneFollows) {
   EXPECT_NO_THROW(solution_text(row, s));
 }
 
-TEST_F(PlanFile, CannotBeWrittenWhereThereIsNoFolder) {
+TEST_F(PlanFile, RefusesAMissingFolder) {
   EXPECT_EQ(refusal([&] { write_solution(directory_ / "none/p.json", instance(), solution()); }),
             "p.json: cannot be written: No such file or directory");
 }

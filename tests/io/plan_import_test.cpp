@@ -20,7 +20,7 @@ namespace plan_import_test {
 
 using Words = std::vector<std::string>;
 
-// . @ . .   Wider than high, and the same neither mirrored nor turned round.
+// . @ . .   Wider than high, and without any symmetry.
 // . . . .
 // . . . @
 class PlanImport : public ::testing::Test {
@@ -29,10 +29,10 @@ class PlanImport : public ::testing::Test {
     return read_plan_of_any_tool(directory_.write("plan", text), instance);
   }
   ClaimedPlan read(const std::string& text) { return read(text, mapf_); }
-  // The first thing that is wrong; empty: nothing.
-  std::string mistake(const std::string& text) {
+  // First violation, or "" if the plan is valid.
+  std::string first_violation(const std::string& text) {
     const auto violations = check(mapf_, read(text).solution);
-    return violations.empty() ? "" : violations[0].place + ": " + violations[0].message;
+    return violations.empty() ? "" : violations[0].json_pointer + ": " + violations[0].message;
   }
   std::string refused(const std::string& text) {
     return refusal([&] { read(text); });
@@ -47,7 +47,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text.replace(text.find(what), what.size(), by);
 }
 
-// (row,column), as EECBS writes them; LNS2 has no blank after the colon.
+// (row,column), as EECBS writes them; LNS2 writes no blank after the colon.
 const std::string kLists =
     "Agent 0: (0,0)->(0,0)->(1,0)->(1,1)->(1,2)->(1,3)->(0,3)->\n"
     "Agent 1:(2,2)->(2,1)->(2,0)->(2,0)->(1,0)->\n";
@@ -77,7 +77,7 @@ TEST_F(PlanImport, ReadsTheTextOfLacam) {
   EXPECT_EQ(bare.unclaimed, (Words{"cost", "lower bound"}));
 }
 
-TEST_F(PlanImport, ReadsPlanFilesToo) {
+TEST_F(PlanImport, ReadsPlanFiles) {
   const Solution solution = read(kText).solution;
   write_solution(directory_ / "plan.json", mapf_, solution);
   const ClaimedPlan plan = read_plan_of_any_tool(directory_ / "plan.json", mapf_);
@@ -105,35 +105,35 @@ TEST_F(PlanImport, ReadsSchedules) {
   EXPECT_FALSE(read("statistics:\n  cost: 3\nschedule:\n").solution.plan);
 }
 
-TEST_F(PlanImport, RefusesSchedulesWithThePlace) {
+TEST_F(PlanImport, RefusesInvalidSchedulesWithThePlace) {
   EXPECT_EQ(refused(replaced(kSchedule, "agent0", "agent2")),
-            "plan: line 5, column 3: found 'agent2', which no agent of the instance is called; "
-            "expected the name of one, or agent0 to agent1");
+            "plan: line 5, column 3: found 'agent2', which is not an agent of the instance; "
+            "expected the name of an agent, or agent0 to agent1");
   EXPECT_EQ(refused(replaced(kSchedule, "  a1:", "  a0:")),
-            "plan: line 15, column 3: an agent appears twice");
+            "plan: line 15, column 3: an agent appears more than once");
   EXPECT_EQ(refused(replaced(kSchedule, "x: 3, y: 0, t: 6", "x: 3, y: 0, t: 7")),
-            "plan: line 14, column 23: expected t: 6, for each step follows the one before");
+            "plan: line 14, column 23: expected t: 6, because steps are consecutive");
   EXPECT_NE(refused(replaced(kSchedule, "x: 3, y: 0", "x: 4, y: 0")), "accepted");
   EXPECT_NE(refused(replaced(kSchedule, "x: 3, y: 0", "x: 3, y: -1")), "accepted");
   EXPECT_NE(refused(replaced(kSchedule, "x: 3, ", "")), "accepted");
   EXPECT_NE(refused(replaced(kSchedule, "  cost: 10", "  cost: ten")), "accepted");
 }
 
-// Whatever is claimed, the costs are those of the paths.
-TEST_F(PlanImport, CountsAnew) {
+// Whatever the file claims, the costs are those of the paths.
+TEST_F(PlanImport, RecomputesCosts) {
   const auto recounted = [&](const std::string& text) {
     return read_and_recount(directory_.write("plan", text), mapf_);
   };
-  const RecountedPlan lie = recounted(replaced(kText, "soc=10", "soc=7"));
-  EXPECT_EQ(lie.solution.plan->cost, 10);
-  EXPECT_EQ(lie.solution.lower_bound, 0);
-  EXPECT_EQ(lie.claimed_cost, 7);
-  EXPECT_EQ(lie.claimed_lower_bound, 8);
-  EXPECT_EQ(check(mapf_, lie.solution).size(), 0u);
+  const RecountedPlan false_claim = recounted(replaced(kText, "soc=10", "soc=7"));
+  EXPECT_EQ(false_claim.solution.plan->cost, 10);
+  EXPECT_EQ(false_claim.solution.lower_bound, 0);
+  EXPECT_EQ(false_claim.claimed_cost, 7);
+  EXPECT_EQ(false_claim.claimed_lower_bound, 8);
+  EXPECT_EQ(check(mapf_, false_claim.solution).size(), 0u);
   EXPECT_EQ(recounted(kLists).claimed_cost, std::nullopt);
   EXPECT_EQ(recounted(kSchedule).claimed_cost, 10);
   EXPECT_FALSE(recounted(replaced(kText, "solved=1", "solved=0")).solution.plan);
-  // Of a plan file, too: its bound is a claim like any other.
+  // The bound of a plan file is only a claim, too.
   Solution solution = read(kText).solution;
   solution.status = Status::kOptimal;
   solution.lower_bound = 10;
@@ -144,8 +144,8 @@ TEST_F(PlanImport, CountsAnew) {
   EXPECT_EQ(file.solution.status, Status::kFeasible);
 }
 
-// What Grove exports comes back, with the order of tasks found out.
-TEST_F(PlanImport, FindsTheOrderOfTasks) {
+// An exported plan is read back, and the order of its tasks is derived from its paths.
+TEST_F(PlanImport, DerivesTheOrderOfTasks) {
   InstanceBuilder builder(testing::grid_of({"....", "...."}));
   builder.add_agent("to", {0, 0}, Position{3, 1});
   builder.add_agent("free", {3, 0}, std::nullopt);
@@ -178,30 +178,32 @@ TEST_F(PlanImport, FindsTheOrderOfTasks) {
   }
 }
 
-TEST_F(PlanImport, LeavesLiesToTheChecker) {
-  EXPECT_EQ(mistake(replaced(kText, "soc=10", "soc=9")),
+TEST_F(PlanImport, LeavesFalseClaimsToTheChecker) {
+  EXPECT_EQ(first_violation(replaced(kText, "soc=10", "soc=9")),
             "/cost: the agents' costs add up to 10, but the plan says 9");
-  EXPECT_EQ(mistake(replaced(kText, "soc_lb=8", "soc_lb=11")),
-            "/lower_bound: a lower bound of 11 cannot be: this plan costs 10");
+  EXPECT_EQ(first_violation(replaced(kText, "soc_lb=8", "soc_lb=11")),
+            "/lower_bound: found 11; expected at most 10, the cost of this plan");
   EXPECT_EQ(
-      mistake(replaced(kLists, "(1,1)->", "")),
+      first_violation(replaced(kLists, "(1,1)->", "")),
       "/agents/0/path/3: agent 'a0' jumps from [0, 1] to [2, 1]; expected a wait or a move to "
       "one of 4 neighbors");
-  EXPECT_NE(mistake(replaced(kLists, "->(0,3)", "")).find("expected its goal"), std::string::npos);
-  EXPECT_NE(mistake(kLists.substr(0, kLists.find("Agent 1"))).find("agent 'a1' has no path"),
+  EXPECT_NE(first_violation(replaced(kLists, "->(0,3)", "")).find("expected its goal"),
             std::string::npos);
   EXPECT_NE(
-      mistake(replaced(kText, "(0,2),\n3:(1,1),(0,2)", "(1,2),\n3:(1,1),(1,1)")).find("both on"),
+      first_violation(kLists.substr(0, kLists.find("Agent 1"))).find("agent 'a1' has no path"),
       std::string::npos);
+  EXPECT_NE(first_violation(replaced(kText, "(0,2),\n3:(1,1),(0,2)", "(1,2),\n3:(1,1),(1,1)"))
+                .find("both on"),
+            std::string::npos);
 }
 
-TEST_F(PlanImport, KnowsWhenThereIsNoPlan) {
+TEST_F(PlanImport, ReadsFilesWithoutAPlan) {
   for (const std::string& text :
        {replaced(kText, "solved=1", "solved=0"), kText.substr(0, kText.find("solution="))})
     EXPECT_FALSE(read(text).solution.plan);
 }
 
-TEST_F(PlanImport, RefusesWithThePlace) {
+TEST_F(PlanImport, RefusesInvalidFilesWithThePlace) {
   EXPECT_EQ(refused(replaced(kLists, "Agent 1", "Agent 2")),
             "plan: line 2, column 8: there is no agent 2 in the instance; expected less than 2");
   EXPECT_EQ(refused(replaced(kLists, "Agent 1", "Agent 0")),
@@ -215,7 +217,7 @@ TEST_F(PlanImport, RefusesWithThePlace) {
   EXPECT_EQ(refused(replaced(kLists, "->(1,1)", "-(1,1)")),
             "plan: line 1, column 29: expected '->'");
   EXPECT_EQ(refused(replaced(kText, "agents=2", "agents=3")),
-            "plan: line 1, column 9: expected 2 agents, as the instance has");
+            "plan: line 1, column 9: expected 2 agents, as in the instance");
   EXPECT_EQ(refused(replaced(kText, "\n4:", "\n5:")), "plan: line 17, column 1: expected '4:'");
   EXPECT_EQ(refused(replaced(kText, "4:(2,1),(0,1),", "4:(2,1),(0,1),(1,1),")),
             "plan: line 17, column 15: expected the end of the line, after all agents of the "
@@ -231,8 +233,8 @@ TEST_F(PlanImport, RefusesWithThePlace) {
   EXPECT_EQ(refused(" [1]"), "plan: /: found an array; expected a JSON object");
 }
 
-// Whatever is broken: a plan, or a refusal.
-TEST_F(PlanImport, SurvivesBrokenFiles) {
+// A damaged file yields a plan or is refused.
+TEST_F(PlanImport, DamagedFilesAreReadOrRefused) {
   std::mt19937 random(1);
   int accepted = 0;
   const int rounds = testing::fuzz_rounds(1000);

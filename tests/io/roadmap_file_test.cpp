@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Roadmaps, instances on them, and their plans, as files.
+// Files of roadmaps, of instances on them, and of their plans.
 #include "io/roadmap_file.h"
 
 #include <fmt/format.h>
@@ -54,17 +54,17 @@ class RoadmapFile : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(RoadmapFile, IsReadAsItIsWritten) {
+TEST_F(RoadmapFile, RoundTrips) {
   const Roadmap read = parse_roadmap(kRoads, "r.json");
   EXPECT_EQ(read.place_count(), 3 + 2 + 1 + 1);
   write_roadmap(directory_.path() / "w.json", read);
-  const Roadmap again = read_roadmap(directory_.path() / "w.json");
-  ASSERT_EQ(again.vertices().size(), 3u);
-  EXPECT_EQ(again.vertices()[1].at, (Point{3.5, 0}));
-  ASSERT_EQ(again.roads().size(), 3u);
-  EXPECT_EQ(again.roads()[0].steps, 3);
-  EXPECT_FALSE(again.roads()[0].one_way);
-  EXPECT_TRUE(again.roads()[2].one_way);
+  const Roadmap restored = read_roadmap(directory_.path() / "w.json");
+  ASSERT_EQ(restored.vertices().size(), 3u);
+  EXPECT_EQ(restored.vertices()[1].at, (Point{3.5, 0}));
+  ASSERT_EQ(restored.roads().size(), 3u);
+  EXPECT_EQ(restored.roads()[0].steps, 3);
+  EXPECT_FALSE(restored.roads()[0].one_way);
+  EXPECT_TRUE(restored.roads()[2].one_way);
 }
 
 TEST_F(RoadmapFile, RefusesARoadFromAVertexToItself) {
@@ -73,7 +73,7 @@ TEST_F(RoadmapFile, RefusesARoadFromAVertexToItself) {
             "r.json: /edges/0: from and to are the same vertex; expected two different ones");
 }
 
-TEST_F(RoadmapFile, EachWrongKeyIsRefusedWithItsPlace) {
+TEST_F(RoadmapFile, RefusesInvalidValuesWithThePlace) {
   const auto vertices = [&](const std::string& list) {
     return refused_roads(R"({"edges": [], "vertices": )" + list + "}");
   };
@@ -114,14 +114,14 @@ TEST_F(RoadmapFile, EachWrongKeyIsRefusedWithItsPlace) {
   EXPECT_EQ(
       edge(R"({"from": "A", "to": "B", "steps": 2.5})"),
       "r.json: /edges/0/steps: found 2.5; expected a whole number of steps, at least 1; 'grove "
-      "convert --metres-per-step' makes them of lengths in GraphML or LIF, and rounds up");
+      "convert --metres-per-step' converts lengths in GraphML or LIF to steps, rounded up");
   EXPECT_EQ(edge(R"({"from": "A", "to": "B", "steps": 1, "one_way": 1})"),
             "r.json: /edges/0/one_way: found 1; expected true or false");
   EXPECT_TRUE(edge(R"({"from": "A", "to": "B", "steps": 67108864})")
                   .starts_with("r.json: /edges/0: the roads up to this one have more than"));
 }
 
-TEST_F(RoadmapFile, AnInstanceStartsAnywhereAndEndsAtVertices) {
+TEST_F(RoadmapFile, AgentsStartAnywhereAndEndAtVertices) {
   const Instance on = instance(
       R"([{"id": "a", "start": ["A", "B", 1], "goal": "C"}, {"id": "b", "start": "A"},
           {"id": "c", "start": ["B", "A", 1], "goal": ["A"]}])",
@@ -132,15 +132,15 @@ TEST_F(RoadmapFile, AnInstanceStartsAnywhereAndEndsAtVertices) {
   EXPECT_EQ(on.agent(2).goal, 0);
   EXPECT_EQ(on.task(0).cell, 1);
 
-  write_instance(directory_.path() / "again.json", on, "r.roadmap.json");
-  const Instance again = read_instance(directory_.path() / "again.json").instance;
+  write_instance(directory_.path() / "restored.json", on, "r.roadmap.json");
+  const Instance restored = read_instance(directory_.path() / "restored.json").instance;
   for (AgentIndex agent = 0; agent < 3; ++agent) {
-    EXPECT_EQ(again.agent(agent).start, on.agent(agent).start);
-    EXPECT_EQ(again.agent(agent).goal, on.agent(agent).goal);
+    EXPECT_EQ(restored.agent(agent).start, on.agent(agent).start);
+    EXPECT_EQ(restored.agent(agent).goal, on.agent(agent).goal);
   }
 }
 
-TEST_F(RoadmapFile, WrongPlacesOfInstancesAreRefused) {
+TEST_F(RoadmapFile, InvalidPlacesOfInstancesAreRefused) {
   const auto start = [&](const std::string& text) {
     return refused_instance(R"([{"id": "a", "goal": "C", "start": )" + text + "}]");
   };
@@ -153,7 +153,8 @@ TEST_F(RoadmapFile, WrongPlacesOfInstancesAreRefused) {
             "i.json: /agents/0/start: found 3; expected a vertex [\"A\"] or a place on "
             "a road [\"A\", \"B\", k], k steps from A");
   EXPECT_EQ(start(R"(["A", "C", 1])"),
-            "i.json: /agents/0/start: no road joins these vertices; expected two that one joins");
+            "i.json: /agents/0/start: no road joins these vertices; expected two vertices joined "
+            "by a road");
   EXPECT_EQ(start(R"(["A", "B", 3])"),
             "i.json: /agents/0/start/2: found 3; expected an integer from 1 to 2");
   EXPECT_EQ(start(R"(["B", "C", 1])"),
@@ -175,7 +176,7 @@ TEST_F(RoadmapFile, WrongPlacesOfInstancesAreRefused) {
             "distinct starts");
 }
 
-TEST_F(RoadmapFile, AMapIsEitherOfTwo) {
+TEST_F(RoadmapFile, InstanceHasEitherAMapOrARoadmap) {
   write("r.roadmap.json", kRoads);
   const auto refused = [&](const std::string& text) {
     return refusal([&] { parse_instance(text, "i.json", directory_.path()); });
@@ -203,13 +204,13 @@ TEST_F(RoadmapFile, PlansNameThePlacesOnRoads) {
   EXPECT_NE(text.find(R"([["A"],["A","B",1],["A","B",2],["B"],["B","C",1,1],["C"]])"),
             std::string::npos)
       << text;
-  const Solution again = parse_solution(text, "p.json", on);
-  EXPECT_EQ(again.plan->agents[0].path, solution.plan->agents[0].path);
-  EXPECT_TRUE(check(on, again).empty());
+  const Solution restored = parse_solution(text, "p.json", on);
+  EXPECT_EQ(restored.plan->agents[0].path, solution.plan->agents[0].path);
+  EXPECT_TRUE(check(on, restored).empty());
   EXPECT_EQ(parse_solution(text, "p.json", on).plan->cost, 5);
 }
 
-TEST_F(RoadmapFile, TheCheckerKnowsWhichWayRoadsLead) {
+TEST_F(RoadmapFile, CheckerRefusesMovesAgainstOneWayRoads) {
   const Instance on = instance(R"([{"id": "a", "start": "C", "goal": "B"}])");
   const Roadmap& roads = *on.roadmap();
   Solution solution;
@@ -217,7 +218,7 @@ TEST_F(RoadmapFile, TheCheckerKnowsWhichWayRoadsLead) {
   solution.lower_bound = 2;
   solution.plan = Plan{2, {{2, {}, {2, roads.place_on_road(2, 1), 1}}}};
   EXPECT_TRUE(check(on, solution).empty());
-  solution.plan->agents[0].path[1] = roads.place_on_road(1, 1);  // against it
+  solution.plan->agents[0].path[1] = roads.place_on_road(1, 1);  // against its direction
   const auto violations = check(on, solution);
   ASSERT_EQ(violations.size(), 2u);
   EXPECT_EQ(
@@ -226,7 +227,7 @@ TEST_F(RoadmapFile, TheCheckerKnowsWhichWayRoadsLead) {
       "road in its direction");
 }
 
-TEST_F(RoadmapFile, WrongPathEntriesAreRefused) {
+TEST_F(RoadmapFile, InvalidPathEntriesAreRefused) {
   const Instance on = instance(R"([{"id": "a", "start": "A", "goal": "C"}])");
   EXPECT_EQ(refused_entry(on, "[\"X\"]"),
             "p.json: /agents/0/path/0/0: there is no vertex 'X'; expected one of the roadmap");

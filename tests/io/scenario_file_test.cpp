@@ -42,12 +42,12 @@ TEST_F(ScenarioFile, ReadsRowsInOrder) {
   EXPECT_EQ(rows[1].line, 3);
 }
 
-TEST_F(ScenarioFile, AcceptsWhatOtherToolsWrite) {
+TEST_F(ScenarioFile, AcceptsVariantsOfOtherTools) {
   EXPECT_EQ(read("version 1.0\r\n0 m.map 3 2  0 0  2 1  3\r\n\r\n").size(), 1U);
   EXPECT_EQ(read(kVersion).size(), 0U);
 }
 
-TEST_F(ScenarioFile, NamesLineAndColumn) {
+TEST_F(ScenarioFile, RefusesInvalidFilesWithThePlace) {
   EXPECT_EQ(refused(""), "m.scen: line 1, column 1: expected 'version 1' as the first line");
   EXPECT_EQ(refused("version 2\n"),
             "m.scen: line 1, column 1: expected 'version 1' as the first line");
@@ -62,7 +62,7 @@ TEST_F(ScenarioFile, NamesLineAndColumn) {
             "m.scen: line 3, column 15: found '1.5'; expected an integer from 0 to 2147483647");
 }
 
-TEST_F(ScenarioFile, RefusesWrongNumbers) {
+TEST_F(ScenarioFile, RefusesInvalidNumbers) {
   for (const char* wrong : {"-1", "x", "99999999999", "1e400", "0x1", "+1"})
     EXPECT_EQ(refused(kVersion + "0\tm.map\t3\t2\t" + wrong + "\t0\t2\t1\t3\n").substr(0, 26),
               "m.scen: line 2, column 13:")

@@ -31,7 +31,7 @@ std::string refused_with(const std::string& what, const std::string& by) {
   return refused(replaced(kFull, what, by));
 }
 
-TEST(SolverFiles, SayEverything) {
+TEST(SolverFiles, HoldAllSettings) {
   const SolverAdapter solver = parse_solver(kFull, "s.json");
   EXPECT_EQ(solver.name, "mine");
   EXPECT_EQ(solver.command, (Words{"{program}", "-x y", "{map}", "{scenario}", "-k={agents}"}));
@@ -50,7 +50,7 @@ TEST(SolverFiles, SayEverything) {
                                      TraceGroup::kLowerBound}));
 }
 
-TEST(SolverFiles, NeedLittle) {
+TEST(SolverFiles, HaveDefaults) {
   const SolverAdapter solver = parse_solver(
       R"({"name": "s", "command": "{program} {instance}", "instance": "mgcbs"})", "s.json");
   EXPECT_EQ(solver.input, SolverInput::kMgcbs);
@@ -64,19 +64,18 @@ TEST(SolverFiles, NeedLittle) {
   EXPECT_EQ(silent.plan, "");
 }
 
-TEST(SolverFiles, AreRefusedWithThePlace) {
+TEST(SolverFiles, AreRefusedWithThePlaceIfInvalid) {
   EXPECT_EQ(refused("[]"), "s.json: /: found an array; expected a JSON object");
   EXPECT_EQ(refused_with("\"threads\"", "\"thread\""),
-            "s.json: /: unknown key 'thread'; expected 'threads', if that is what it means");
+            "s.json: /: unknown key 'thread'; expected 'threads', if that is meant");
   EXPECT_EQ(refused_with("\"cost\": ", "\"price\": "),
             "s.json: /claims: unknown key 'price'; expected one of solved, cost, lower_bound, "
-            "seconds, first_plan, or a name that begins with '_' for a remark");
+            "seconds, first_plan, or a name that begins with '_', for a remark");
   EXPECT_EQ(refused_with("{agents}", "{agent}"),
             "s.json: /command: found {agent}; expected one of {program}, {map}, {scenario}, "
             "{agents}, {instance}, {time_limit}, {time_limit_ms}, {time_limit_whole}, {seed}, "
             "{output}, {folder}");
-  EXPECT_EQ(refused_with("{program} ", ""),
-            "s.json: /command: expected {program} where the program stands");
+  EXPECT_EQ(refused_with("{program} ", ""), "s.json: /command: expected {program} as the program");
   EXPECT_EQ(refused_with("{scenario} ", ""), "s.json: /command: expected {map} and {scenario}");
   EXPECT_EQ(refused_with("{map}", "{map} {instance}"),
             "s.json: /command: expected {instance}, or {map} and {scenario}, and not both");
@@ -86,22 +85,24 @@ TEST(SolverFiles, AreRefusedWithThePlace) {
             "without blanks");
   EXPECT_EQ(refused_with("cost (\\\\d+)", "cost \\\\d+"),
             "s.json: /claims/cost: found 0 groups in round brackets; expected 1");
-  EXPECT_NE(refused_with("cost (\\\\d+)", "cost (\\\\d+")
-                .find("s.json: /claims/cost: found 'cost (\\d+', which is no regular expression"),
-            std::string::npos);
+  EXPECT_NE(
+      refused_with("cost (\\\\d+)", "cost (\\\\d+")
+          .find("s.json: /claims/cost: found 'cost (\\d+', which is not a regular expression"),
+      std::string::npos);
   EXPECT_EQ(refused_with("\"unit\": \"ms\"", "\"unit\": \"h\""),
             "s.json: /claims/first_plan/unit: found \"h\"; expected s or ms");
-  EXPECT_EQ(refused_with("\"cost\", \"seconds_left\"", "\"cost\", \"cost\""),
-            "s.json: /trace/0/groups: expected the cost once and one time: seconds, milliseconds "
-            "or seconds_left");
+  EXPECT_EQ(
+      refused_with("\"cost\", \"seconds_left\"", "\"cost\", \"cost\""),
+      "s.json: /trace/0/groups: expected cost once and exactly one time: seconds, milliseconds "
+      "or seconds_left");
   EXPECT_EQ(refused_with("(\\\\d+) at (\\\\d+) over", "(\\\\d+) at over"),
             "s.json: /trace/0/regex: found 2 groups in round brackets; expected 3");
   EXPECT_EQ(refused(R"({"name": "s", "command": "{program} {map} {scenario}", "plan": null})"),
-            "s.json: /: there is neither a plan nor a claim to read; expected one of plan, claims");
+            "s.json: /: found neither a plan nor claims; expected one of plan, claims");
 }
 
-// What comes with Grove is read as strictly.
-TEST(SolverFiles, ComeWithGrove) {
+// The solver files of Grove are read as strictly.
+TEST(SolverFiles, OfGroveAreValid) {
   int count = 0;
   for (const auto& item : std::filesystem::directory_iterator(GROVE_SOLVERS)) {
     const SolverAdapter solver = read_solver(item.path());
@@ -111,7 +112,7 @@ TEST(SolverFiles, ComeWithGrove) {
   EXPECT_EQ(count, 6);
 }
 
-TEST(SolverCommands, AreWords) {
+TEST(SolverCommands, AreSplitIntoWords) {
   EXPECT_EQ(command_words(" a  'b c'\td\"e \"'f' \n"), (Words{"a", "b c", "de f"}));
   EXPECT_EQ(command_words("a ''"), (Words{"a", ""}));
   EXPECT_EQ(command_words(""), Words());
@@ -119,14 +120,14 @@ TEST(SolverCommands, AreWords) {
   EXPECT_EQ(command_words("a \"b'"), std::nullopt);
 }
 
-TEST(SolverTemplates, AreFilled) {
+TEST(SolverTemplates, AreFilledWithValues) {
   const auto value = [](std::string_view name) { return "<" + std::string(name) + ">"; };
   EXPECT_EQ(filled("a{map}b{seed}{map}", value), "a<map>b<seed><map>");
   EXPECT_EQ(filled("plain", value), "plain");
   EXPECT_EQ(template_mistake("a{map}b{seed}"), "");
   for (const char* text : {"a{map", "map}", "{map}}", "{"})
     EXPECT_EQ(template_mistake(text),
-              "a brace without its other one; expected names in braces, such as {map}")
+              "found an unpaired brace; expected names in braces, such as {map}")
         << text;
   EXPECT_TRUE(template_mistake("{}").starts_with("found {}; expected one of {program}"));
   EXPECT_TRUE(template_mistake("{{map}}").starts_with("found {{map}; expected one of"));

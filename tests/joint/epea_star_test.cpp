@@ -15,7 +15,7 @@
 #include "tests/support/fuzz_factor.h"
 
 namespace grove::detail {
-namespace joint_search_test {
+namespace epea_star_test {
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 28;
 
@@ -27,8 +27,8 @@ fuzz::TinyInstance tiny_instance(std::uint64_t seed) {
   return seed % 2 == 0 ? fuzz::random_instance(seed) : fuzz::random_world(seed);
 }
 
-// Of every instance the bound rises to the oracle's optimum, a few states at a time, and never
-// beyond.
+// For every instance, expands 7 states per call. The bound rises to the oracle's optimum and never
+// exceeds it.
 TEST(EpeaStar, AgreesWithTheOracle) {
   int solved = 0, infeasible = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(300));
@@ -61,7 +61,8 @@ TEST(EpeaStar, AgreesWithTheOracle) {
   EXPECT_GT(infeasible, 5);
 }
 
-// A cutoff hides what costs as much, and nothing else.
+// With a cutoff equal to the optimum no plan is found; with a cutoff one higher the optimum is
+// found.
 TEST(EpeaStar, ProvesTheCutoff) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     SCOPED_TRACE(seed);
@@ -81,7 +82,7 @@ TEST(EpeaStar, ProvesTheCutoff) {
   }
 }
 
-TEST(EpeaStar, GivesUpWhereMemoryEnds) {
+TEST(EpeaStar, EndsAsTooLargeWithoutMemory) {
   const Instance instance = fuzz::random_puzzle(94).build();
   const auto search = EpeaStar::make(instance, 64, 1);
   ASSERT_TRUE(search);
@@ -91,15 +92,15 @@ TEST(EpeaStar, GivesUpWhereMemoryEnds) {
   EXPECT_FALSE(search->plan());
 }
 
-TEST(EpeaStar, IsForFewJointStates) {
+TEST(EpeaStar, RefusesTooManyJointStates) {
   const Instance instance = fuzz::random_puzzle(39).build();
   EXPECT_FALSE(EpeaStar::make(instance, 20, kMostBytes));
   EXPECT_TRUE(EpeaStar::make(instance, 40, kMostBytes));
 }
 
-// Long enough for larger tables to be made on the way. The optimum is that of a search without
-// them.
-TEST(EpeaStar, GoesOnWithLargerTables) {
+// Long enough that larger pattern databases are built during the search. kOptimum comes from a
+// search without them.
+TEST(EpeaStar, ContinuesWithLargerPatternDatabases) {
   constexpr Cost kOptimum = 78;
   const Instance instance = fuzz::random_puzzle(94).build();
   const auto search = search_of(instance);
@@ -110,5 +111,5 @@ TEST(EpeaStar, GoesOnWithLargerTables) {
   EXPECT_EQ(search->lower_bound(), kOptimum);
 }
 
-}  // namespace joint_search_test
+}  // namespace epea_star_test
 }  // namespace grove::detail

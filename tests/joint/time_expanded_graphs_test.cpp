@@ -15,38 +15,38 @@
 #include "tests/support/fuzz_factor.h"
 
 namespace grove::detail {
-namespace timed_graphs_test {
+namespace time_expanded_graphs_test {
 
 using oracle::Way;
-using Demands = std::vector<Constraint>;
+using Constraints = std::vector<Constraint>;
 constexpr std::size_t kMostWays = 1500;
 constexpr std::size_t kPlenty = 30'000;
 constexpr std::size_t kMostBytes = std::size_t{1} << 28;
 
-// A tiny instance of any kind and what can be asked of its agents.
+// A tiny random instance of any kind, and random constraints on its agents.
 class Fuzzer {
  public:
   explicit Fuzzer(std::uint64_t seed)
       : random_(seed),
         instance_(seed % 5 == 0 ? made(seed).without_following() : made(seed)),
         distances_(instance_),
-        chains_(instance_.world()),
+        corridors_(instance_.world()),
         graphs_(instance_.world()) {}
 
   const Instance& instance() const { return instance_; }
   int below(int bound) { return static_cast<int>(random_() % static_cast<unsigned>(bound)); }
 
-  AgentGraph graph(AgentIndex agent, const Demands& demands, Time most) {
+  AgentGraph graph(AgentIndex agent, const Constraints& constraints, Time most) {
     AgentStops stops(instance_, distances_, agent);
     SequenceStages goals(stops, SequenceClass());
     AgentGraph graph;
-    EXPECT_EQ(graphs_.make(goals, demands, most, kPlenty, Limits(), graph),
+    EXPECT_EQ(graphs_.make(goals, constraints, most, kPlenty, Limits(), graph),
               TimeExpandedGraphs::Outcome::kMade);
     return graph;
   }
 
-  // Something that matters to who went this way.
-  Constraint demand(const Way& way) {
+  // A constraint that `way` probably violates.
+  Constraint constraint(const Way& way) {
     const auto cost = static_cast<Time>(way.size()) - 1;
     const Time t = below(cost + 2);
     const Place here = way[static_cast<std::size_t>(std::min(t, cost))];
@@ -58,7 +58,7 @@ class Fuzzer {
         return {way.back(), kNoPlace, 0, cost - 1 + below(4), ConstraintKind::kRestBy};
       case 2:
       case 3:
-        if (chains_.count() > 0) return traversal(t);
+        if (corridors_.count() > 0) return traversal(t);
         [[fallthrough]];
       case 4:
       case 5:
@@ -74,7 +74,7 @@ class Fuzzer {
     return (seed % 2 == 0 ? fuzz::random_instance(seed) : fuzz::random_world(seed)).build();
   }
   Constraint traversal(Time t) {
-    const auto row = chains_.places(below(chains_.count()));
+    const auto row = corridors_.places(below(corridors_.count()));
     const bool front = below(2) == 0;
     return {front ? row.front() : row.back(), front ? row[1] : row[row.size() - 2], 0, t + below(5),
             ConstraintKind::kNoTraversal};
@@ -83,36 +83,37 @@ class Fuzzer {
   std::mt19937_64 random_;
   const Instance instance_;
   const DistanceFields distances_;
-  const Corridors chains_;
+  const Corridors corridors_;
   TimeExpandedGraphs graphs_;
 };
 
-// An agent, what is asked of it, and all its ways up to some cost, of which there are some.
+// An agent, its constraints, and all its paths that satisfy them and cost at most `most`.
 struct Member {
   AgentIndex agent;
-  Demands demands;
+  Constraints constraints;
   Time most = 0;
   std::vector<Way> ways;
 };
 
 std::optional<Member> member(Fuzzer& fuzzer, AgentIndex agent, Time delta_f) {
-  Member m{.agent = agent, .demands = {}, .most = 0, .ways = {}};
+  Member m{.agent = agent, .constraints = {}, .most = 0, .ways = {}};
   for (Time most = 0; m.ways.empty(); ++most) {
-    const auto ways = oracle::ways_within(fuzzer.instance(), agent, m.demands, most, kMostWays);
+    const auto ways = oracle::ways_within(fuzzer.instance(), agent, m.constraints, most, kMostWays);
     if (!ways || most > 12) return std::nullopt;
     m.ways = *ways;
   }
   for (int n = fuzzer.below(5); n > 0; --n)
-    m.demands.push_back(fuzzer.demand(m.ways[fuzzer.below(static_cast<int>(m.ways.size()))]));
+    m.constraints.push_back(
+        fuzzer.constraint(m.ways[fuzzer.below(static_cast<int>(m.ways.size()))]));
   m.most = static_cast<Time>(m.ways.front().size()) - 1 + delta_f;
-  const auto ways = oracle::ways_within(fuzzer.instance(), agent, m.demands, m.most, kMostWays);
+  const auto ways = oracle::ways_within(fuzzer.instance(), agent, m.constraints, m.most, kMostWays);
   if (!ways) return std::nullopt;
   m.ways = *ways;
   return m;
 }
 
-// What an agent costs alone under its demands is what the cheapest of all its ways costs.
-TEST(TimeExpandedGraphs, KnowTheLeastCostUnderDemands) {
+// The least cost of one agent under its constraints is that of the cheapest enumerated path.
+TEST(TimeExpandedGraphs, HaveTheLeastCostUnderConstraints) {
   int some = 0, none = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(300));
        ++seed) {
@@ -121,7 +122,7 @@ TEST(TimeExpandedGraphs, KnowTheLeastCostUnderDemands) {
     for (AgentIndex agent = 0; agent < fuzzer.instance().agent_count(); ++agent) {
       const auto m = member(fuzzer, agent, 3);
       if (!m) continue;
-      const AgentGraph graph = fuzzer.graph(agent, m->demands, m->most);
+      const AgentGraph graph = fuzzer.graph(agent, m->constraints, m->most);
       ASSERT_EQ(graph.count() == 0, m->ways.empty());
       ++(m->ways.empty() ? none : some);
       if (m->ways.empty()) continue;
@@ -132,9 +133,9 @@ TEST(TimeExpandedGraphs, KnowTheLeastCostUnderDemands) {
   EXPECT_GT(none, 10);
 }
 
-// Joint search of some agents under demands finds what trying all their ways finds, and its bound
-// is never above that.
-TEST(TimeExpandedGraphs, LetJointSearchFindTheOptimumUnderDemands) {
+// Joint search of several agents under constraints finds the same optimum as enumeration, and its
+// bound never exceeds it.
+TEST(TimeExpandedGraphs, LetJointSearchFindOptimumUnderConstraints) {
   int found = 0, none = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(500));
        ++seed) {
@@ -146,7 +147,7 @@ TEST(TimeExpandedGraphs, LetJointSearchFindTheOptimumUnderDemands) {
       const auto m = member(fuzzer, agent, 2 + fuzzer.below(2));
       if (!m) break;
       ways.push_back(m->ways);
-      graphs.push_back(fuzzer.graph(agent, m->demands, m->most));
+      graphs.push_back(fuzzer.graph(agent, m->constraints, m->most));
     }
     if (ways.size() < 2) continue;
     const auto least = oracle::least_together(fuzzer.instance(), ways);
@@ -169,17 +170,17 @@ TEST(TimeExpandedGraphs, LetJointSearchFindTheOptimumUnderDemands) {
   EXPECT_GT(none, 10);
 }
 
-TEST(TimeExpandedGraphs, AreNotMadeTooLarge) {
+TEST(TimeExpandedGraphs, AreRefusedAboveTheNodeLimit) {
   Fuzzer fuzzer(2);
   const DistanceFields distances(fuzzer.instance());
   AgentStops stops(fuzzer.instance(), distances, 0);
   SequenceStages goals(stops, SequenceClass());
   AgentGraph graph;
   TimeExpandedGraphs graphs(fuzzer.instance().world());
-  EXPECT_EQ(graphs.make(goals, Demands(), 40, 10, Limits(), graph),
+  EXPECT_EQ(graphs.make(goals, Constraints(), 40, 10, Limits(), graph),
             TimeExpandedGraphs::Outcome::kTooLarge);
   EXPECT_EQ(graph.count(), 0u);
 }
 
-}  // namespace timed_graphs_test
+}  // namespace time_expanded_graphs_test
 }  // namespace grove::detail

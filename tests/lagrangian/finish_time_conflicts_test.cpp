@@ -13,19 +13,20 @@ namespace {
 
 using Node = AgentGraph::Node;
 
-// Can both be at rest by these times, without a collision at any time?
-bool can_both(const AgentGraph& a, const AgentGraph& b, Time by_a, Time by_b) {
+// Can both agents be at rest by these times without a collision at any time? Breadth-first search
+// of joint states.
+bool can_both_finish(const AgentGraph& a, const AgentGraph& b, Time by_a, Time by_b) {
   if (a.place(0) == b.place(0)) return false;
   using Pairs = std::vector<std::pair<Node, Node>>;
   Pairs now{{AgentGraph::start(), AgentGraph::start()}};
   std::vector<Time> seen(a.count() * b.count(), -1);
-  // One step more than they have: coming to rest takes none, but is a move.
+  // One more step than the later finish: coming to rest takes no time, but is a move.
   for (Time time = 0; time <= std::max(by_a, by_b) + 1; ++time) {
     Pairs next;
     for (const auto& [from_a, from_b] : now)
       for (const auto& move_a : a.moves(from_a))
         for (const auto& move_b : b.moves(from_b)) {
-          // Who begins to rest in the step from t to t + 1 has finished at t.
+          // An agent that comes to rest in the step from t to t + 1 has finished at t.
           if (!a.rests(move_a.to) && time + 1 > by_a) continue;
           if (!b.rests(move_b.to) && time + 1 > by_b) continue;
           const Place to_a = a.place(move_a.to);
@@ -41,8 +42,8 @@ bool can_both(const AgentGraph& a, const AgentGraph& b, Time by_a, Time by_b) {
   return false;
 }
 
-// Whoever is said to exclude each other does; and with no end to effort, all are said who do.
-TEST(FinishTimeConflicts, AgreeWithAllPairsOfPaths) {
+// Without limits in effect, exactly the pairs that cannot both finish are found incompatible.
+TEST(FinishTimeConflicts, AgreeWithJointBreadthFirstSearch) {
   int excluded = 0, others = 0;
   for (std::uint64_t seed = 1; seed <= 120; ++seed) {
     SCOPED_TRACE(seed);
@@ -52,49 +53,50 @@ TEST(FinishTimeConflicts, AgreeWithAllPairsOfPaths) {
     const auto b = AgentGraph::make(known.instance, 1);
     if (!a || !b || a->count() == 0 || b->count() == 0) continue;
     FinishTimeConflicts pairs(known.instance.world(), known.stops,
-                              {.set_nodes = 1 << 20, .compared_pairs = 1 << 20, .bytes = 1 << 28});
+                              {.set_nodes = 1 << 20, .joint_mdd_nodes = 1 << 20, .bytes = 1 << 28});
     const Time least_a = a->to_go(AgentGraph::start());
     const Time least_b = b->to_go(AgentGraph::start());
     for (Time by_a = least_a; by_a < least_a + 4; ++by_a)
       for (Time by_b = least_b; by_b < least_b + 4; ++by_b) {
-        const bool said = pairs.are_incompatible({0, 1, by_a, by_b}, {});
-        ASSERT_EQ(said, !can_both(*a, *b, by_a, by_b)) << by_a << " " << by_b;
-        ++(said ? excluded : others);
-        if (!said) continue;
+        const bool incompatible = pairs.are_incompatible({0, 1, by_a, by_b}, {});
+        ASSERT_EQ(incompatible, !can_both_finish(*a, *b, by_a, by_b)) << by_a << " " << by_b;
+        ++(incompatible ? excluded : others);
+        if (!incompatible) continue;
         const FinishTimeConflict later = pairs.extended({0, 1, by_a, by_b}, {});
-        ASSERT_FALSE(can_both(*a, *b, later.finish_a, later.finish_b));
+        ASSERT_FALSE(can_both_finish(*a, *b, later.finish_a, later.finish_b));
       }
   }
   EXPECT_GT(excluded, 100);
   EXPECT_GT(others, 200);
 }
 
-// A set that is too large proves nothing, nor does a comparison that is cut short: of pairs that
-// are excluded where the effort has no end.
-TEST(FinishTimeConflicts, SayNothingWithoutEffort) {
+// Pairs that are incompatible with sufficient limits: an MDD that is too large proves nothing, nor
+// does a joint search that is cut short.
+TEST(FinishTimeConflicts, ProveNothingWithoutEffort) {
   constexpr FinishTimeConflicts::Most kEnough{1 << 20, 1 << 20, 1 << 28};
   int excluded = 0;
   for (std::uint64_t seed = 1; seed <= 120; ++seed) {
     SCOPED_TRACE(seed);
     Known known(tiny_instance(seed));
     if (known.instance.agent_count() < 2) continue;
-    const auto says = [&](FinishTimeConflicts::Most most, const FinishTimeConflict& pair) {
+    const auto finds_incompatible = [&](FinishTimeConflicts::Most most,
+                                        const FinishTimeConflict& pair) {
       return FinishTimeConflicts(known.instance.world(), known.stops, most)
           .are_incompatible(pair, {});
     };
     const auto a = AgentGraph::make(known.instance, 0);
     const auto b = AgentGraph::make(known.instance, 1);
     if (!a || !b || a->count() == 0 || b->count() == 0) continue;
-    // Each has a path that ends then.
+    // Each agent has a path that finishes at its time of the pair.
     const FinishTimeConflict pair{0, 1, a->to_go(AgentGraph::start()),
                                   b->to_go(AgentGraph::start())};
-    if (!says(kEnough, pair)) continue;
+    if (!finds_incompatible(kEnough, pair)) continue;
     ++excluded;
-    EXPECT_FALSE(says({0, kEnough.compared_pairs, kEnough.bytes}, pair));
-    EXPECT_FALSE(says({kEnough.set_nodes, 0, kEnough.bytes}, pair));
-    EXPECT_FALSE(says({kEnough.set_nodes, kEnough.compared_pairs, 0}, pair));
+    EXPECT_FALSE(finds_incompatible({0, kEnough.joint_mdd_nodes, kEnough.bytes}, pair));
+    EXPECT_FALSE(finds_incompatible({kEnough.set_nodes, 0, kEnough.bytes}, pair));
+    EXPECT_FALSE(finds_incompatible({kEnough.set_nodes, kEnough.joint_mdd_nodes, 0}, pair));
   }
-  EXPECT_GT(excluded, 10) << "nothing to be silent about";
+  EXPECT_GT(excluded, 10) << "no incompatible pair was tested";
 }
 
 }  // namespace

@@ -14,20 +14,20 @@
 namespace grove::detail::lagrangian_test {
 namespace {
 
-// Steps of all sizes, as no sensible run would take them.
+// Parameters that lead to steps of all sizes, including sizes that no sensible run would use.
 Tuning wild_tuning(fuzz::Random& random) {
   Tuning tuning;
   tuning.lagrangian_level = random.pick<double>({0.01, 0.1, 1});
   tuning.lagrangian_patience = random.between(1, 10);
   tuning.lagrangian_shrink = random.pick<double>({0.5, 0.9, 0.99});
-  tuning.lagrangian_memory = random.pick<double>({0, 0.5, 0.95});
+  tuning.lagrangian_smoothing = random.pick<double>({0, 0.5, 0.95});
   tuning.lagrangian_step_work = random.pick<std::int64_t>({1, 50, 4000});
   return tuning;
 }
 
 class LagrangianBoundTest : public ::testing::Test {
  protected:
-  // So many rounds; after each no more than `optimum` may be said.
+  // Returns the bound after `rounds` rounds. After each round the bound must not exceed `optimum`.
   static Cost bound_of(Known& known, const Tuning& tuning, int rounds, Cost optimum) {
     const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
     if (!bound) return 0;
@@ -50,7 +50,7 @@ class LagrangianBoundTest : public ::testing::Test {
   }
 };
 
-// The planted optimum, through every step of the multipliers.
+// The bound never exceeds the oracle's optimum, whatever steps the multipliers take.
 TEST_F(LagrangianBoundTest, IsNeverAboveTheOptimum) {
   int tried = 0, raised = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(400));
@@ -72,44 +72,46 @@ TEST_F(LagrangianBoundTest, IsNeverAboveTheOptimum) {
   EXPECT_GT(raised, 40);
 }
 
-// Two who must pass each other in a corridor with one bay: prices see it.
-TEST_F(LagrangianBoundTest, SeesWhoCannotBothBeFirst) {
+// Two agents that must pass each other in a corridor with one bay: the multipliers raise the bound.
+TEST_F(LagrangianBoundTest, RisesForAgentsThatMustPassEachOther) {
   Known known(corridor());
   const oracle::Answer truth = oracle::solve_jointly(known.instance);
   ASSERT_TRUE(truth.plan);
   EXPECT_GE(bound_of(known, Tuning(), 300, truth.plan->cost), 9);
 }
 
-// Prices are told of a round that had the best bound, and make it up; and not before the commit.
-TEST_F(LagrangianBoundTest, TellsThePricesOfItsBestRounds) {
+// A new dual solution comes from a round with the best bound, and its values add up to that bound.
+// It is not visible before commit().
+TEST_F(LagrangianBoundTest, HasTheDualSolutionOfItsBestRounds) {
   Known known(corridor());
   Tuning tuning;
-  tuning.first_price_list = 3;
+  tuning.first_dual_solution_round = 3;
   const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
   Pricer pricer(bound->multipliers(), known.stops);
   std::shared_ptr<const DualSolution> last;
-  int lists = 0;
+  int solutions = 0;
   while (!bound->ended() && bound->rounds() < 100) {
     auto job = bound->next();
     ASSERT_TRUE(job);
     const Cost proven = bound->lower_bound();
     bound->perform(*job, pricer, 20, 0, {});
-    EXPECT_EQ(bound->price_list(), last);
+    EXPECT_EQ(bound->dual_solution(), last);
     bound->commit(std::move(*job));
-    const auto list = bound->price_list();
-    if (list == last) continue;
-    last = list;
-    ++lists;
+    const auto solution = bound->dual_solution();
+    if (solution == last) continue;
+    last = solution;
+    ++solutions;
     EXPECT_GE(bound->rounds(), 3);
-    ScaledCost sum = -list->multipliers.sum();
+    ScaledCost sum = -solution->multipliers.sum();
     for (AgentIndex agent = 0; agent < known.instance.agent_count(); ++agent) {
-      sum += list->prices[agent];
-      EXPECT_EQ(list->multipliers.price(agent, list->paths[agent]), list->prices[agent]);
+      sum += solution->prices[agent];
+      EXPECT_EQ(solution->multipliers.price(agent, solution->paths[agent]),
+                solution->prices[agent]);
     }
     EXPECT_EQ((sum + Penalties::kUnit - 1) / Penalties::kUnit, proven);
   }
-  EXPECT_GT(lists, 3);
-  EXPECT_LT(lists, 30);
+  EXPECT_GT(solutions, 3);
+  EXPECT_LT(solutions, 30);
 }
 
 }  // namespace

@@ -35,17 +35,17 @@ RelaxedRow random_row(const World& world, int agents, fuzz::Random& random) {
   }
 }
 
-// Whoever was told everything, at whatever times, charges the same.
-TEST(Multipliers, IsTheSameForWhoWasToldOfIt) {
+// A replica that has received all updates, at whatever times, has the same multipliers.
+TEST(Multipliers, AreEqualInAReplicaThatReceivedAllUpdates) {
   std::int64_t changes = 0;
   for (std::uint64_t seed = 2; seed < 60; seed += 2) {
     SCOPED_TRACE(seed);
     const Instance instance = tiny_instance(seed);
     fuzz::Random random(seed);
     Multipliers multipliers(instance.world(), instance.agent_count());
-    Multipliers copy(instance.world(), instance.agent_count());
+    Multipliers replica(instance.world(), instance.agent_count());
     std::vector<Multipliers::Amount> known;
-    for (int telling = 0; telling < 20; ++telling) {
+    for (int update = 0; update < 20; ++update) {
       for (int i = random.below(6); i > 0; --i)
         multipliers.add(random_row(instance.world(), instance.agent_count(), random));
       for (int i = random.below(20); i > 0 && multipliers.count() > 0; --i, ++changes)
@@ -53,18 +53,18 @@ TEST(Multipliers, IsTheSameForWhoWasToldOfIt) {
             static_cast<Multipliers::RowId>(random.below(static_cast<int>(multipliers.count()))),
             random.pick<int>({0, 1, 63, 64, 8191, 8192, 1 << 16}));
       if (random.percent(30)) continue;
-      copy.learn(multipliers.update_for(known));
-      ASSERT_EQ(copy.count(), multipliers.count());
-      ASSERT_EQ(copy.digest(), multipliers.digest());
-      ASSERT_EQ(copy.sum(), multipliers.sum());
+      replica.learn(multipliers.update_for(known));
+      ASSERT_EQ(replica.count(), multipliers.count());
+      ASSERT_EQ(replica.digest(), multipliers.digest());
+      ASSERT_EQ(replica.sum(), multipliers.sum());
       for (Multipliers::RowId id = 0; id < multipliers.count(); ++id) {
-        ASSERT_EQ(copy.row(id), multipliers.row(id));
-        ASSERT_EQ(copy.charge(id), multipliers.charge(id));
+        ASSERT_EQ(replica.row(id), multipliers.row(id));
+        ASSERT_EQ(replica.charge(id), multipliers.charge(id));
       }
       for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
         const Path path(static_cast<std::size_t>(random.between(1, 9)),
                         instance.agent(agent).start);
-        ASSERT_EQ(copy.price(agent, path), multipliers.price(agent, path));
+        ASSERT_EQ(replica.price(agent, path), multipliers.price(agent, path));
       }
       const MultiplierUpdate nothing = multipliers.update_for(known);
       EXPECT_TRUE(nothing.rows.empty() && nothing.charges.empty());
@@ -73,7 +73,7 @@ TEST(Multipliers, IsTheSameForWhoWasToldOfIt) {
   EXPECT_GT(changes, 3000);
 }
 
-TEST(Multipliers, HasAnotherDigestWhenAnythingIsCharged) {
+TEST(Multipliers, DigestDiffersForOtherMultipliers) {
   const Instance instance = tiny_instance(2);
   Multipliers multipliers(instance.world(), instance.agent_count());
   multipliers.add({.kind = Kind::kPlace, .a = 0, .time = 1});
@@ -89,11 +89,11 @@ TEST(Multipliers, HasAnotherDigestWhenAnythingIsCharged) {
   EXPECT_NE(first, none);
 }
 
-TEST(Multipliers, RefusesWhatItCannotBeTold) {
+TEST(Multipliers, RefusesInvalidUpdates) {
   const Instance instance = tiny_instance(2);
-  const auto refuses = [&](MultiplierUpdate news) {
+  const auto refuses = [&](MultiplierUpdate update) {
     Multipliers multipliers(instance.world(), instance.agent_count());
-    EXPECT_THROW(multipliers.learn(news), std::invalid_argument);
+    EXPECT_THROW(multipliers.learn(update), std::invalid_argument);
   };
   refuses({{{.kind = Kind::kPlace, .a = -1}}, ""});
   refuses({{{.kind = Kind::kPlace, .a = instance.world().place_count()}}, ""});
@@ -101,10 +101,10 @@ TEST(Multipliers, RefusesWhatItCannotBeTold) {
   refuses({{{.kind = Kind::kEdge, .a = 0, .b = 0}}, ""});
   refuses({{{.kind = Kind::kFinish, .a = 0, .b = instance.agent_count()}}, ""});
   const RelaxedRow row{.kind = Kind::kPlace};
-  refuses({{row}, std::string{'\x00'}});          // no amount
+  refuses({{row}, std::string{'\x00'}});          // a row without an amount
   refuses({{row}, std::string{'\x01', '\x02'}});  // no such row
-  refuses({{row}, std::string{'\x00', '\x01'}});  // less than nothing
-  refuses({{row}, std::string(12, '\xff')});      // no end
+  refuses({{row}, std::string{'\x00', '\x01'}});  // a negative multiplier
+  refuses({{row}, std::string(12, '\xff')});      // a number without an end
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "lagrangian/least_cost.h"
 #include "lagrangian/relaxed_rows.h"
 #include "tests/fuzz/random.h"
 #include "tests/lagrangian/tiny_agents.h"
@@ -15,13 +14,13 @@ namespace grove::detail::lagrangian_test {
 namespace {
 
 using Amount = Penalties::Amount;
-constexpr Time kPenalised = 14;  // steps
-constexpr Time kHorizon = 200;   // beyond all that a tiny agent does, waiting the penalties out
+constexpr Time kPenalized = 14;  // steps
+constexpr Time kHorizon = 200;   // after any useful finish of a tiny agent, waits included
 
-// All arcs that states of this world use, at all times that are penalised.
-void penalise(Penalties& penalties, fuzz::Random& random) {
+// Adds random penalties to arcs of this world, at random times before kPenalized.
+void penalize(Penalties& penalties, fuzz::Random& random) {
   const World& world = penalties.world();
-  for (Time time = 1; time < kPenalised; ++time)
+  for (Time time = 1; time < kPenalized; ++time)
     for (Place place = 0; place < world.place_count(); ++place) {
       if (random.percent(30))
         penalties.add(time, penalties.staying(place), random.below(3 * Penalties::kUnit));
@@ -32,22 +31,23 @@ void penalise(Penalties& penalties, fuzz::Random& random) {
 }
 
 std::vector<Amount> random_on_finish(fuzz::Random& random) {
-  std::vector<Amount> on_finish(static_cast<std::size_t>(random.between(0, kPenalised)));
+  std::vector<Amount> on_finish(static_cast<std::size_t>(random.between(0, kPenalized)));
   for (Amount& amount : on_finish) amount = random.below(2 * Penalties::kUnit);
   return on_finish;
 }
 
-// By the graph of all that the agent can come to, time by time.
+// Reference: dynamic programming over the graph of the agent's states, time step by time step.
 class Reference {
  public:
   Reference(const AgentGraph& graph, const Penalties& penalties, const std::vector<Amount>& finish)
       : graph_(graph), penalties_(penalties), finish_(finish) {}
 
-  // With these others there.
+  // The least price of a path that respects the reservations of `others` and finishes at `latest`
+  // or earlier.
   ScaledCost price(const ReservationTable& others, Time latest = kHorizon) const {
     constexpr ScaledCost kNo = PenalizedSearch::kMostPrice;
     std::vector<ScaledCost> paid(graph_.count(), kNo);
-    std::vector<ScaledCost> moved(graph_.count(), kNo);  // of those who arrived by a move
+    std::vector<ScaledCost> moved(graph_.count(), kNo);  // if it arrived by a move
     if (graph_.count() == 0) return kNo;
     paid[AgentGraph::start()] = moved[AgentGraph::start()] = 0;
     ScaledCost least = kNo;
@@ -89,7 +89,7 @@ class Reference {
   const std::vector<Amount>& finish_;
 };
 
-// What a path pays, read off step by step.
+// The price of a path, summed over its steps.
 ScaledCost paid_by(const Path& path, const Penalties& penalties,
                    const std::vector<Amount>& on_finish) {
   const World& world = penalties.world();
@@ -109,7 +109,7 @@ TEST(PenalizedSearch, FindsTheLeastPrice) {
     Known known(tiny_instance(seed));
     fuzz::Random random(seed);
     Penalties penalties(known.instance.world());
-    penalise(penalties, random);
+    penalize(penalties, random);
     PenalizedSearch search(penalties);
     for (AgentIndex agent = 0; agent < known.instance.agent_count(); ++agent) {
       const auto graph = AgentGraph::make(known.instance, agent);
@@ -125,7 +125,7 @@ TEST(PenalizedSearch, FindsTheLeastPrice) {
                 least);
       ASSERT_FALSE(path.empty());
       ASSERT_EQ(paid_by(path, penalties, on_finish), least);
-      // Nothing is cheaper than itself.
+      // No path costs less than the least price.
       Path none;
       EXPECT_EQ(search.search(goals, on_finish, least, 1 << 20, {}, &none), least);
       EXPECT_TRUE(none.empty());
@@ -135,9 +135,9 @@ TEST(PenalizedSearch, FindsTheLeastPrice) {
   EXPECT_GT(tried, 500);
 }
 
-// Others are in the way, and there is not much time.
-TEST(PenalizedSearch, ImprovesAPathAroundOthers) {
-  int improved = 0, hopeless = 0;
+// Improves paths around reservations of other agents, with a limit on the finish time.
+TEST(PenalizedSearch, ImprovesPathAroundReservations) {
+  int improved = 0, infeasible = 0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     SCOPED_TRACE(seed);
     Known known(tiny_instance(seed));
@@ -158,7 +158,7 @@ TEST(PenalizedSearch, ImprovesAPathAroundOthers) {
       const bool found = search.improve(goals, on_finish, others, latest,
                                         PenalizedSearch::kMostPrice, 1 << 20, {}, path);
       ASSERT_EQ(found, least < PenalizedSearch::kMostPrice);
-      ++(found ? improved : hopeless);
+      ++(found ? improved : infeasible);
       if (found) {
         ASSERT_EQ(paid_by(path, penalties, on_finish), least);
         ASSERT_LE(std::ssize(path), latest + 1);
@@ -169,22 +169,22 @@ TEST(PenalizedSearch, ImprovesAPathAroundOthers) {
         EXPECT_EQ(same, path);
         others.add(agent, path);
       }
-      if (agent == 0) penalise(penalties, random);
+      if (agent == 0) penalize(penalties, random);
     }
   }
   EXPECT_GT(improved, 400);
-  EXPECT_GT(hopeless, 50);
+  EXPECT_GT(infeasible, 50);
 }
 
-// Cut short it never says more than the least price.
-TEST(PenalizedSearch, IsNeverAboveWhereItIsCutShort) {
+// A search that reaches its label limit never returns more than the least price.
+TEST(PenalizedSearch, IsNeverAboveTheLeastPriceWhenCutShort) {
   int cut_short = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
     Known known(tiny_instance(seed));
     fuzz::Random random(seed);
     Penalties penalties(known.instance.world());
-    penalise(penalties, random);
+    penalize(penalties, random);
     PenalizedSearch search(penalties);
     for (AgentIndex agent = 0; agent < known.instance.agent_count(); ++agent) {
       SequenceStages goals(known.stops.of(agent), SequenceClass{});

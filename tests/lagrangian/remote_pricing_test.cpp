@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A Lagrangian bound and those who find prices for it, with all that can happen to what they say.
+// A Lagrangian bound with remote pricing, where replies may be late, invalid or missing.
 #include "lagrangian/remote_pricing.h"
 
 #include <gtest/gtest.h>
@@ -19,17 +19,17 @@
 namespace grove::detail::lagrangian_test {
 namespace {
 
-Tuning restless(fuzz::Random& random) {
+Tuning tuning_with_short_rounds(fuzz::Random& random) {
   Tuning tuning;
   tuning.lagrangian_level = random.pick<double>({0.02, 0.3, 1});
   tuning.lagrangian_shrink = random.pick<double>({0.8, 0.99});
   tuning.lagrangian_step_work = 1;
-  tuning.lagrangian_share_work = 1;
-  tuning.lagrangian_trial = 1000;
+  tuning.lagrangian_min_remote_work = 1;
+  tuning.lagrangian_min_rounds = 1000;
   return tuning;
 }
 
-// One process that helps, and its answers that are still under way.
+// One process that computes prices for the bound, and its replies in transit.
 struct HelpingProcess {
   explicit HelpingProcess(Known& known)
       : help(known.instance), pricer(help.multipliers(), known.stops) {}
@@ -50,7 +50,7 @@ struct HelpingProcess {
   std::deque<PricingReply> answers;
 };
 
-// All of them, in one thread and random order.
+// The bound and its helpers, simulated in one thread in random order.
 class Ascent {
  public:
   Ascent(Known& known, const Tuning& tuning, int helpers, fuzz::Random& random)
@@ -61,7 +61,7 @@ class Ascent {
     for (int i = 0; i < helpers; ++i) processes.emplace_back(known);
   }
 
-  // Something happens.
+  // Performs one random event: a request, work of a helper, a reply, or work on the bound itself.
   void step(Cost cutoff) {
     const int helper = random_.below(static_cast<int>(processes.size()));
     HelpingProcess& process = processes[static_cast<std::size_t>(helper)];
@@ -98,7 +98,7 @@ TEST(RemotePricing, NeverRaisesTheBoundAboveTheOptimum) {
     if (!truth.plan || instance.agent_count() < 2) continue;
     Known known(instance);
     fuzz::Random random(seed);
-    const Tuning tuning = restless(random);
+    const Tuning tuning = tuning_with_short_rounds(random);
     if (!LagrangianBound::make(instance, known.stops, tuning)) continue;
     Ascent ascent(known, tuning, random.between(1, 3), random);
     for (int i = 0; i < 1500 && !ascent.bound->ended(); ++i) {
@@ -126,7 +126,7 @@ class OneHelper : public ::testing::Test {
       bound->commit(std::move(*job));
     }
   }
-  // To where prices are asked for.
+  // Works until the bound requests pricing. Returns nullopt if it does not.
   std::optional<PricingRequest> ask() {
     for (int i = 0; i < 100; ++i) {
       auto asked = bound->dispatch_pricing();
@@ -149,7 +149,7 @@ class OneHelper : public ::testing::Test {
   Known known{corridor()};
   Tuning tuning = [] {
     Tuning t;
-    t.lagrangian_step_work = t.lagrangian_share_work = 1;
+    t.lagrangian_step_work = t.lagrangian_min_remote_work = 1;
     return t;
   }();
   std::unique_ptr<LagrangianBound> bound =
@@ -158,24 +158,24 @@ class OneHelper : public ::testing::Test {
   HelpingProcess process{known};
 };
 
-TEST_F(OneHelper, IsCountedInItsRound) {
+TEST_F(OneHelper, ReplyCountsInItsRound) {
   auto share = ask();
   ASSERT_TRUE(share);
   const auto agents = static_cast<int>(share->known.size());
   EXPECT_EQ(bound->accept(0, answer_to(std::move(*share))), agents);
 }
 
-TEST_F(OneHelper, IsNotCountedInAnotherRoundWhateverItSays) {
+TEST_F(OneHelper, ReplyOfAnotherRoundDoesNotCount) {
   work_alone_until_round(5);
   auto share = ask();
   ASSERT_TRUE(share);
   PricingReply late = answer_to(std::move(*share));
   const auto round = bound->rounds();
-  work_alone_until_round(round + 1);  // nobody waits for it
-  EXPECT_FALSE(ask()) << "it owes an answer";
+  work_alone_until_round(round + 1);  // the bound does not wait for the reply
+  EXPECT_FALSE(ask()) << "a reply is outstanding";
   EXPECT_EQ(bound->accept(0, late), 0);
   share = ask();
-  ASSERT_TRUE(share) << "it owes nothing any more";
+  ASSERT_TRUE(share) << "no reply is outstanding";
   late.round = share->round;
   late.first = share->first;
   late.prices.resize(share->known.size(), 1000 * Penalties::kUnit);
@@ -183,7 +183,7 @@ TEST_F(OneHelper, IsNotCountedInAnotherRoundWhateverItSays) {
   EXPECT_EQ(bound->accept(0, late), 0) << "prices under other multipliers";
 }
 
-TEST_F(OneHelper, IsNotCountedAfterTheOthersHaveDoneItsPart) {
+TEST_F(OneHelper, ReplyDoesNotCountAfterTheBoundDidItsPart) {
   auto share = ask();
   ASSERT_TRUE(share);
   PricingReply late = answer_to(std::move(*share));
@@ -191,7 +191,7 @@ TEST_F(OneHelper, IsNotCountedAfterTheOthersHaveDoneItsPart) {
   EXPECT_EQ(bound->accept(0, std::move(late)), 0);
 }
 
-TEST_F(OneHelper, RefusesWhatCannotBeAskedFor) {
+TEST_F(OneHelper, RefusesInvalidRequests) {
   auto share = ask();
   ASSERT_TRUE(share);
   PricingRequest other = *share;

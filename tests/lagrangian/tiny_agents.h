@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Agents of tiny instances, one after the other.
+// Tiny instances and their planning data, for the tests of the Lagrangian bound.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,8 @@ inline Instance tiny_instance(std::uint64_t seed) {
   return (seed % 2 == 0 ? fuzz::random_instance(seed) : fuzz::random_world(seed)).build();
 }
 
-// Two who must pass each other in a corridor with one bay: the multipliers move for long.
+// Two agents that must pass each other in a corridor with one bay. The multipliers change for many
+// rounds.
 inline Instance corridor() {
   // . . . . .
   // @ @ . @ @
@@ -30,7 +31,7 @@ inline Instance corridor() {
   return std::move(builder).build();
 }
 
-// What is known of the agents of an instance.
+// An instance with the distances and stops of its agents.
 struct Known {
   explicit Known(Instance the_instance)
       : instance(std::move(the_instance)), distances(instance), stops(instance, distances) {}

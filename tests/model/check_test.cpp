@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every test takes a valid plan and breaks it in one way.
+// Each test changes a valid plan in one way that makes it invalid.
 #include "model/check.h"
 
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@ using Ids = std::vector<std::string>;
 //    . . . . .
 //    . @ . @ .
 //    . . . . .
-// a goes from (0, 0) to (4, 0) by t0 (2, 0) and t1 (4, 2); b from (4, 1) to (0, 2) by t1;
-// m (no goal) from (0, 1) by t2 (0, 0).
+// a goes from (0, 0) to (4, 0) via t0 (2, 0) and t1 (4, 2); b from (4, 1) to (0, 2) via t1;
+// m (no goal) from (0, 1) via t2 (0, 0).
 Instance instance() {
   std::vector<bool> passable(15, true);
   passable[6] = passable[8] = false;
@@ -35,7 +35,7 @@ constexpr Cell at(int x, int y) {
   return 5 * y + x;
 }
 
-// Costs 8 + 5 + 2 = 15, where m waits one step.
+// Costs 8 + 5 + 2 = 15; m waits one step.
 Solution valid_solution() {
   Plan plan;
   plan.cost = 15;
@@ -61,11 +61,11 @@ std::string verdict(const std::function<void(Solution&)>& change) {
   const auto violations = check(instance(), solution);
   std::string text;
   for (const Violation& violation : violations)
-    text += (text.empty() ? "" : "\n") + violation.place + ": " + violation.message;
+    text += (text.empty() ? "" : "\n") + violation.json_pointer + ": " + violation.message;
   return text;
 }
 
-// The same when only one agent's plan is changed.
+// The same for a change of one agent's plan.
 std::string verdict(AgentIndex agent, const std::function<void(AgentPlan&)>& change) {
   return verdict([&](Solution& solution) { change(solution.plan->agents[agent]); });
 }
@@ -79,11 +79,11 @@ TEST(Check, AcceptsAValidPlan) {
   EXPECT_EQ(verdict([](Solution&) {}), "");
 }
 
-TEST(Check, TrailingWaitsCostNothing) {
+TEST(Check, AcceptsTrailingWaitsWithoutCost) {
   EXPECT_EQ(verdict(1, [](AgentPlan& b) { b.path.insert(b.path.end(), 7, b.path.back()); }), "");
 }
 
-TEST(Check, AcceptsEveryHonestStatus) {
+TEST(Check, AcceptsEveryCorrectStatus) {
   const auto with = [](Status status, Cost bound, const char* omega) {
     return verdict([&](Solution& solution) {
       solution.status = status;
@@ -124,7 +124,7 @@ TEST(Check, RefusesAnImpossibleBound) {
   const auto with_bound = [](Cost bound) {
     return verdict([&](Solution& solution) { solution.lower_bound = bound; });
   };
-  EXPECT_MENTIONS(with_bound(16), "/lower_bound: a lower bound of 16 cannot be");
+  EXPECT_MENTIONS(with_bound(16), "/lower_bound: found 16; expected at most 15");
   EXPECT_MENTIONS(with_bound(-1), "/lower_bound: found -1");
   EXPECT_MENTIONS(with_bound(kInfiniteCost), "/lower_bound");
 }
@@ -178,7 +178,8 @@ TEST(Check, RefusesAWrongEnd) {
 TEST(Check, RefusesJumps) {
   EXPECT_MENTIONS(verdict(0, [](AgentPlan& a) { a.path.erase(a.path.begin() + 1); }),
                   "/agents/0/path/1: agent 'a' jumps from [0, 0] to [2, 0]");
-  // From the right edge to the left one of the next row: neighbors by number, not on the map.
+  // From the right edge to the left edge of the next row: consecutive cell numbers, but not
+  // adjacent.
   EXPECT_MENTIONS(verdict(1,
                           [](AgentPlan& b) {
                             b.path = {at(4, 1), at(0, 2)};
@@ -222,7 +223,7 @@ TEST(Check, RefusesAWrongSequence) {
             "/agents/0/sequence/1: the path of agent 'a' does not visit task 't0' in this order");
 }
 
-TEST(Check, LetsAnMgAgentEndOnlyOnItsLastTask) {
+TEST(Check, AcceptsEndOfMgAgentOnlyOnItsLastTask) {
   InstanceBuilder builder(Grid(3, 1, std::vector<bool>(3, true)));
   builder.add_agent("m", {1, 0}, std::nullopt);
   builder.add_task("left", {0, 0}, Ids{"m"});
@@ -236,7 +237,7 @@ TEST(Check, LetsAnMgAgentEndOnlyOnItsLastTask) {
   solution.plan->agents[0].sequence = {0, 1};
   const auto violations = check(two_tasks, solution);
   ASSERT_EQ(violations.size(), 1U);
-  EXPECT_EQ(violations[0].place, "/agents/0/sequence/1");
+  EXPECT_EQ(violations[0].json_pointer, "/agents/0/sequence/1");
 }
 
 // Two agents on a 4 x 2 map without tasks; both paths begin and end where they should.
@@ -254,7 +255,7 @@ std::string collision(const Path& first, const Path& second) {
   solution.status = Status::kOptimal;
   const auto violations = check(two, solution);
   EXPECT_LE(violations.size(), 1U);
-  return violations.empty() ? "" : violations[0].place + ": " + violations[0].message;
+  return violations.empty() ? "" : violations[0].json_pointer + ": " + violations[0].message;
 }
 
 // 0 1 2 3
@@ -278,7 +279,7 @@ TEST(Check, FindsEdgeConflicts) {
             "/agents/0/path/1: agents 'p' and 'q' swap [0, 0] and [1, 0] between times 0 and 1");
 }
 
-TEST(Check, LetsAgentsFollowEachOtherAndTurnInACircle) {
+TEST(Check, AcceptsFollowingAndRotation) {
   EXPECT_EQ(collision({1, 2}, {0, 1}), "");
   EXPECT_EQ(collision({0, 1, 5}, {5, 4, 0}), "");
 }

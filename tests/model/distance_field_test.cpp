@@ -34,7 +34,7 @@ TEST(DistanceFields, HoldsTasksAndDestinations) {
   EXPECT_EQ(fields.to_task(0)[3], 2);
 }
 
-// A corridor of so many cells, the last but one a wall; one task on its first cell.
+// A corridor of `cells` cells, the second-last of which is a wall, with one task on its first cell.
 Instance corridor(int cells) {
   std::vector<bool> passable(static_cast<std::size_t>(cells), true);
   passable[passable.size() - 2] = false;
@@ -44,8 +44,8 @@ Instance corridor(int cells) {
   return std::move(builder).build();
 }
 
-// 65,534 is the longest way that 16 bits have room for.
-TEST(DistanceFields, AreRightHoweverLongTheWay) {
+// The longest distance that fits in 16 bits is 65,534.
+TEST(DistanceFields, AreExactForLongDistances) {
   for (const int cells : {65'536, 65'537, 65'538, 65'539, 140'000}) {
     const Instance instance = corridor(cells);
     const DistanceFields fields(instance);
@@ -58,7 +58,7 @@ TEST(DistanceFields, AreRightHoweverLongTheWay) {
   }
 }
 
-// Enough of them that threads are worth it.
+// So many tasks that several threads are used.
 Instance many_tasks() {
   constexpr int kSide = 200;
   std::vector<bool> passable(kSide * kSide, true);
@@ -82,7 +82,7 @@ TEST(DistanceFields, AreTheSameOnManyThreads) {
   }
 }
 
-TEST(DistanceFields, AreNotThereWhenALimitStruck) {
+TEST(DistanceFields, AreIncompleteWhenALimitIsReached) {
   const Instance instance = many_tasks();
   for (const int threads : {1, 4}) {
     Limits stopped;

@@ -23,12 +23,12 @@ std::uint64_t of(const Rows& rows, const Agents& agents) {
 const Rows kRows{"...", ".@.", "..."};
 const Agents kAgents{{{0, 0}, Position{2, 0}, {{1, 0}, {0, 2}}}, {{0, 1}, {}, {{2, 2}}}};
 
-// Files of earlier versions must be known again.
-TEST(Fingerprint, StaysWhatItIs) {
+// Files of earlier versions must still match.
+TEST(Fingerprint, IsTheSameInEveryVersion) {
   EXPECT_EQ(of(kRows, kAgents), 9616560128765021026u);
 }
 
-TEST(Fingerprint, TellsInstancesApart) {
+TEST(Fingerprint, DiffersBetweenInstances) {
   std::set<std::uint64_t> seen{of(kRows, kAgents)};
   const auto is_new = [&](std::uint64_t found) { return seen.insert(found).second; };
   EXPECT_TRUE(is_new(of({"...", "...", "..."}, kAgents)));
@@ -48,8 +48,8 @@ TEST(Fingerprint, TellsInstancesApart) {
   EXPECT_TRUE(is_new(other([](Agents& a) { a.pop_back(); })));
 }
 
-// Their cells and durations are the same sequence of numbers.
-TEST(Fingerprint, TellsDurationsFromCells) {
+// In both instances the cells and durations form the same sequence of numbers.
+TEST(Fingerprint, DistinguishesDurationsFromCells) {
   const auto with_tasks = [](std::vector<std::pair<Position, Time>> tasks) {
     InstanceBuilder builder(testing::grid_of({"............"}));
     builder.add_agent("a", {0, 0}, {});
@@ -60,7 +60,7 @@ TEST(Fingerprint, TellsDurationsFromCells) {
   EXPECT_NE(with_tasks({{{5, 0}, 7}, {{9, 0}, 0}}), with_tasks({{{5, 0}, 0}, {{7, 0}, 9}}));
 }
 
-TEST(Fingerprint, DoesNotCountNames) {
+TEST(Fingerprint, IgnoresNames) {
   const auto named = [](const char* agent, const char* task) {
     InstanceBuilder builder(testing::grid_of(kRows));
     builder.add_agent(agent, {0, 0}, {});

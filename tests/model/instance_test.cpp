@@ -16,7 +16,7 @@ InstanceBuilder builder() {
   return InstanceBuilder(Grid(4, 2, {true, true, true, true, false, true, true, true}));
 }
 
-// The field of the InstanceError that `act` throws; "nothing" if it throws none.
+// The field of the InstanceError that `act` throws; "nothing" if it throws nothing.
 std::string refused_field(const std::function<void()>& act) {
   try {
     act();
@@ -85,7 +85,7 @@ TEST(InstanceBuilder, RefusesInstancesWithoutAgents) {
   EXPECT_EQ(refused_field([] { builder().build(); }), "agents");
 }
 
-TEST(InstanceBuilder, AnAgentWithNothingToDoRestsAnywhere) {
+TEST(InstanceBuilder, AgentWithoutGoalsRestsAnywhere) {
   auto b = builder();
   b.add_agent("a", {0, 0}, std::nullopt);
   const Instance instance = std::move(b).build();
@@ -93,8 +93,8 @@ TEST(InstanceBuilder, AnAgentWithNothingToDoRestsAnywhere) {
   EXPECT_TRUE(instance.may_rest(0, 3));
 }
 
-// Of the tasks on one place one stands for all that take no time.
-TEST(InstanceBuilder, StopsStandForAllTasksOnAPlace) {
+// Of the tasks on one place that take no time, one represents all.
+TEST(InstanceBuilder, StopsRepresentAllTasksOnAPlace) {
   auto b = builder();
   b.add_agent("a", {0, 0}, Position{3, 0});
   b.add_agent("b", {1, 0}, std::nullopt);

@@ -25,7 +25,7 @@ TEST(Limits, StopsAtTheDeadline) {
   EXPECT_LE(limits.seconds_left(), 0);
 }
 
-TEST(Limits, TakesTheTimeFromTheClockThatItIsGiven) {
+TEST(Limits, UsesTheGivenClock) {
   Limits limits;
   testing::ManualClock clock(limits);
   limits.set_deadline(limits.now() + std::chrono::seconds(3));
@@ -42,7 +42,7 @@ TEST(Limits, TakesTheTimeFromTheClockThatItIsGiven) {
   EXPECT_EQ(limits.reason(), StopReason::kTime);
 }
 
-TEST(Limits, LooksAtTheMemoryEveryFiveMilliseconds) {
+TEST(Limits, ReadsMemoryUseEveryFiveMilliseconds) {
   Limits limits;
   testing::ManualClock clock(limits);
   limits.set_memory_limit(std::size_t{1} << 60);
@@ -73,13 +73,13 @@ TEST(Limits, StopsOnInterruptAndKeepsTheFirstReason) {
   EXPECT_EQ(limits.reason(), StopReason::kInterrupt);
 }
 
-TEST(ResidentBytes, AreThoseOfARunningProcess) {
+TEST(ResidentBytes, AreThoseOfTheRunningProcess) {
   const std::size_t now = resident_bytes();
   EXPECT_GT(now, std::size_t{100'000});
-  EXPECT_GE(peak_resident_bytes() + (std::size_t{1} << 20), now);  // the kernel counts by threads
+  EXPECT_GE(peak_resident_bytes() + (std::size_t{1} << 20), now);  // the kernel counts per thread
 }
 
-TEST(ResidentBytes, OfWhatIsSharedAreAPart) {
+TEST(ResidentBytes, CountOnlyAPartOfSharedMemory) {
   constexpr std::size_t kSize = std::size_t{64} << 20;
   void* const shared =
       ::mmap(nullptr, kSize, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -88,7 +88,7 @@ TEST(ResidentBytes, OfWhatIsSharedAreAPart) {
   const std::size_t whole = resident_bytes();
   set_shared_memory_accounting(4, kSize);
   const std::size_t part = resident_bytes();
-  set_shared_memory_accounting(4, 4 * kSize);  // most of it touched by others
+  set_shared_memory_accounting(4, 4 * kSize);  // most of it touched by other processes
   const std::size_t part_of_more = resident_bytes();
   set_shared_memory_accounting(1, 0);
   EXPECT_GT(whole, kSize);

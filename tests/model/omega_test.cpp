@@ -14,15 +14,16 @@ TEST(Omega, ZeroAcceptsOnlyTheBoundItself) {
   EXPECT_FALSE(omega.accepts(101, 100));
 }
 
-TEST(Omega, TestsExactlyWhereDoublesWouldRound) {
-  // 1.1 * 10 is 11.000000000000002 and 1.01 * 700 is 707.0000000000001 in doubles; 1.1 * 30
-  // likewise.
+TEST(Omega, IsExactWhereDoublesMayRound) {
+  // Costs at and above the threshold (1 + omega) * bound. In doubles this product may round below
+  // an integer: 1.15 * 100 is 114.99999999999999.
+  EXPECT_TRUE(Omega::parse("0.15").accepts(115, 100));
   EXPECT_TRUE(Omega::parse("0.1").accepts(11, 10));
   EXPECT_TRUE(Omega::parse("0.1").accepts(33, 30));
   EXPECT_FALSE(Omega::parse("0.1").accepts(34, 30));
   EXPECT_TRUE(Omega::parse("0.01").accepts(101, 100));
   EXPECT_FALSE(Omega::parse("0.01").accepts(101, 99));
-  EXPECT_TRUE(Omega::parse("0.07").accepts(107, 100));  // 1.07 * 100 = 107.0 only by luck
+  EXPECT_TRUE(Omega::parse("0.07").accepts(107, 100));  // 1.07 * 100 is exact only by chance
 }
 
 TEST(Omega, InfinityAcceptsEverything) {
@@ -42,7 +43,7 @@ TEST(Omega, ReadsAndPrintsTheSameNumber) {
         << text;
 }
 
-TEST(Omega, RefusesWhatItCannotHold) {
+TEST(Omega, RefusesUnrepresentableNumbers) {
   for (const char* text : {"", "-0.1", "nan", "1e7", "0.01x", "0.0000000001", "1e-12",
                            "999999.9999999999", "123456.1234567891", "infinity", "1,5"})
     EXPECT_THROW(Omega::parse(text), std::invalid_argument) << text;

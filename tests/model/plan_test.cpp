@@ -17,7 +17,7 @@ TEST(Status, FollowsFromCostBoundAndOmega) {
   EXPECT_EQ(status_of(100, 99, Omega()), Status::kFeasible);
 }
 
-TEST(Status, WithInfiniteOmegaIsBoundedByNothing) {
+TEST(Status, IsNeverBoundedWithInfiniteOmega) {
   EXPECT_EQ(status_of(101, 100, Omega::infinite()), Status::kFeasible);
   EXPECT_EQ(status_of(100, 100, Omega::infinite()), Status::kOptimal);
 }
@@ -29,9 +29,9 @@ TEST(Status, NamesRoundTrip) {
   EXPECT_FALSE(parse_status("solved"));
 }
 
-// Both tasks are done where the agent starts, within a turn; and one of them in a later turn, which
-// a plan of another solver may do.
-TEST(WalkedPath, KeepsTheWorkOfAPlan) {
+// The agent executes both tasks at its start, in the middle of a turn. In the second plan it
+// executes one of them in the middle of a later turn, as a plan of another solver may do.
+TEST(WalkedPath, KeepsTheTaskExecutionsOfThePlan) {
   InstanceBuilder builder(Map(Grid(2, 1, {true, true})));
   builder.add_agent({.id = "a",
                      .start = {0, Heading::kEast, Heading::kSouth, 1},

@@ -24,9 +24,9 @@ TEST(Random, DrawsEachNumberAboutEquallyOften) {
   for (int count : counts) EXPECT_NEAR(count, 10'000, 400);
 }
 
-// Without drawing again, half would fall into the lowest third: four quarters of all numbers do not
-// spread evenly over three.
-TEST(Random, DrawsAgainWhereTheLowestNumbersWouldComeTooOften) {
+// Without rejection, half of the numbers would fall into the lowest third: the 2^64 numbers are
+// four quarters, the bound is three of them, and the fourth would map to the lowest third as well.
+TEST(Random, RejectsDrawsThatWouldFavorTheLowestNumbers) {
   constexpr std::uint64_t kBound = std::uint64_t{3} << 62;
   Random random(1);
   int low = 0;

@@ -15,7 +15,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
 
-// A =3= B >2> C, and C >1> A.
+// A =3= B >2> C, and C >1> A. "=": both directions; ">": one direction; with the length in steps.
 Roadmap triangle() {
   return Roadmap({{"A", {0, 0}}, {"B", {3, 0}}, {"C", {3, 4}}},
                  {{0, 1, 3, false}, {1, 2, 2, true}, {2, 0, 1, true}});
@@ -36,7 +36,7 @@ TEST(Roadmap, HasAPlaceForEachStepOfARoad) {
   EXPECT_EQ(roadmap.at(5), (Point{3, 2}));
 }
 
-TEST(Roadmap, MovesGoTheWayOfTheRoads) {
+TEST(Roadmap, MovesFollowTheDirectionsOfRoads) {
   const Roadmap roadmap = triangle();
   EXPECT_THAT(roadmap.moves(0), ElementsAre(3));
   EXPECT_THAT(roadmap.moves(3), UnorderedElementsAre(0, 4));
@@ -72,7 +72,7 @@ TEST(Roadmap, TwoRoadsOfOneStepAreOneMove) {
   EXPECT_THAT(roadmap.moves(0), ElementsAre(1));
 }
 
-TEST(Roadmap, RefusesWhatIsNone) {
+TEST(Roadmap, RefusesInvalidRoadmaps) {
   const std::vector<Vertex> two{{"A", {}}, {"B", {}}};
   EXPECT_THROW(Roadmap({}, {}), std::invalid_argument);
   EXPECT_THROW(Roadmap({{"A", {}}, {"A", {}}}, {}), std::invalid_argument);

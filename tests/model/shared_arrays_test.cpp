@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Members are threads here, each with SharedArrays of its own over one memory.
+// SharedArrays of several members. The members are threads here, each with its own SharedArrays
+// over one memory.
 #include "model/shared_arrays.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +25,7 @@ namespace shared_arrays_test {
 
 using testing::LimitOfLooks;
 
-// What a host has for its members: nothing of it is zero but what must be.
+// The shared memory of a host for its members. Only the bytes that must be zero are zero.
 class Memory {
  public:
   explicit Memory(const ArrayLayout& layout)
@@ -59,27 +60,27 @@ void by_members(int members, const Work& work) {
     threads.emplace_back([&work, member] { work(member); });
 }
 
-constexpr std::size_t kRoom = 5000;
+constexpr std::size_t kArrayBytes = 5000;
 
 ArrayLayout layout_of(std::size_t arrays) {
-  return {std::vector(arrays, kRoom), {}, std::vector(arrays, kRoom)};
+  return {std::vector(arrays, kArrayBytes), {}, std::vector(arrays, kArrayBytes)};
 }
 
-// Slowly, so that who reads too early sees it.
+// Fills slowly, so that a member that reads too early finds other bytes.
 void fill(std::byte* begin, std::size_t number) {
-  for (std::size_t i = 0; i < kRoom; ++i) {
+  for (std::size_t i = 0; i < kArrayBytes; ++i) {
     begin[i] = static_cast<std::byte>(number * 31 + i);
     if (i % 1000 == 0) std::this_thread::yield();
   }
 }
 
 bool is_filled(const std::byte* begin, std::size_t number) {
-  for (std::size_t i = 0; i < kRoom; ++i)
+  for (std::size_t i = 0; i < kArrayBytes; ++i)
     if (begin[i] != static_cast<std::byte>(number * 31 + i)) return false;
   return true;
 }
 
-TEST(SharedArrays, EachIsMadeByOneAndReadByAllWhenItIsReady) {
+TEST(SharedArrays, OneMemberMakesEachArrayAndAllReadIt) {
   constexpr std::size_t kArrays = 300;
   constexpr int kMembers = 4;
   const Memory memory(layout_of(kArrays));
@@ -101,22 +102,22 @@ TEST(SharedArrays, EachIsMadeByOneAndReadByAllWhenItIsReady) {
   for (const std::atomic<int>& times : made) EXPECT_EQ(times, 1);
 }
 
-TEST(SharedArrays, MembersBeginInDifferentPlaces) {
+TEST(SharedArrays, MembersBeginAtDifferentArrays) {
   const Memory memory(layout_of(1));
   EXPECT_EQ(memory.of(0, 4).first_of(10), 0U);
   EXPECT_EQ(memory.of(1, 4).first_of(10), 2U);
   EXPECT_EQ(memory.of(3, 4).first_of(10), 7U);
 }
 
-TEST(SharedArrays, RefuseMemoryThatDoesNotBeginWhereArraysMay) {
+TEST(SharedArrays, RefuseMisalignedMemory) {
   alignas(SharedArrays::kAlignment) std::array<std::byte, 2 * SharedArrays::kAlignment> bytes{};
   const std::span<std::byte> memory(bytes);
   EXPECT_NO_THROW(SharedArrays(memory, {}, 0, 1));
   EXPECT_THROW(SharedArrays(memory.subspan(8), {}, 0, 1), std::invalid_argument);
 }
 
-TEST(SharedArrays, OneThatIsNotThereIsNone) {
-  const Memory memory({std::vector<std::size_t>{kRoom, 0, kRoom}, {}, {}});
+TEST(SharedArrays, MissingArrayIsNullptr) {
+  const Memory memory({std::vector<std::size_t>{kArrayBytes, 0, kArrayBytes}, {}, {}});
   const SharedArrays arrays = memory.of(0, 1);
   const auto never = [](std::byte*) -> bool { throw std::logic_error("there is nothing to fill"); };
   for (const SharedArray none :
@@ -125,11 +126,11 @@ TEST(SharedArrays, OneThatIsNotThereIsNone) {
     EXPECT_FALSE(none.has_room(1));
     EXPECT_EQ(none.get(Limits(), never), nullptr);
   }
-  EXPECT_TRUE(arrays.array(ArrayKind::kDistances, 2).has_room(kRoom));
-  EXPECT_FALSE(arrays.array(ArrayKind::kDistances, 2).has_room(kRoom + 1));
+  EXPECT_TRUE(arrays.array(ArrayKind::kDistances, 2).has_room(kArrayBytes));
+  EXPECT_FALSE(arrays.array(ArrayKind::kDistances, 2).has_room(kArrayBytes + 1));
 }
 
-TEST(SharedArrays, WhatCannotBeMadeEachHasToMakeForItself) {
+TEST(SharedArrays, FailedArrayIsNullptrForAllMembers) {
   const Memory memory(layout_of(2));
   const SharedArrays one = memory.of(0, 2);
   const SharedArrays other = memory.of(1, 2);
@@ -143,15 +144,15 @@ TEST(SharedArrays, WhatCannotBeMadeEachHasToMakeForItself) {
     EXPECT_EQ(other.array(ArrayKind::kDistances, number)
                   .get(limits,
                        [](std::byte*) {
-                         ADD_FAILURE() << "it is tried once";
+                         ADD_FAILURE() << "a failed array is made only once";
                          return true;
                        }),
               nullptr);
-    EXPECT_EQ(limits.looks(), 0) << "it is known at once";
+    EXPECT_EQ(limits.looks(), 0) << "the failure is known at once";
   }
 }
 
-TEST(SharedArrays, NobodyWaitsForEverForOneWhoStandsStill) {
+TEST(SharedArrays, AwaitEndsWhenTheMakerIsUnresponsive) {
   const Memory memory(layout_of(1));
   std::atomic<bool> begun{false};
   std::atomic<bool> may_end{false};
@@ -168,20 +169,20 @@ TEST(SharedArrays, NobodyWaitsForEverForOneWhoStandsStill) {
     const LimitOfLooks limits(20'000);
     EXPECT_EQ(array.await(limits), nullptr);
     EXPECT_FALSE(limits.stop_requested());
-    EXPECT_GT(limits.looks(), 100) << "it has some patience";
-    const LimitOfLooks struck(testing::kNoEnd);
-    struck.stop(StopReason::kInterrupt);
-    EXPECT_EQ(array.await(struck), nullptr);
-    EXPECT_LE(struck.looks(), 2);
+    EXPECT_GT(limits.looks(), 100) << "waits for some time";
+    const LimitOfLooks stopped(testing::kNoEnd);
+    stopped.stop(StopReason::kInterrupt);
+    EXPECT_EQ(array.await(stopped), nullptr);
+    EXPECT_LE(stopped.looks(), 2);
     may_end = true;
   });
   const auto* begin = memory.of(1, 2).array(ArrayKind::kDistances, 0).await(Limits());
-  ASSERT_NE(begin, nullptr);  // later it is there all the same
+  ASSERT_NE(begin, nullptr);  // the array is available later
   EXPECT_TRUE(is_filled(begin, 0));
 }
 
-// A room with many tasks, and a corridor as long as that, which 16 bits have no room for if it has
-// more than 65,535 cells.
+// A map of two rows of `width` cells with many tasks. If `width` exceeds 65,535, distances do not
+// fit in 16 bits.
 Instance many_tasks(int width, int tasks) {
   InstanceBuilder builder(
       Grid(width, 2, std::vector<bool>(static_cast<std::size_t>(width) * 2, true)));
@@ -192,7 +193,7 @@ Instance many_tasks(int width, int tasks) {
   return std::move(builder).build();
 }
 
-TEST(SharedDistances, AreThoseThatOneHasAlone) {
+TEST(SharedDistances, EqualDistancesWithoutSharing) {
   for (const int width : {3000, 66'000}) {
     const Instance instance = many_tasks(width, 30);
     const DistanceFields alone(instance);
@@ -209,14 +210,14 @@ TEST(SharedDistances, AreThoseThatOneHasAlone) {
         if (shared.to_rest(0)[state] != alone.to_rest(0)[state]) ++wrong;
     });
     EXPECT_EQ(wrong, 0) << width;
-    // They lie where they are to.
+    // The fields are in the shared memory if they fit in 16 bits.
     const SharedArrays arrays = memory.of(0, 3);
     for (std::size_t set = 0; set < DistanceFields::layout_of(instance).size(); ++set)
       EXPECT_EQ(arrays.array(ArrayKind::kDistances, set).await(Limits()) != nullptr, width == 3000);
   }
 }
 
-TEST(SharedDistances, AreThereThoughAMemberHasStopped) {
+TEST(SharedDistances, AreCompleteAlthoughAMemberHasStopped) {
   const Instance instance = many_tasks(3000, 20);
   const Memory memory({DistanceFields::layout_of(instance), {}, {}});
   const SharedArrays of_stopped = memory.of(0, 2);

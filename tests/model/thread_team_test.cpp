@@ -31,14 +31,14 @@ TEST(ThreadTeam, CallsWorkOnceOnEachThreadInEveryRound) {
   }
 }
 
-// Ends only if all threads are in the work at once.
-TEST(ThreadTeam, RunsItsThreadsSideBySide) {
+// Ends only if all threads run the work concurrently.
+TEST(ThreadTeam, RunsItsThreadsConcurrently) {
   ThreadTeam team(4);
-  std::barrier meeting(4);
-  team.run([&](int) { meeting.arrive_and_wait(); });
+  std::barrier barrier(4);
+  team.run([&](int) { barrier.arrive_and_wait(); });
 }
 
-TEST(ThreadTeam, ThrowsWhatAThreadThrewWhenAllHaveEnded) {
+TEST(ThreadTeam, RethrowsAfterAllThreadsHaveEnded) {
   ThreadTeam team(3);
   for (int thrower = 0; thrower < 3; ++thrower) {
     std::atomic<int> ended{0};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// That each number is used somewhere: tests/structure. That none makes a wrong answer: tests/fuzz.
+// Parsing of tunables. tests/structure checks that each one is used, and tests/fuzz that no value
+// leads to a wrong answer.
 #include "model/tuning.h"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ namespace tuning_test {
 
 using ::testing::HasSubstr;
 
-std::string complaint(const std::string& text) {
+std::string error_of(const std::string& text) {
   try {
     Tuning tuning;
     set(tuning, text);
@@ -25,15 +26,15 @@ std::string complaint(const std::string& text) {
   return "none";
 }
 
-TEST(Tuning, SetsTheNumberOfThatNameAndNoOther) {
+TEST(Tuning, SetsOnlyTheTunableOfThatName) {
   std::set<std::string> names;
   for (const Tunable& t : tunables()) {
     SCOPED_TRACE(t.name());
     EXPECT_TRUE(names.insert(t.name()).second);
     Tuning tuning;
     const std::string before = t.value(tuning);
-    const std::string other = before == fmt::format("{}", t.least) ? fmt::format("{}", t.least + 1)
-                                                                   : fmt::format("{}", t.least);
+    const std::string other = before == fmt::format("{}", t.min) ? fmt::format("{}", t.min + 1)
+                                                                 : fmt::format("{}", t.min);
     set(tuning, t.name() + "=" + other);
     for (const Tunable& u : tunables())
       EXPECT_EQ(u.value(tuning), &u == &t ? other : u.value({})) << u.name();
@@ -46,25 +47,47 @@ TEST(Tuning, SetsTheNumberOfThatNameAndNoOther) {
 
 TEST(Tuning, DefaultsAreWithinTheirRanges) {
   for (const Tunable& t : tunables()) {
-    EXPECT_LT(t.least, t.most) << t.name();
-    EXPECT_EQ(complaint(t.name() + "=" + t.value({})), "none");
+    EXPECT_LT(t.min, t.max) << t.name();
+    EXPECT_EQ(error_of(t.name() + "=" + t.value({})), "none");
   }
 }
 
-TEST(Tuning, TakesBothEndsOfARangeAndNothingBeyond) {
-  for (const char* good : {"group-agents=2", "group-agents=64", "way-memory=0", "way-memory=1.0",
-                           "order-spread=5e-1", "bound-work=1000000000000000"})
-    EXPECT_EQ(complaint(good), "none");
-  EXPECT_EQ(complaint("group-agents=1"),
-            "group-agents: found '1'; expected an integer from 2 to 64");
-  EXPECT_EQ(complaint("way-memory=1.01"),
-            "way-memory: found '1.01'; expected a number from 0 to 1");
-  for (const char* bad : {"group-agents=65", "group-agents=3.5", "group-agents=", "group-agents= 3",
-                          "group-agents=3x", "way-memory=-0.1", "way-memory=nan", "bound-work=1e3",
+TEST(Tuning, AcceptsOnlyNumbersWithinTheRange) {
+  for (const char* good : {"joint-group-agents=2", "joint-group-agents=16", "record-deviation=0",
+                           "record-deviation=1.0", "large-gap=5e-1", "bound-work=1000000000000000"})
+    EXPECT_EQ(error_of(good), "none");
+  EXPECT_EQ(error_of("joint-group-agents=1"),
+            "joint-group-agents: found '1'; expected an integer from 2 to 16");
+  EXPECT_EQ(error_of("record-deviation=1.01"),
+            "record-deviation: found '1.01'; expected a number from 0 to 1");
+  for (const char* bad : {"joint-group-agents=17", "joint-group-agents=3.5",
+                          "joint-group-agents=", "joint-group-agents= 3", "joint-group-agents=3x",
+                          "record-deviation=-0.1", "record-deviation=nan", "bound-work=1e3",
                           "bound-work=99999999999999999999"})
-    EXPECT_THAT(complaint(bad), HasSubstr("expected a")) << bad;
-  for (const char* bad : {"", "=", "group-agents", "group_agents=3", "agents=3"})
-    EXPECT_THAT(complaint(bad), HasSubstr("expected NAME=VALUE")) << bad;
+    EXPECT_THAT(error_of(bad), HasSubstr("expected a")) << bad;
+  for (const char* bad : {"", "=", "joint-group-agents", "joint_group_agents=3", "agents=3"})
+    EXPECT_THAT(error_of(bad), HasSubstr("expected NAME=VALUE")) << bad;
+}
+
+TEST(Tuning, AcceptsTheOldNamesOfParameters) {
+  Tuning tuning;
+  set(tuning, "far-plan=0.5");
+  EXPECT_EQ(tuning.large_gap, 0.5);
+  EXPECT_EQ(error_of("far-plan=-1"), "far-plan: found '-1'; expected a number from 0 to 1000000");
+  std::set<std::string> names;
+  for (const std::string& name : accepted_tunable_names()) {
+    EXPECT_TRUE(names.insert(name).second) << name << " twice";
+    EXPECT_THAT(error_of(name + "=x"), HasSubstr(name + ": found 'x'; expected "));
+  }
+}
+
+TEST(Tuning, RefusesToChangeFormerParameters) {
+  Tuning tuning;
+  set(tuning, "spot-steps=8");
+  EXPECT_EQ(tuning, Tuning());
+  EXPECT_EQ(error_of("spot-steps=9"),
+            "spot-steps: found '9'; expected 8, because it is a constant");
+  EXPECT_EQ(error_of("spot-steps"), "spot-steps: found ''; expected 8, because it is a constant");
 }
 
 }  // namespace tuning_test

@@ -9,7 +9,7 @@
 namespace grove::detail {
 namespace hierarchy_test {
 
-TEST(Hierarchy, HasAsFewLevelsAndChildrenAsCanBe) {
+TEST(Hierarchy, HasMinimalLevelsAndChildren) {
   const auto shape = [](int ranks, int most) {
     const Hierarchy hierarchy(ranks, most);
     int children = 0;
@@ -26,8 +26,8 @@ TEST(Hierarchy, HasAsFewLevelsAndChildrenAsCanBe) {
   EXPECT_EQ(shape(8, 2), std::pair(3, 2));
 }
 
-// Everybody but the top answers to one who counts them among its children, once.
-TEST(Hierarchy, EverybodyHasOnePlace) {
+// Each endpoint except the top has one parent, and is exactly once among the parent's children.
+TEST(Hierarchy, EveryEndpointHasOneParent) {
   for (const int ranks : {1, 2, 3, 7, 8, 9, 26, 64, 100, 1000})
     for (const int most : {2, 3, 5, 64}) {
       const Hierarchy hierarchy(ranks, most);

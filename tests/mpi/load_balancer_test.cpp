@@ -6,10 +6,10 @@
 #include <vector>
 
 namespace grove::detail {
-namespace broker_test {
+namespace load_balancer_test {
 
-// Ranks, each below a coordinator of its own children.
-std::vector<std::vector<int>> alone(int ranks) {
+// Each rank is a child of its own.
+std::vector<std::vector<int>> single_ranks(int ranks) {
   std::vector<std::vector<int>> children;
   for (int rank = 0; rank < ranks; ++rank) children.push_back({rank});
   return children;
@@ -22,114 +22,114 @@ message::Status with(int rank, Cost bound, std::int64_t surplus) {
   return status;
 }
 
-TEST(LoadBalancer, WhoHasNothingIsGivenWhatCanBeSpared) {
-  LoadBalancer broker(alone(2));
-  EXPECT_FALSE(broker.next());
-  broker.heard(0, with(0, 10, 3));
-  const auto gift = broker.next();
-  ASSERT_TRUE(gift);
-  EXPECT_EQ(gift->from, 0);
-  EXPECT_EQ(gift->to, 1);
-  EXPECT_EQ(gift->nodes, 3);
+TEST(LoadBalancer, IdleRankReceivesSurplusNodes) {
+  LoadBalancer balancer(single_ranks(2));
+  EXPECT_FALSE(balancer.next());
+  balancer.heard(0, with(0, 10, 3));
+  const auto transfer = balancer.next();
+  ASSERT_TRUE(transfer);
+  EXPECT_EQ(transfer->from, 0);
+  EXPECT_EQ(transfer->to, 1);
+  EXPECT_EQ(transfer->nodes, 3);
 }
 
-TEST(LoadBalancer, NobodyIsGivenMoreBeforeTheLastHasArrived) {
-  LoadBalancer broker(alone(2));
-  broker.heard(0, with(0, 10, 300));
-  EXPECT_TRUE(broker.next());
-  EXPECT_FALSE(broker.next());
-  broker.heard(1, with(1, kInfiniteCost, 0));
-  EXPECT_FALSE(broker.next());
-  broker.arrived(1);
-  EXPECT_TRUE(broker.next());
+TEST(LoadBalancer, NoSecondTransferBeforeTheFirstHasArrived) {
+  LoadBalancer balancer(single_ranks(2));
+  balancer.heard(0, with(0, 10, 300));
+  EXPECT_TRUE(balancer.next());
+  EXPECT_FALSE(balancer.next());
+  balancer.heard(1, with(1, kInfiniteCost, 0));
+  EXPECT_FALSE(balancer.next());
+  balancer.arrived(1);
+  EXPECT_TRUE(balancer.next());
 }
 
-TEST(LoadBalancer, TheSecondBestBoundWillDo) {
-  LoadBalancer broker(alone(3), {.gift_nodes = 1});
+TEST(LoadBalancer, TransfersNodesOfTheSecondBestBound) {
+  LoadBalancer balancer(single_ranks(3), {.transfer_nodes = 1});
   message::Status status = with(0, 10, 1);
   status.surplus.push_back({11, 1});
-  broker.heard(0, status);
-  for (int gifts = 0; gifts < 2; ++gifts) EXPECT_TRUE(broker.next());
-  EXPECT_FALSE(broker.next());
+  balancer.heard(0, status);
+  for (int transfers = 0; transfers < 2; ++transfers) EXPECT_TRUE(balancer.next());
+  EXPECT_FALSE(balancer.next());
 }
 
-TEST(LoadBalancer, OneGiverServesSeveralWhileItHasSome) {
-  LoadBalancer broker(alone(4), {.gift_nodes = 2});
-  broker.heard(0, with(0, 10, 5));
+TEST(LoadBalancer, OneDonorServesSeveralRanks) {
+  LoadBalancer balancer(single_ranks(4), {.transfer_nodes = 2});
+  balancer.heard(0, with(0, 10, 5));
   std::vector<int> given;
   std::int64_t nodes = 0;
-  while (const auto gift = broker.next()) {
-    given.push_back(gift->to);
-    nodes += gift->nodes;
+  while (const auto transfer = balancer.next()) {
+    given.push_back(transfer->to);
+    nodes += transfer->nodes;
   }
   EXPECT_EQ(given, (std::vector<int>{1, 2, 3}));
   EXPECT_EQ(nodes, 5);
 }
 
-TEST(LoadBalancer, WorkFarAboveTheBoundIsReplacedWhereThereIsPlentyOfBetter) {
-  LoadBalancer broker(alone(2));
-  broker.heard(1, with(1, 15, 25));
-  broker.heard(0, with(0, 10, 2));
-  EXPECT_FALSE(broker.next()) << "not for a few nodes";
-  broker.heard(0, with(0, 10, 200));
-  const auto gift = broker.next();
-  ASSERT_TRUE(gift);
-  EXPECT_EQ(gift->to, 1);
+TEST(LoadBalancer, RankFarAboveTheBoundReceivesOnlyFromALargeSurplus) {
+  LoadBalancer balancer(single_ranks(2));
+  balancer.heard(1, with(1, 15, 25));
+  balancer.heard(0, with(0, 10, 2));
+  EXPECT_FALSE(balancer.next()) << "not for a few nodes";
+  balancer.heard(0, with(0, 10, 200));
+  const auto transfer = balancer.next();
+  ASSERT_TRUE(transfer);
+  EXPECT_EQ(transfer->to, 1);
 }
 
 TEST(LoadBalancer, NextNodesAreForIdleRanksOnly) {
-  LoadBalancer broker(alone(3), {.plenty_nodes = 1});
-  broker.heard(1, with(1, 15, 0));
-  broker.heard(2, with(2, kInfiniteCost, 0));
+  LoadBalancer balancer(single_ranks(3), {.min_surplus_nodes = 1});
+  balancer.heard(1, with(1, 15, 0));
+  balancer.heard(2, with(2, kInfiniteCost, 0));
   message::Status status = with(0, 10, 0);
   status.surplus = {{10, 0, 1}};
-  broker.heard(0, status);
+  balancer.heard(0, status);
   const auto expect_a_node_for = [&](int rank, bool is_idle) {
-    const auto gift = broker.next();
-    ASSERT_TRUE(gift);
-    EXPECT_EQ(gift->to, rank);
-    EXPECT_EQ(gift->to_idle, is_idle);
-    EXPECT_EQ(gift->nodes, 1);
+    const auto transfer = balancer.next();
+    ASSERT_TRUE(transfer);
+    EXPECT_EQ(transfer->to, rank);
+    EXPECT_EQ(transfer->to_idle, is_idle);
+    EXPECT_EQ(transfer->nodes, 1);
   };
   expect_a_node_for(2, true);
   status.surplus = {{10, 1, 1}};
-  broker.heard(0, status);
+  balancer.heard(0, status);
   expect_a_node_for(1, false);
-  EXPECT_EQ(broker.surplus(), std::vector<message::Surplus>({{10, 0, 1}}));
+  EXPECT_EQ(balancer.surplus(), std::vector<message::Surplus>({{10, 0, 1}}));
 }
 
-TEST(LoadBalancer, RanksOfOneChildAreLeftToIt) {
-  LoadBalancer broker({{0, 1, 2}, {3, 4, 5}});
+TEST(LoadBalancer, LeavesTransfersWithinAChildToTheChild) {
+  LoadBalancer balancer({{0, 1, 2}, {3, 4, 5}});
   message::Status status;
   status.surplus = {{10, 100}};
   status.work_requests = {{1, true, kInfiniteCost}, {2, true, kInfiniteCost}};
-  broker.heard(0, status);
+  balancer.heard(0, status);
   std::vector<int> given;
-  while (const auto gift = broker.next()) {
-    EXPECT_EQ(gift->from, 0);
-    given.push_back(gift->to);
+  while (const auto transfer = balancer.next()) {
+    EXPECT_EQ(transfer->from, 0);
+    given.push_back(transfer->to);
   }
-  EXPECT_EQ(given, (std::vector<int>{3, 4})) << "there is nothing left for rank 5";
+  EXPECT_EQ(given, (std::vector<int>{3, 4})) << "no nodes are left for rank 5";
 }
 
-TEST(LoadBalancer, PassesOnWhatItCannotMatch) {
-  LoadBalancer broker({{0, 1}, {2, 3}});
+TEST(LoadBalancer, ForwardsUnmatchedSurplus) {
+  LoadBalancer balancer({{0, 1}, {2, 3}});
   message::Status status;
   using Surplus = std::vector<message::Surplus>;
   status.surplus = {{10, 6}, {11, 2}};
-  broker.heard(0, status);
+  balancer.heard(0, status);
   status.surplus = {{11, 90}};
-  broker.heard(1, status);
-  EXPECT_EQ(broker.surplus(), Surplus({{10, 6}, {11, 92}}));
-  EXPECT_TRUE(broker.work_requests().empty());
-  EXPECT_EQ(broker.donor(6), 0);
-  EXPECT_EQ(broker.surplus(), Surplus({{11, 92}}));
-  EXPECT_EQ(broker.donor(100), 1);
-  EXPECT_EQ(broker.surplus(), Surplus({{11, 2}}));
-  EXPECT_EQ(broker.donor(100), 0);
-  EXPECT_TRUE(broker.surplus().empty());
-  EXPECT_EQ(broker.donor(100), 0) << "one rank has to be the donor";
+  balancer.heard(1, status);
+  EXPECT_EQ(balancer.surplus(), Surplus({{10, 6}, {11, 92}}));
+  EXPECT_TRUE(balancer.work_requests().empty());
+  EXPECT_EQ(balancer.donor(6), 0);
+  EXPECT_EQ(balancer.surplus(), Surplus({{11, 92}}));
+  EXPECT_EQ(balancer.donor(100), 1);
+  EXPECT_EQ(balancer.surplus(), Surplus({{11, 2}}));
+  EXPECT_EQ(balancer.donor(100), 0);
+  EXPECT_TRUE(balancer.surplus().empty());
+  EXPECT_EQ(balancer.donor(100), 0) << "one rank has to be the donor";
 }
 
-}  // namespace broker_test
+}  // namespace load_balancer_test
 }  // namespace grove::detail

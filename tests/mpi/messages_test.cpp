@@ -32,7 +32,7 @@ Kind returned(const Kind& sent) {
   return std::get<Kind>(addressed.message);
 }
 
-TEST(Messages, ArriveAsTheyWereSent) {
+TEST(Messages, RoundTrip) {
   EXPECT_EQ(returned(some_status()), some_status());
   const auto order = returned(message::SendNodes{3, 64, true});
   EXPECT_EQ(order.to, 3);
@@ -40,26 +40,26 @@ TEST(Messages, ArriveAsTheyWereSent) {
   EXPECT_TRUE(order.to_idle);
 }
 
-TEST(Messages, TellWhatARankHasDone) {
+TEST(Messages, StatisticsRoundTripAndAddUp) {
   message::ProcessStatistics sent;
-  sent.survey.whole = {{{"prices_asked", 5}}, {.process = 9, .nodes = 1, .groups = 3}};
+  sent.survey.whole = {{{"branching_cost_queries", 5}}, {.process = 9, .nodes = 1, .groups = 3}};
   sent.survey.ranks[7] = {.expanded = 11, .open = 2, .bound = 40, .memory = 9};
-  const RunStatistics told = returned(sent).survey;
-  EXPECT_EQ(told.whole.counts, sent.survey.whole.counts);
-  EXPECT_EQ(told.whole.memory.groups, 3);
-  EXPECT_EQ(told.ranks.at(7).expanded, 11);
-  EXPECT_EQ(told.ranks.at(7).bound, 40);
+  const RunStatistics received = returned(sent).survey;
+  EXPECT_EQ(received.whole.counts, sent.survey.whole.counts);
+  EXPECT_EQ(received.whole.memory.groups, 3);
+  EXPECT_EQ(received.ranks.at(7).expanded, 11);
+  EXPECT_EQ(received.ranks.at(7).bound, 40);
   RunStatistics sum;
-  sum.whole.counts["prices_asked"] = 1;
+  sum.whole.counts["branching_cost_queries"] = 1;
   sum.ranks[6] = {};
-  add(told, sum);
-  EXPECT_EQ(sum.whole.counts.at("prices_asked"), 6);
+  add(received, sum);
+  EXPECT_EQ(sum.whole.counts.at("branching_cost_queries"), 6);
   EXPECT_EQ(sum.whole.memory.nodes, 1);
   EXPECT_EQ(sum.ranks.size(), 2);
   EXPECT_EQ(sum.ranks.at(7).open, 2);
 }
 
-TEST(Messages, AreAsLongWhateverMemoryAProcessTakes) {
+TEST(Messages, LengthDoesNotDependOnProcessMemory) {
   const auto length = [](std::int64_t memory) {
     message::ProcessStatistics account;
     account.survey.whole.memory.process = memory;
@@ -69,7 +69,7 @@ TEST(Messages, AreAsLongWhateverMemoryAProcessTakes) {
   EXPECT_EQ(length(0), length(std::int64_t{1} << 40));
 }
 
-TEST(Messages, PackFacts) {
+TEST(Messages, LearnedBoundsRoundTrip) {
   LearnedBound fact;
   for (const AgentIndex agent : {7, 19}) {
     SubproblemRecord& situation = fact.agents.emplace_back(3, agent);
@@ -84,9 +84,9 @@ TEST(Messages, PackFacts) {
   EXPECT_EQ(back.excess, fact.excess);
   EXPECT_THROW(message::unpacked(bytes.substr(1)), std::invalid_argument);
   EXPECT_THROW(message::unpacked(bytes + "x"), std::invalid_argument);
-  const auto told = returned(message::LearnedBounds{512, {bytes, bytes}});
-  EXPECT_EQ(told.reach, 512);
-  EXPECT_EQ(told.facts, (std::vector{bytes, bytes}));
+  const auto received = returned(message::LearnedBounds{512, {bytes, bytes}});
+  EXPECT_EQ(received.reach, 512);
+  EXPECT_EQ(received.facts, (std::vector{bytes, bytes}));
 }
 
 message::RequestPricing some_question() {
@@ -99,7 +99,7 @@ message::RequestPricing some_question() {
   return ask;
 }
 
-TEST(Messages, AskForPricesAndTellThem) {
+TEST(Messages, PricingRequestAndReplyRoundTrip) {
   const auto share = returned(some_question()).share;
   EXPECT_EQ(share.round, 7);
   EXPECT_EQ(share.first, 2);
@@ -122,13 +122,13 @@ TEST(Messages, AskForPricesAndTellThem) {
   EXPECT_EQ(answer.work, 11);
 }
 
-TEST(Messages, AreRefusedWhenCutShort) {
+TEST(Messages, TruncatedMessageIsRefused) {
   for (const std::string& whole : {bytes(some_status()), bytes(some_question())})
     for (std::size_t length = 0; length < whole.size(); ++length)
       EXPECT_THROW(message::message_of(whole.substr(0, length)), std::invalid_argument) << length;
 }
 
-TEST(Messages, NoiseIsRefusedOrTakenForOtherValues) {
+TEST(Messages, CorruptedMessageIsRefusedOrDecoded) {
   std::mt19937 dice(1);
   const std::string whole = bytes(some_status());
   for (int i = 0; i < 3000; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What one party of the protocol says when the others say just this: moments that schedules rarely
-// meet.
+// Replies of one party of the protocol to given messages of the others: cases that random schedules
+// rarely reach.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -45,25 +45,25 @@ struct Setting {
   std::deque<SingleTree> forests;
 };
 
-// Rank 1 of three, which hears what the test says.
-struct RankAlone : Setting {
+// Rank 1 of three, which receives the messages of the test.
+struct IsolatedRank : Setting {
   Outbox transport{1, 3};
   Rank rank{problem, options, limits, transport, stops};
   double now = 0;
 
-  // What it has said last after this, if anything.
+  // Returns the last status that the rank has sent after this message, or an empty status.
   message::Status status_after(int from, message::Message message) {
     rank.handle(from, std::move(message));
     rank.send_updates(now += 10);
-    const auto said = transport.sent<message::Status>(0);
-    return said.empty() ? message::Status() : said.back();
+    const auto sent = transport.sent<message::Status>(0);
+    return sent.empty() ? message::Status() : sent.back();
   }
 };
 
 using BatchReceived = std::vector<message::BatchReceived>;
 
-TEST(RankAlone, SaysThatABatchWasTakenOverWhenItWas) {
-  RankAlone r;
+TEST(IsolatedRank, ReportsAReceivedBatch) {
+  IsolatedRank r;
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
   const auto status = r.status_after(2, message::NodeBatch{0, {record_of(*root)}, {}});
@@ -71,20 +71,20 @@ TEST(RankAlone, SaysThatABatchWasTakenOverWhenItWas) {
   EXPECT_EQ(status.bound, root->bound());
 }
 
-TEST(RankAlone, SaysNothingOfABatchWhoseTreeItHasNotHeardOf) {
-  RankAlone r;
+TEST(IsolatedRank, DefersABatchOfAnUnknownTree) {
+  IsolatedRank r;
   const NodePtr root = r.new_root();
   const message::NodeBatch batch{0, {record_of(*root)}, {}};
   EXPECT_TRUE(r.status_after(2, batch).taken.empty());
   EXPECT_EQ(r.status_after(2, message::NodeBatch{}).taken, BatchReceived())
-      << "those of a rank keep order";
+      << "batches of one rank keep their order";
   const auto status = r.status_after(0, message::NewTree{0, record_of(root->tree())});
   EXPECT_EQ(status.taken, BatchReceived({{1, 2, 2}}));
   EXPECT_EQ(status.bound, root->bound());
 }
 
-TEST(RankAlone, SaysNothingOfABatchOfALaterEra) {
-  RankAlone r;
+TEST(IsolatedRank, DefersABatchOfALaterEpoch) {
+  IsolatedRank r;
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
   const auto early = r.status_after(2, message::NodeBatch{1, {record_of(*root)}, {}});
@@ -95,8 +95,8 @@ TEST(RankAlone, SaysNothingOfABatchOfALaterEra) {
   EXPECT_EQ(status.bound, root->bound());
 }
 
-TEST(RankAlone, CoversWhatItGaveAwayUntilItIsReleased) {
-  RankAlone r;
+TEST(IsolatedRank, CoversSentNodesUntilTheyAreReleased) {
+  IsolatedRank r;
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
   r.rank.handle(0, message::AssignNodes{{record_of(*root), record_of(*root)}, kInfiniteCost});
@@ -111,8 +111,8 @@ TEST(RankAlone, CoversWhatItGaveAwayUntilItIsReleased) {
   EXPECT_EQ(frontier.live(), 1);
 }
 
-TEST(RankAlone, AtANodeGivesItsNextOneToAnIdleRankOnly) {
-  RankAlone r;
+TEST(IsolatedRank, SendsItsNextNodeOnlyToAnIdleRank) {
+  IsolatedRank r;
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
   r.rank.handle(0, message::AssignNodes{{record_of(*root), record_of(*root)}, kInfiniteCost});
@@ -126,8 +126,8 @@ TEST(RankAlone, AtANodeGivesItsNextOneToAnIdleRankOnly) {
   EXPECT_TRUE(given.surplus.empty());
 }
 
-TEST(RankAlone, MayEndWithANodeUnfinished) {
-  RankAlone r;
+TEST(IsolatedRank, MayEndWithAnUnfinishedNode) {
+  IsolatedRank r;
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
   r.rank.handle(0, message::AssignNodes{{record_of(*root)}, kInfiniteCost});
@@ -141,8 +141,8 @@ TEST(RankAlone, MayEndWithANodeUnfinished) {
   EXPECT_TRUE(r.rank.search().unfinished()) << "no other rank holds it";
 }
 
-TEST(RankAlone, SaysMoreRarelyWhatCanWaitTheLongerARunTakes) {
-  RankAlone r;
+TEST(IsolatedRank, ReportIntervalGrowsWithTheRun) {
+  IsolatedRank r;
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
   r.rank.handle(0, message::AssignNodes{std::vector(300, record_of(*root)), kInfiniteCost});
@@ -162,8 +162,8 @@ TEST(RankAlone, SaysMoreRarelyWhatCanWaitTheLongerARunTakes) {
   EXPECT_LE(late, 10u);
 }
 
-TEST(RankAlone, IsInHasteAsLongAsOthersWaitForNodes) {
-  RankAlone r;
+TEST(IsolatedRank, ReducesBoundingEffortWhileOthersWaitForNodes) {
+  IsolatedRank r;
   SharedSearch& search = r.rank.search();
   const NodePtr root = r.new_root();
   r.rank.handle(0, message::NewTree{0, record_of(root->tree())});
@@ -175,7 +175,7 @@ TEST(RankAlone, IsInHasteAsLongAsOthersWaitForNodes) {
     r.rank.send_updates(r.now += 10);
   };
   give(20);
-  EXPECT_EQ(search.bounding_effort(), BoundingEffort::kCachedOnly) << "it is the beginning";
+  EXPECT_EQ(search.bounding_effort(), BoundingEffort::kCachedOnly) << "at the beginning of the run";
   for (int i = 0; i < 5; ++i) expand();
   EXPECT_EQ(search.bounding_effort(), BoundingEffort::kFull);
   r.rank.handle(0, message::SendNodes{2, 1, false});
@@ -188,7 +188,7 @@ TEST(RankAlone, IsInHasteAsLongAsOthersWaitForNodes) {
   EXPECT_EQ(search.bounding_effort(), BoundingEffort::kFull);
 }
 
-TEST(RankNodes, CoverAllRootsOfANewBeginningUntilARankSaysThatItHasThem) {
+TEST(RankNodes, CoverAllRootsOfARestartUntilRanksReportThem) {
   Setting s;
   Outbox transport(0, 2);
   ChildLinks children(transport, Hierarchy(2, 64), 1);
@@ -198,14 +198,14 @@ TEST(RankNodes, CoverAllRootsOfANewBeginningUntilARankSaysThatItHasThem) {
   std::int64_t entrusted = 0;
   for (int rank = 0; rank < 2; ++rank) {
     EXPECT_EQ(transport.sent<message::Restart>(rank).size(), 1);
-    const auto told = transport.sent<message::AssignNodes>(rank);
-    entrusted += std::ssize(told);
-    for (std::int64_t obeyed = 0; obeyed < std::ssize(told); ++obeyed) {
+    const auto assigned = transport.sent<message::AssignNodes>(rank);
+    entrusted += std::ssize(assigned);
+    for (std::int64_t pushed = 0; pushed < std::ssize(assigned); ++pushed) {
       EXPECT_EQ(nodes.bound(), roots.front()->bound());
       EXPECT_TRUE(nodes.any());
       message::Status status;
       status.epoch = 1;
-      status.entrusted = obeyed + 1;
+      status.entrusted = pushed + 1;
       nodes.update(rank, status);
     }
   }
@@ -214,7 +214,7 @@ TEST(RankNodes, CoverAllRootsOfANewBeginningUntilARankSaysThatItHasThem) {
   EXPECT_FALSE(nodes.any());
 }
 
-TEST(RankNodes, KnowNothingOfARankThatHasYetToHearOfANewBeginning) {
+TEST(RankNodes, AreNotEmptyBeforeAllRanksHaveRestarted) {
   Setting s;
   Outbox transport(0, 2);
   ChildLinks children(transport, Hierarchy(2, 64), 1);
@@ -228,7 +228,7 @@ TEST(RankNodes, KnowNothingOfARankThatHasYetToHearOfANewBeginning) {
   EXPECT_FALSE(nodes.any());
 }
 
-TEST(CoordinatorAlone, TellsAllAtOnceToLookForACheckpoint) {
+TEST(IsolatedCoordinator, RequestsSnapshotsFromAllRanksAtOnce) {
   Setting s;
   const TemporaryDirectory folder;
   s.options.checkpoints.directory = folder.path();
@@ -241,7 +241,7 @@ TEST(CoordinatorAlone, TellsAllAtOnceToLookForACheckpoint) {
     EXPECT_EQ(transport.sent<message::SnapshotRequest>(rank).size(), 1) << rank;
 }
 
-TEST(CoordinatorAlone, DoesWithoutTheSilentWhenALimitHasStruck) {
+TEST(IsolatedCoordinator, EndsWithoutUnresponsiveRanksAfterALimit) {
   Setting s;
   ManualClock clock(s.limits);
   const TemporaryDirectory folder;
@@ -254,12 +254,12 @@ TEST(CoordinatorAlone, DoesWithoutTheSilentWhenALimitHasStruck) {
   const auto wait = [&] { clock.advance(milliseconds(701)); };
   wait();
   EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0);
-  coordinator.handle(1,
-                     message::SnapshotTaken{});  // it counts: nothing was given up before a limit
+  coordinator.handle(
+      1, message::SnapshotTaken{});  // counts: before a limit the checkpoint is not abandoned
   s.limits.stop(StopReason::kTime);
-  EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0) << "it has just been heard";
+  EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0) << "a message of rank 1 has just arrived";
   clock.advance(milliseconds(699));
-  EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0) << "that is not long";
+  EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0) << "the timeout is not over";
   coordinator.step();
   EXPECT_TRUE(transport.sent<message::Terminate>(1).empty());
   clock.advance(milliseconds(1));
@@ -267,16 +267,16 @@ TEST(CoordinatorAlone, DoesWithoutTheSilentWhenALimitHasStruck) {
   coordinator.handle(2, message::SnapshotTaken{});  // late
   coordinator.step();
   EXPECT_EQ(transport.sent<message::Terminate>(1).size(), 1);
-  message::RankFinished send_finished;
-  send_finished.survey.ranks[1] = {};
-  coordinator.handle(1, std::move(send_finished));
+  message::RankFinished finished;
+  finished.survey.ranks[1] = {};
+  coordinator.handle(1, std::move(finished));
   EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0);
   wait();
-  EXPECT_EQ(coordinator.check_unresponsive_ranks(), 1) << "rank 2; this one does not stand still";
+  EXPECT_EQ(coordinator.check_unresponsive_ranks(), 1) << "rank 2; rank 0 is responsive";
   EXPECT_GT(coordinator.conclude().lower_bound, 0);
 }
 
-TEST(CoordinatorAlone, CallsNobodySilentForWhatWasBeforeTheLimit) {
+TEST(IsolatedCoordinator, MeasuresUnresponsivenessFromTheLimit) {
   for (const int ranks : {1, 3}) {
     Setting s;
     ManualClock clock(s.limits);
@@ -290,24 +290,25 @@ TEST(CoordinatorAlone, CallsNobodySilentForWhatWasBeforeTheLimit) {
     EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0);
     clock.advance(milliseconds(1399));
     EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0)
-        << "ranks may be in the midst of something";
+        << "ranks may be in the middle of a work item";
     clock.advance(milliseconds(1));
     EXPECT_EQ(coordinator.check_unresponsive_ranks(), ranks - 1);
   }
 }
 
-// Nine ranks in threes; that of ranks 3, 4 and 5, on rank 3, which hears what the test says.
-struct SubAlone {
+// Nine ranks in groups of three: the sub-coordinator of ranks 3, 4 and 5, on rank 3, which receives
+// the messages of the test.
+struct SubCoordinatorOfThree {
   Outbox transport{3, 9};
   SubCoordinator sub{transport, Hierarchy(9, 3), 1, Tuning()};
   double now = 0;
 
-  // What its superior has been told last after this.
+  // Returns the last status that the parent has received after this message.
   message::Status status_after(int from, message::Message message) {
     sub.handle(from, std::move(message));
     sub.send_updates(now += 10);
-    const auto said = transport.sent<message::Status>(0);
-    return said.empty() ? message::Status() : said.back();
+    const auto sent = transport.sent<message::Status>(0);
+    return sent.empty() ? message::Status() : sent.back();
   }
   static message::Status with(Cost bound, std::int64_t nodes) {
     message::Status status;
@@ -319,11 +320,11 @@ struct SubAlone {
   }
 };
 
-TEST(SubCoordinatorAlone, SaysTheLeastBoundOfAllBelow) {
-  SubAlone s;
-  EXPECT_EQ(s.status_after(4, SubAlone::with(20, 0)).bound, 20);
-  EXPECT_EQ(s.status_after(5, SubAlone::with(18, 0)).bound, 18);
-  EXPECT_EQ(s.status_after(5, SubAlone::with(25, 0)).bound, 20);
+TEST(IsolatedSubCoordinator, ReportsTheLeastBoundOfItsRanks) {
+  SubCoordinatorOfThree s;
+  EXPECT_EQ(s.status_after(4, SubCoordinatorOfThree::with(20, 0)).bound, 20);
+  EXPECT_EQ(s.status_after(5, SubCoordinatorOfThree::with(18, 0)).bound, 18);
+  EXPECT_EQ(s.status_after(5, SubCoordinatorOfThree::with(25, 0)).bound, 20);
   message::Status evicted;
   evicted.evicted_bound = 19;
   const auto all = s.status_after(4, evicted);
@@ -332,9 +333,9 @@ TEST(SubCoordinatorAlone, SaysTheLeastBoundOfAllBelow) {
   EXPECT_TRUE(all.live);
 }
 
-TEST(SubCoordinatorAlone, CoversWhatItPassesOnUntilAChildSaysThatItHasIt) {
+TEST(IsolatedSubCoordinator, CoversAssignedNodesUntilAChildReportsThem) {
   Setting setting;
-  SubAlone s;
+  SubCoordinatorOfThree s;
   const NodePtr root = setting.new_root();
   const message::AssignNodes nodes{{record_of(*root)}, kInfiniteCost};
   auto status = s.status_after(0, nodes);
@@ -342,15 +343,15 @@ TEST(SubCoordinatorAlone, CoversWhatItPassesOnUntilAChildSaysThatItHasIt) {
   EXPECT_EQ(status.bound, root->bound());
   EXPECT_TRUE(status.live);
   ASSERT_EQ(s.transport.sent<message::AssignNodes>(3).size(), 1);
-  message::Status has_it = SubAlone::with(root->bound() + 1, 0);
+  message::Status has_it = SubCoordinatorOfThree::with(root->bound() + 1, 0);
   has_it.entrusted = 1;
   status = s.status_after(3, has_it);
   EXPECT_EQ(status.bound, root->bound() + 1);
 }
 
-TEST(SubCoordinatorAlone, ReleasesWhatWentBetweenItsRanksAndPassesOnTheRest) {
-  SubAlone s;
-  message::Status took = SubAlone::with(20, 0);
+TEST(IsolatedSubCoordinator, ReleasesBatchesBetweenItsRanksAndForwardsTheRest) {
+  SubCoordinatorOfThree s;
+  message::Status took = SubCoordinatorOfThree::with(20, 0);
   took.taken = {{4, 5, 3}, {4, 8, 1}};
   const auto status = s.status_after(4, took);
   EXPECT_EQ(status.taken, BatchReceived({{4, 8, 1}}));
@@ -359,11 +360,11 @@ TEST(SubCoordinatorAlone, ReleasesWhatWentBetweenItsRanksAndPassesOnTheRest) {
   ASSERT_EQ(released.size(), 1);
   EXPECT_EQ(released[0].to, 4);
   EXPECT_EQ(released[0].batches, 3);
-  EXPECT_TRUE(s.status_after(5, SubAlone::with(30, 0)).taken.empty()) << "once";
+  EXPECT_TRUE(s.status_after(5, SubCoordinatorOfThree::with(30, 0)).taken.empty()) << "once";
 }
 
-TEST(SubCoordinatorAlone, IsOfTheOldEraUntilAllBelowHaveBegunAnew) {
-  SubAlone s;
+TEST(IsolatedSubCoordinator, KeepsItsEpochUntilAllItsRanksHaveRestarted) {
+  SubCoordinatorOfThree s;
   EXPECT_EQ(s.status_after(0, message::Restart{7}).epoch, 0);
   message::Status restarted;
   restarted.epoch = 1;
@@ -372,29 +373,29 @@ TEST(SubCoordinatorAlone, IsOfTheOldEraUntilAllBelowHaveBegunAnew) {
   for (const int rank : {3, 4, 5}) EXPECT_EQ(s.transport.sent<message::Restart>(rank).size(), 1);
 }
 
-TEST(SubCoordinatorAlone, ServesItsOwnAndOffersWhatIsLeft) {
-  SubAlone s;
-  const auto status = s.status_after(4, SubAlone::with(20, 200));
+TEST(IsolatedSubCoordinator, BalancesItsRanksAndOffersTheRest) {
+  SubCoordinatorOfThree s;
+  const auto status = s.status_after(4, SubCoordinatorOfThree::with(20, 200));
   const auto orders = s.transport.sent<message::SendNodes>(4);
   ASSERT_EQ(orders.size(), 2);
   EXPECT_EQ(orders[0].to, 3);
   EXPECT_EQ(orders[1].to, 5);
   ASSERT_EQ(status.surplus.size(), 1);
   EXPECT_EQ(status.surplus[0].nodes, 200 - orders[0].count - orders[1].count);
-  EXPECT_TRUE(status.work_requests.empty()) << "those who wait for a gift want none";
+  EXPECT_TRUE(status.work_requests.empty()) << "ranks that wait for a transfer request no work";
   s.sub.handle(0, message::SendNodes{7, 10});
   ASSERT_EQ(s.transport.sent<message::SendNodes>(4).size(), 3);
   EXPECT_EQ(s.transport.sent<message::SendNodes>(4).back().to, 7);
 }
 
-TEST(SubCoordinatorAlone, PassesOnAnOrderThatNobodyHasNodesFor) {
-  SubAlone s;
+TEST(IsolatedSubCoordinator, ForwardsSendNodesEvenIfNoRankHasNodes) {
+  SubCoordinatorOfThree s;
   s.sub.handle(0, message::SendNodes{7, 10});
-  EXPECT_EQ(s.transport.sent<message::SendNodes>(3).size(), 1) << "the receiver waits for it";
+  EXPECT_EQ(s.transport.sent<message::SendNodes>(3).size(), 1) << "the receiver waits for a batch";
 }
 
-TEST(SubCoordinatorAlone, DropsPlansNoBetterThanTheIncumbentOnly) {
-  SubAlone s;
+TEST(IsolatedSubCoordinator, DropsOnlyPlansThatDoNotImproveTheIncumbent) {
+  SubCoordinatorOfThree s;
   Plan plan;
   plan.cost = 50;
   s.sub.handle(0, message::Incumbent{plan});
@@ -406,26 +407,26 @@ TEST(SubCoordinatorAlone, DropsPlansNoBetterThanTheIncumbentOnly) {
   EXPECT_EQ(s.transport.sent<message::NewPlan>(0).size(), 2) << "the first is not yet checked";
 }
 
-TEST(SubCoordinatorAlone, SaysFarewellForAllAndThatAlone) {
-  SubAlone s;
+TEST(IsolatedSubCoordinator, SendsOneRankFinishedForAllItsRanks) {
+  SubCoordinatorOfThree s;
   s.sub.handle(0, message::Terminate{});
-  s.status_after(4, SubAlone::with(20, 8));
+  s.status_after(4, SubCoordinatorOfThree::with(20, 8));
   for (const int rank : {3, 4, 5}) {
     EXPECT_TRUE(s.transport.sent<message::RankFinished>(0).empty());
-    message::RankFinished send_finished;
-    send_finished.survey.whole.counts["nodes_expanded"] = rank;
-    send_finished.survey.ranks[rank].expanded = rank;
-    send_finished.messages = {{8, 1}, {rank, 2}};
-    s.sub.handle(rank, std::move(send_finished));
+    message::RankFinished finished;
+    finished.survey.whole.counts["nodes_expanded"] = rank;
+    finished.survey.ranks[rank].expanded = rank;
+    finished.messages = {{8, 1}, {rank, 2}};
+    s.sub.handle(rank, std::move(finished));
   }
   s.sub.send_updates(s.now += 10);
   EXPECT_TRUE(s.transport.sent<message::Status>(0).empty());
   EXPECT_TRUE(s.transport.sent<message::SendNodes>(4).empty());
-  const auto said = s.transport.sent<message::RankFinished>(0);
-  ASSERT_EQ(said.size(), 1);
-  EXPECT_EQ(said[0].survey.whole.counts.at("nodes_expanded"), 12);
-  EXPECT_EQ(said[0].survey.ranks.size(), 3);
-  EXPECT_EQ(said[0].messages,
+  const auto sent = s.transport.sent<message::RankFinished>(0);
+  ASSERT_EQ(sent.size(), 1);
+  EXPECT_EQ(sent[0].survey.whole.counts.at("nodes_expanded"), 12);
+  EXPECT_EQ(sent[0].survey.ranks.size(), 3);
+  EXPECT_EQ(sent[0].messages,
             (std::map<std::int32_t, std::int64_t>{{3, 2}, {4, 2}, {5, 2}, {8, 3}}));
   s.sub.handle(0, message::MessageCounts{{{3, 7}, {5, 9}}});
   EXPECT_EQ(s.transport.sent<message::MessageCounts>(5).at(0).messages.at(5), 9);

@@ -15,22 +15,22 @@
 namespace grove::detail::testing {
 namespace {
 
-constexpr double kTick = 1e-4;    // about what a step may take
-constexpr int kLongQuiet = 3000;  // steps of a rank; statuses wait for fewer, trees without nodes
+constexpr double kTick = 1e-4;    // s, about the duration of a step
+constexpr int kLongQuiet = 3000;  // steps of a rank; longer than any status or new tree is delayed
 
-using Dice = std::mt19937_64;
+using Rng = std::mt19937_64;
 
-bool chance(Dice& dice, int percent) {
-  return static_cast<int>(dice() % 100) < percent;
+bool chance(Rng& random, int percent) {
+  return static_cast<int>(random() % 100) < percent;
 }
 
-// A worker whose turns other things may come between.
+// A worker whose work items are split into parts, so that other events may come between them.
 struct SlowWorker : Worker {
   using Worker::Worker;
   std::optional<Worker::WorkItem> turn;
   bool performed = false;
 
-  // False: there was nothing to do.
+  // Returns false if there was nothing to do.
   bool step() {
     if (!turn) {
       turn = choose();
@@ -48,19 +48,19 @@ struct SlowWorker : Worker {
   }
 };
 
-// What kind of trouble a schedule is.
-struct Temper {
-  explicit Temper(Dice& dice)
-      : talk(pick(dice, {10, 30, 30, 60})),
-        freeze_once_in(pick(dice, {500, 500, 3000})),
-        freeze_on_news(pick(dice, {0, 0, 1, 5})),
-        longest_freeze(pick(dice, {300, 1500, 5000})) {}
+// Random parameters of a schedule.
+struct Disturbances {
+  explicit Disturbances(Rng& random)
+      : talk(pick(random, {10, 30, 30, 60})),
+        freeze_once_in(pick(random, {500, 500, 3000})),
+        freeze_on_news(pick(random, {0, 0, 1, 5})),
+        longest_freeze(pick(random, {300, 1500, 5000})) {}
 
-  static int pick(Dice& dice, const std::vector<int>& values) {
-    return values[dice() % values.size()];
+  static int pick(Rng& random, const std::vector<int>& values) {
+    return values[random() % values.size()];
   }
 
-  int talk;            // percent of the steps
+  int talk;            // polls for messages, in percent of the steps
   int freeze_once_in;  // steps
   int freeze_on_news;  // percent
   int longest_freeze;  // steps
@@ -77,50 +77,51 @@ struct Process {
   }
 
   struct Done {
-    bool heard = false;
+    bool received = false;
     bool worked = false;
   };
 
-  // One thing that this process can do.
-  Done step(Dice& dice, const Temper& temper, double now) {
-    if (said_farewell || chance(dice, temper.talk)) return {member.exchange_messages(now), false};
-    SlowWorker& worker = *workers[dice() % workers.size()];
+  // Does one of the things that this process can do next.
+  Done step(Rng& random, const Disturbances& disturbances, double now) {
+    if (finished || chance(random, disturbances.talk))
+      return {member.exchange_messages(now), false};
+    SlowWorker& worker = *workers[random() % workers.size()];
     if (!member.rank().ended() || worker.turn) return {false, worker.step()};
-    say_farewell();
+    try_to_finish();
     return {false, true};
   }
 
-  void say_farewell() {
+  void try_to_finish() {
     Stats stats;
     for (const auto& worker : workers) {
       if (worker->turn) return;
       worker->add_counts(stats);
     }
     member.rank().send_finished(stats);
-    said_farewell = true;
+    finished = true;
   }
 
   Limits limits;
   RankProcess member;
   std::vector<std::unique_ptr<SlowWorker>> workers;
-  bool said_farewell = false;
+  bool finished = false;
   std::int64_t frozen_until = 0;
 };
 
-// Each link has a pace of its own: what one rank says to another may be overtaken for long by what
-// both say to the coordinator.
-SimulatedNetwork::Delay random_delays(Dice& dice, int ranks) {
+// Each link has its own delay: a message between two ranks may be overtaken by later messages that
+// both send to the coordinator.
+SimulatedNetwork::DelayModel random_delays(Rng& random, int ranks) {
   const std::vector<double> paces{0, 1, 10, 100, 3000, 20'000};
-  const double usual = paces[dice() % 4];
+  const double usual = paces[random() % 4];
   std::vector<double> typical;
   for (int link = 0; link < ranks * ranks; ++link)
-    typical.push_back(kTick * (chance(dice, 70) ? usual : paces[dice() % paces.size()]));
-  if (chance(dice, 30))  // one rank is the last to be told
-    typical[dice() % static_cast<std::size_t>(ranks)] = kTick * 1000;
-  return [&dice, typical, ranks](int from, int to, std::size_t) {
+    typical.push_back(kTick * (chance(random, 70) ? usual : paces[random() % paces.size()]));
+  if (chance(random, 30))  // rank 0 reaches one rank much later than the others
+    typical[random() % static_cast<std::size_t>(ranks)] = kTick * 1000;
+  return [&random, typical, ranks](int from, int to, std::size_t) {
     const double most = typical[static_cast<std::size_t>(from * ranks + to)];
-    const double now_and_then = most < kTick * 1000 && chance(dice, 10) ? 20 : 1;
-    return std::uniform_real_distribution<double>(0, now_and_then * most + kTick)(dice);
+    const double now_and_then = most < kTick * 1000 && chance(random, 10) ? 20 : 1;
+    return std::uniform_real_distribution<double>(0, now_and_then * most + kTick)(random);
   };
 }
 
@@ -129,8 +130,8 @@ SimulatedNetwork::Delay random_delays(Dice& dice, int ranks) {
 Solution solve_in_random_order(const Instance& instance, const SolveOptions& options,
                                const Schedule& schedule, RunObserver& observer,
                                const std::function<bool(Cost)>& look, ScheduleCounts& counts) {
-  Dice dice(schedule.seed);
-  SimulatedNetwork network(schedule.ranks, random_delays(dice, schedule.ranks));
+  Rng random(schedule.seed);
+  SimulatedNetwork network(schedule.ranks, random_delays(random, schedule.ranks));
   const Limits no_limits;
   const Problem problem(instance, no_limits);
   std::deque<Process> processes;
@@ -142,7 +143,7 @@ Solution solve_in_random_order(const Instance& instance, const SolveOptions& opt
       if (!process.member.left()) return false;
     return true;
   };
-  const auto under_way = [&] {
+  const auto in_transit = [&] {
     for (int rank = 0; rank < schedule.ranks; ++rank)
       if (network.next_arrival(rank) < std::numeric_limits<double>::infinity()) return true;
     return false;
@@ -152,32 +153,34 @@ Solution solve_in_random_order(const Instance& instance, const SolveOptions& opt
       if (process.frozen_until > counts.steps) return true;
     return false;
   };
-  const Temper temper(dice);
+  const Disturbances disturbances(random);
   std::int64_t quiet = 0;  // steps
-  std::int64_t turns = 0;  // parts of them
+  std::int64_t turns = 0;  // steps of workers
   while (!all_left() && counts.steps < schedule.most_steps && turns < schedule.most_turns &&
          !counts.stuck) {
     ++counts.steps;
     network.advance_to(network.now() + kTick);
-    Process& process = processes[dice() % processes.size()];
+    Process& process = processes[random() % processes.size()];
     if (process.frozen_until > counts.steps) continue;
-    const auto done = process.step(dice, temper, network.now());
-    const bool is_calm = counts.steps > schedule.most_steps / 4;  // or few would come to their end
-    if (!is_calm && (static_cast<int>(dice() % static_cast<unsigned>(temper.freeze_once_in)) == 0 ||
-                     (done.heard && chance(dice, temper.freeze_on_news))))
+    const auto done = process.step(random, disturbances, network.now());
+    const bool is_calm = counts.steps > schedule.most_steps / 4;  // otherwise few runs would end
+    if (!is_calm &&
+        (static_cast<int>(random() % static_cast<unsigned>(disturbances.freeze_once_in)) == 0 ||
+         (done.received && chance(random, disturbances.freeze_on_news))))
       process.frozen_until =
-          counts.steps + static_cast<int>(dice() % static_cast<unsigned>(temper.longest_freeze));
-    if (static_cast<int>(dice() % 100'000) < schedule.strikes) {
-      process.limits.stop(chance(dice, 50) ? StopReason::kTime : StopReason::kInterrupt);
-      counts.struck = true;
+          counts.steps +
+          static_cast<int>(random() % static_cast<unsigned>(disturbances.longest_freeze));
+    if (static_cast<int>(random() % 100'000) < schedule.limit_rate) {
+      process.limits.stop(chance(random, 50) ? StopReason::kTime : StopReason::kInterrupt);
+      counts.limit_reached = true;
     }
     turns += done.worked;
     if (look(coordinator.lower_bound())) break;
-    quiet = done.heard || done.worked || under_way() || any_frozen() ? 0 : quiet + 1;
+    quiet = done.received || done.worked || in_transit() || any_frozen() ? 0 : quiet + 1;
     counts.stuck = quiet > kLongQuiet * schedule.ranks;
   }
   counts.ended = all_left();
-  counts.left_messages = counts.ended && under_way();
+  counts.left_messages = counts.ended && in_transit();
   for (int rank = 0; rank < schedule.ranks; ++rank) counts.messages += network.at(rank).messages();
   return coordinator.conclude();
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A distributed search inside one thread, in which whatever can happen next happens in random
-// order.
+// Runs a distributed search in one thread, with its events in random order.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +13,27 @@ namespace grove::detail::testing {
 
 struct Schedule {
   int ranks = 2;
-  int workers = 1;  // of each rank
+  int workers = 1;  // per rank
   std::uint64_t seed = 0;
   std::int64_t most_steps = 60'000;
-  std::int64_t most_turns = 5'000;  // of workers, in three parts each
-  int strikes = 0;                  // in a hundred thousand steps, of a limit on one rank
+  std::int64_t most_turns = 5'000;  // limit on the steps of workers; a work item takes three
+  int limit_rate = 0;  // probability per step, in 1/100,000, that one rank reaches a limit
 };
 
 struct ScheduleCounts {
   std::int64_t steps = 0;
   std::int64_t messages = 0;
-  bool ended = false;          // else it was killed, or most_steps were made
-  bool struck = false;         // by a limit
-  bool stuck = false;          // nothing is under way, nobody does anything, and it is not over
-  bool left_messages = false;  // that nobody heard, though all have left
+  bool ended = false;          // false: killed, or most_steps or most_turns reached
+  bool limit_reached = false;  // some rank reached a limit
+  bool stuck = false;  // no message is in transit, no rank does anything, and the run has not ended
+  bool left_messages = false;  // a message was not received although all ranks have left
 };
 
-// Solves `instance`: each step is a part of a worker's turn, a look at the messages by one rank, or
-// the passing of time; messages are late by random amounts, and ranks stand still for long, some
-// of them just when they have heard something. After every step `look` is told the lower bound; if
-// it says so, all are killed. Throws what the search throws.
+// Solves `instance`. Each step is a part of a worker's work item, one poll for messages by one
+// rank, or the passing of time. Messages are delayed by random times, and ranks stop responding for
+// long times, some of them just after they have received a message. After every step `look` is
+// called with the lower bound; if it returns true, all ranks are killed. Rethrows exceptions of the
+// search.
 Solution solve_in_random_order(const Instance& instance, const SolveOptions& options,
                                const Schedule& schedule, RunObserver& observer,
                                const std::function<bool(Cost)>& look, ScheduleCounts& counts);

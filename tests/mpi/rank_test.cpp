@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a rank says of the nodes that it holds, and when.
+// When and how a rank reports the nodes that it holds.
 #include "mpi/rank.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/run_observer.h"
-#include "engine/techniques_of.h"
+#include "engine/solve.h"
 #include "mpi/coordinator.h"
 #include "search/expander.h"
 #include "tests/mpi/outbox.h"
@@ -20,7 +20,8 @@
 namespace grove::detail {
 namespace rank_test {
 
-// A rank that has been given the root of a tree, and an incumbent of `excess` over its bound.
+// A rank that has received the root of a tree, and an incumbent that costs `excess` more than its
+// bound (none if excess < 0).
 class RankWithRoot {
  public:
   RankWithRoot(Omega omega, Cost excess)
@@ -39,21 +40,21 @@ class RankWithRoot {
     rank_.handle(0, message::Incumbent{plan});
   }
 
-  // What it says at that time, if anything.
+  // Returns the status that the rank sends at that time, or nullopt if it sends none.
   std::optional<message::Status> send_updates(double now) {
     rank_.send_updates(now);
-    std::optional<message::Status> said;
+    std::optional<message::Status> reported;
     for (const message::Message& message : network_.take())
-      if (const auto* status = std::get_if<message::Status>(&message)) said = *status;
-    return said;
+      if (const auto* status = std::get_if<message::Status>(&message)) reported = *status;
+    return reported;
   }
-  // False: there is nothing left.
+  // Returns false if no node is left.
   bool expand() {
     SharedSearch& search = rank_.search();
     const NodePtr node = search.take();
     if (!node) return false;
     expander_.turn_to(search.memory());
-    search.finish(node, expander_.expand(node, search.ledger().cutoff(), limits_), 0);
+    search.finish(node, expander_.expand(node, search.shared_bounds().cutoff(), limits_), 0);
     return true;
   }
   Cost bound() const { return bound_; }
@@ -79,44 +80,44 @@ class RankWithRoot {
   Cost bound_ = 0;
 };
 
-TEST(Rank, OffersNodesThatTheEndWaitsFor) {
+TEST(Rank, IsNotIdleIfItsNodesMayBeRequired) {
   for (const Cost excess : {-1, 1, 50}) {
     RankWithRoot rank(Omega(), excess);
     const auto status = rank.send_updates(0);
     ASSERT_TRUE(status);
     EXPECT_EQ(status->work_requests, (std::vector<message::WorkRequest>{{0, false, rank.bound()}}));
-    EXPECT_TRUE(status->surplus.empty()) << "it has but one";
+    EXPECT_TRUE(status->surplus.empty()) << "it has only one node";
   }
 }
 
-TEST(Rank, IsIdleWithNodesThatTheIncumbentIsWithinOmegaOf) {
+TEST(Rank, IsIdleIfAllNodesAreWithinOmegaOfTheIncumbent) {
   RankWithRoot rank(Omega::parse("0.5"), 1);
   const auto status = rank.send_updates(0);
   ASSERT_TRUE(status);
   EXPECT_EQ(status->work_requests, (std::vector<message::WorkRequest>{{0, true, kInfiniteCost}}));
   EXPECT_TRUE(status->surplus.empty());
-  EXPECT_TRUE(status->live) << "it counts all the same";
+  EXPECT_TRUE(status->live) << "its nodes still count";
   EXPECT_EQ(status->bound, rank.bound());
   EXPECT_EQ(status->open, 1);
 }
 
-TEST(Rank, SaysAtOnceThatItHasFarMoreToSpare) {
+TEST(Rank, ReportsALargeSurplusAtOnce) {
   RankWithRoot rank(Omega(), -1);
   const auto first = rank.send_updates(0);
   ASSERT_TRUE(first);
-  std::int64_t said = first->open;
+  std::int64_t reported = first->open;
   int statuses = 0;
   int expansions = 0;
   while (rank.open() < 200 && expansions < 5000 && rank.expand()) {
     ++expansions;
     if (const auto status = rank.send_updates(0)) {
       ++statuses;
-      said = status->open;
+      reported = status->open;
     }
-    EXPECT_LE(rank.open() / 2, 2 * (said / 2));
+    EXPECT_LE(rank.open() / 2, 2 * (reported / 2));
   }
-  EXPECT_GE(rank.open(), 200) << "too few nodes to be a test";
-  EXPECT_LT(statuses, expansions / 2) << "what changed little can wait";
+  EXPECT_GE(rank.open(), 200) << "too few nodes to test anything";
+  EXPECT_LT(statuses, expansions / 2) << "small changes are reported later";
 }
 
 }  // namespace rank_test

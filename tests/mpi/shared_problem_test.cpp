@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Problems that ranks make together, with threads for ranks: they say what one says that was made
-// alone, and lie in the memory shared.
+// Problems that several ranks build together, with threads in place of ranks. They equal a problem
+// that one rank builds, and lie in shared memory.
 #include "mpi/shared_problem.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,8 @@
 namespace grove::detail {
 namespace shared_problem_test {
 
-// As a window: of all members, aligned, and not zero but at the beginning.
+// Memory like that of an MPI window: common to all members, aligned, and zero only at the
+// beginning.
 struct Host {
   Host(std::size_t bytes, std::size_t zero_bytes)
       : size(bytes), memory(static_cast<std::byte*>(::operator new(bytes, kAligned))) {
@@ -47,7 +48,7 @@ class Part : public SharedMemory {
   }
 };
 
-// Where it first differs from one made alone; empty: nowhere.
+// Returns the first difference from a problem that one rank built, or an empty string.
 std::string difference(const Problem& shared, const Problem& alone) {
   const Instance& instance = alone.instance;
   const State states = instance.world().state_count();
@@ -88,7 +89,7 @@ std::string difference(const Problem& shared, const Problem& alone) {
   return "";
 }
 
-// Made by so many members at once.
+// Compares problems that `members` members build concurrently.
 void expect_same(const Instance& instance, int members, const std::string& which) {
   const ArrayLayout layout = array_layout(instance);
   const Host host(SharedArrays::bytes(layout), SharedArrays::zero_bytes(layout));
@@ -106,19 +107,19 @@ void expect_same(const Instance& instance, int members, const std::string& which
     });
 }
 
-TEST(SharedProblem, SaysOfACrowdWhatOneMadeAloneSays) {
+TEST(SharedProblem, EqualsUnsharedProblemOfADenseInstance) {
   for (const std::uint64_t seed : {1, 2, 3})
-    expect_same(testing::random_crowd({}, seed), 3, "a crowd");
+    expect_same(testing::random_crowd({}, seed), 3, "a dense instance");
 }
 
-// Grids and roads, agents that turn, work that takes time.
-TEST(SharedProblem, SaysOfAnyWorldWhatOneMadeAloneSays) {
+// Grids and roadmaps, agents that turn, and tasks with a duration.
+TEST(SharedProblem, EqualsUnsharedProblemOfAnyWorld) {
   for (int seed = 1; seed <= testing::fuzz_rounds(100); ++seed)
     expect_same(fuzz::random_world(static_cast<std::uint64_t>(seed)).build(), 2,
                 std::to_string(seed));
 }
 
-// Twenty stops are too many for a table, fourteen are not.
+// Twenty stops are too many for a sequence table; fourteen are not.
 Instance agents_with_many_stops() {
   InstanceBuilder builder(Grid(30, 30, std::vector<bool>(900, true)));
   builder.add_agent("a", {0, 0}, Position{29, 29});
@@ -131,11 +132,11 @@ Instance agents_with_many_stops() {
   return std::move(builder).build();
 }
 
-TEST(SharedProblem, SaysOfManyStopsWhatOneMadeAloneSays) {
+TEST(SharedProblem, EqualsUnsharedProblemWithManyStops) {
   expect_same(agents_with_many_stops(), 2, "many stops");
 }
 
-TEST(SharedProblem, LiesInTheMemoryShared) {
+TEST(SharedProblem, LiesInSharedMemory) {
   const Instance instance = agents_with_many_stops();
   const ArrayLayout layout = array_layout(instance);
   const Host host(SharedArrays::bytes(layout), SharedArrays::zero_bytes(layout));
@@ -156,7 +157,7 @@ TEST(SharedProblem, LiesInTheMemoryShared) {
   EXPECT_TRUE(is_there(ArrayKind::kSequenceTable, 1));
 }
 
-TEST(SharedProblem, IsOneOfEachRankWhereNothingIsShared) {
+TEST(SharedProblem, IsLocalWithoutSharedMemory) {
   const Instance instance = agents_with_many_stops();
   const SharedMemory none;
   const SharedProblem problem(instance, Limits(), 1, none);

@@ -6,7 +6,7 @@
 namespace grove::detail {
 namespace simulated_network_test {
 
-TEST(SimulatedNetwork, DeliversWhenTheTimeHasCome) {
+TEST(SimulatedNetwork, DeliversAfterTheDelay) {
   SimulatedNetwork network(2, [](int, int, std::size_t bytes) { return double(bytes); });
   network.at(0).send(1, "abc");
   EXPECT_EQ(network.next_arrival(1), 3);
@@ -21,7 +21,7 @@ TEST(SimulatedNetwork, DeliversWhenTheTimeHasCome) {
   EXPECT_EQ(network.at(0).bytes(), 3);
 }
 
-TEST(SimulatedNetwork, KeepsTheOrderOfEachPairOnly) {
+TEST(SimulatedNetwork, KeepsOrderOnlyWithinEachPair) {
   std::vector<double> delays{9, 1, 2};
   std::size_t next = 0;
   SimulatedNetwork network(3, [&](int, int, std::size_t) { return delays[next++]; });

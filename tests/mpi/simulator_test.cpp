@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Simulated runs: the same nodes as a real one where there is one rank, the same answer whatever
-// the number of ranks and the machine, and figures that add up.
+// Simulated runs: with one rank they expand the same nodes as a real run, the answer does not
+// depend on the number of ranks or the machine, and the figures are consistent.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,12 +9,12 @@
 
 #include "model/check.h"
 #include "mpi/simulator/busy_profile.h"
-#include "mpi/simulator/mdd_interner.h"
 #include "mpi/simulator/scaling_table.h"
+#include "mpi/simulator/simulated_worker.h"
 #include "mpi/simulator/simulation.h"
 #include "mpi/simulator/timed_transport.h"
 #include "tests/primal/crowd.h"
-#include "tests/search/node_at_hand.h"
+#include "tests/search/root_fixture.h"
 #include "tests/support/clocks.h"
 
 namespace grove::detail {
@@ -22,7 +22,7 @@ namespace simulator_test {
 
 using testing::random_crowd;
 
-// An instance that plain CBS needs many nodes for, and its optimum.
+// An instance for which plain CBS needs many nodes, and its optimal solution.
 struct Case {
   Instance instance;
   Solution truth;
@@ -95,10 +95,10 @@ TEST(Simulator, AnyNumberOfRanksFindsTheOptimum) {
         EXPECT_TRUE(check(c.instance, run.solution).empty());
         sent += run.solution.stats.counts.at("nodes_sent");
       }
-  EXPECT_GT(sent, 500) << "too few nodes travelled to be a test";
+  EXPECT_GT(sent, 500) << "too few nodes were sent to test anything";
 }
 
-TEST(Simulator, NoMachineMakesAWrongAnswer) {
+TEST(Simulator, AnswerDoesNotDependOnTheMachine) {
   const std::vector<Machine> machines = {
       {.latency = 0, .message_cost = 0, .poll = 0, .seconds_per_work = 1e-6},
       {.latency = 1e-2, .seconds_per_work = 1e-6},
@@ -116,7 +116,7 @@ TEST(Simulator, NoMachineMakesAWrongAnswer) {
     }
 }
 
-TEST(Simulator, RanksFindPricesForRankZero) {
+TEST(Simulator, RanksPriceSubproblemsForRankZero) {
   const Machine quick{
       .latency = 0, .bandwidth = 1e15, .message_cost = 0, .poll = 0, .seconds_per_work = 1e-6};
   std::int64_t prices = 0;
@@ -124,22 +124,22 @@ TEST(Simulator, RanksFindPricesForRankZero) {
     for (const int ranks : {1, 3, 16}) {
       SolveOptions options = with_start(c);
       options.techniques = options.techniques.with(Technique::kLagrangian);
-      options.tuning.lagrangian_agents = 1;
-      options.tuning.lagrangian_begins_work = 0;
-      options.tuning.lagrangian_share_work = options.tuning.lagrangian_step_work = 1;
+      options.tuning.lagrangian_min_agents = 1;
+      options.tuning.lagrangian_start_work = 0;
+      options.tuning.lagrangian_min_remote_work = options.tuning.lagrangian_step_work = 1;
       const SimulatedRun run = run_of(c, options, ranks, quick);
       ASSERT_TRUE(run.ended);
       EXPECT_EQ(run.solution.status, Status::kOptimal);
       EXPECT_EQ(run.solution.lower_bound, c.truth.lower_bound);
       const auto& counts = run.solution.stats.counts;
       EXPECT_GT(counts.at("lagrangian_rounds"), 0);
-      EXPECT_TRUE(ranks > 1 || !counts.contains("prices_of_ranks"));
-      if (ranks > 1) prices += counts.at("prices_of_ranks");
+      EXPECT_TRUE(ranks > 1 || !counts.contains("remote_pricings"));
+      if (ranks > 1) prices += counts.at("remote_pricings");
     }
   EXPECT_GT(prices, 10);
 }
 
-TEST(Simulator, TheSameFiguresMakeTheSameRun) {
+TEST(Simulator, RunIsRepeatable) {
   const Case& c = cases().front();
   const auto table = [&] {
     std::vector<std::string> lines;
@@ -154,7 +154,7 @@ TEST(Simulator, TheSameFiguresMakeTheSameRun) {
   EXPECT_EQ(table(), table());
 }
 
-TEST(Simulator, FiguresAddUp) {
+TEST(Simulator, StatisticsAreConsistent) {
   for (const Case& c : cases()) {
     const SimulatedRun alone = run_of(c, with_start(c), 1);
     for (const int ranks : {1, 5, 32}) {
@@ -172,7 +172,8 @@ TEST(Simulator, FiguresAddUp) {
       const double profiled = std::accumulate(run.busy.begin(), run.busy.end(), 0.0) * run.wall_s /
                               SimulatedRun::kParts;
       EXPECT_NEAR(profiled, busy, 1e-6 * busy + 1e-9);
-      EXPECT_LE(busy, work * kMachine.seconds_per_work * 1.000001);  // less what was abandoned
+      EXPECT_LE(busy, work * kMachine.seconds_per_work *
+                          1.000001);  // less, because some work is abandoned
       const ScalingRow row = scaling_row(run, alone);
       EXPECT_NEAR(row.expanding_s, row.wall_s * ranks * (1 - row.idle_share), 1e-6 * busy);
       EXPECT_GE(row.max_over_mean, 0.999999);
@@ -181,7 +182,7 @@ TEST(Simulator, FiguresAddUp) {
   }
 }
 
-TEST(Simulator, DearMessagesSlowTheCoordinatorAndTheRun) {
+TEST(Simulator, ExpensiveMessagesSlowTheCoordinatorAndTheRun) {
   const Case& c = cases().front();
   const SimulatedRun alone = run_of(c, with_start(c), 1);
   const ScalingRow cheap = scaling_row(run_of(c, with_start(c), 32), alone);
@@ -203,7 +204,7 @@ TEST(Simulator, StopsAtItsLimits) {
   EXPECT_EQ(scaling_row(run, run).status, "unfinished");
 }
 
-TEST(BusyProfile, KeepsTheSumsHoweverLongItGets) {
+TEST(BusyProfile, KeepsSumsOfLongRuns) {
   BusyProfile profile;
   profile.add(0, 1e-6);
   profile.add(0.25, 1);
@@ -220,29 +221,29 @@ TEST(BusyProfile, KeepsTheSumsHoweverLongItGets) {
   EXPECT_NEAR(late[9], 1, 1e-3);
 }
 
-TEST(MddInterner, HoldEachOnceAsLongAsItIsInUse) {
+TEST(MddInterner, HoldsEachMddOnceWhileInUse) {
   const Instance instance = random_crowd({.size = 8, .obstacles = 20, .agents = 2, .tasks = 0}, 1);
-  testing::NodeAtHand s(instance);
+  testing::RootFixture s(instance);
   const auto made = [&](AgentIndex agent, Time later) {
     return MddCache::make(s.planner, agent, s.view.order(agent), {}, s.view.cost_of(agent) + later,
                           1000, s.limits);
   };
-  MddInterner sets;
-  const MddCache::Set first = sets.one_of(made(0, 0));
-  MddCache::Set longer = sets.one_of(made(0, 1));
-  EXPECT_EQ(sets.one_of(made(0, 0)), first);
-  EXPECT_EQ(sets.one_of(made(0, 1)), longer);
+  MddInterner interner;
+  const MddCache::Set first = interner.one_of(made(0, 0));
+  MddCache::Set longer = interner.one_of(made(0, 1));
+  EXPECT_EQ(interner.one_of(made(0, 0)), first);
+  EXPECT_EQ(interner.one_of(made(0, 1)), longer);
   EXPECT_NE(*first, *longer);
-  EXPECT_EQ(sets.size(), 2u);
+  EXPECT_EQ(interner.size(), 2u);
   const std::weak_ptr<const Mdd> watched = longer;
   longer.reset();
   EXPECT_TRUE(watched.expired());
-  for (Time later = 2; later < 3000; ++later) sets.one_of(made(1, later % 20));
-  EXPECT_LE(sets.size(), 1001u);
-  EXPECT_EQ(sets.one_of(made(0, 0)), first);
+  for (Time later = 2; later < 3000; ++later) interner.one_of(made(1, later % 20));
+  EXPECT_LE(interner.size(), 1001u);
+  EXPECT_EQ(interner.one_of(made(0, 0)), first);
 }
 
-TEST(TimedTransport, MessagesLeaveOneAfterTheOther) {
+TEST(TimedTransport, SendsMessagesOneAfterTheOther) {
   const Machine machine{.latency = 1, .bandwidth = 10, .message_cost = 0.5};
   Talk talk;
   SimulatedNetwork network(3,

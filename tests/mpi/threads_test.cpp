@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The distributed engine with real threads, as it runs in processes: ranks that share nothing but a
-// network, on which messages are late by random times.
+// The distributed engine with threads in place of processes: ranks that share only a network on
+// which messages are delayed by random times.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -30,7 +30,8 @@ namespace threads_test {
 using testing::LimitOfHangs;
 using testing::random_crowd;
 
-// Between two ranks messages keep their order. One is late by up to `latest` looks of its receiver.
+// Messages between two ranks keep their order. A message is delayed by up to `latest` polls of its
+// receiver.
 class ThreadNetwork {
  public:
   ThreadNetwork(int ranks, std::int64_t latest, std::uint64_t seed)
@@ -39,7 +40,7 @@ class ThreadNetwork {
   }
 
   Transport& at(int rank) { return ends_[static_cast<std::size_t>(rank)]; }
-  // Answers to questions for prices that have been received.
+  // Number of pricing replies received.
   std::int64_t answers() const { return answers_; }
   bool empty() const {
     for (const auto& link : links_)
@@ -56,16 +57,16 @@ class ThreadNetwork {
     int ranks() const override { return ranks_; }
     std::optional<ReceivedMessage> receive() override {
       const std::lock_guard lock(network_.mutex_);
-      ++looks_;
+      ++polls_;
       for (int i = 0; i < ranks_; ++i) {
         const int from = next_++ % ranks_;
         auto& link = network_.link(from, rank_);
-        if (link.empty() || link.front().first > looks_) continue;
-        ReceivedMessage parcel{from, std::move(link.front().second)};
+        if (link.empty() || link.front().first > polls_) continue;
+        ReceivedMessage received{from, std::move(link.front().second)};
         link.pop_front();
-        const auto addressed = message::message_of(parcel.bytes);
+        const auto addressed = message::message_of(received.bytes);
         network_.answers_ += std::holds_alternative<message::PricingDone>(addressed.message);
-        return parcel;
+        return received;
       }
       return std::nullopt;
     }
@@ -76,16 +77,17 @@ class ThreadNetwork {
       const auto late = static_cast<std::int64_t>(network_.dice_() %
                                                   static_cast<std::uint64_t>(network_.latest_ + 1));
       const auto& receiver = network_.ends_[static_cast<std::size_t>(to)];
-      network_.link(rank_, to).emplace_back(receiver.looks_ + late, std::move(bytes));
+      network_.link(rank_, to).emplace_back(receiver.polls_ + late, std::move(bytes));
     }
 
     ThreadNetwork& network_;
     const int rank_;
     const int ranks_;
     int next_ = 0;
-    std::int64_t looks_ = 0;
+    std::int64_t polls_ = 0;
   };
-  using Link = std::deque<std::pair<std::int64_t, std::string>>;  // from which look on
+  using Link = std::deque<std::pair<std::int64_t, std::string>>;  // number of the receiver's poll
+                                                                  // that may return it, and bytes
 
   Link& link(int from, int to) {
     return links_[static_cast<std::size_t>(from) * ends_.size() + static_cast<std::size_t>(to)];
@@ -99,7 +101,7 @@ class ThreadNetwork {
   std::deque<End> ends_;
 };
 
-// What rank 0 answers.
+// Returns the solution of rank 0.
 Solution solve_by_ranks(const Instance& instance, const SolveOptions& options, int ranks,
                         ThreadNetwork& network, const Limits& limits, RunObserver& observer) {
   std::optional<Solution> answer;
@@ -119,7 +121,7 @@ Solution solve_by_ranks(const Instance& instance, const SolveOptions& options, i
   return std::move(answer).value();
 }
 
-SolveOptions poor(int threads, Policy policy, Techniques techniques) {
+SolveOptions options_with(int threads, Policy policy, Techniques techniques) {
   SolveOptions options;
   options.omega = Omega();
   options.threads = threads;
@@ -134,22 +136,23 @@ void expect_optima(Policy policy, Techniques techniques) {
     const Instance instance =
         random_crowd({.size = 8, .obstacles = 20, .agents = 5, .tasks = 5}, seed);
     const Solution alone =
-        solve(instance, poor(1, Policy::kFree, Techniques::defaults()), LimitOfHangs());
+        solve(instance, options_with(1, Policy::kFree, Techniques::defaults()), LimitOfHangs());
     ASSERT_EQ(alone.status, Status::kOptimal);
     for (const int ranks : {2, 3})
       for (const int threads : {1, 2}) {
         ThreadNetwork network(ranks, seed % 2 == 0 ? 0 : 10, seed);
         RunObserver silent;
-        const Solution solution = solve_by_ranks(instance, poor(threads, policy, techniques), ranks,
-                                                 network, LimitOfHangs(), silent);
-        batches += solution.stats.counts.at("batches");
+        const Solution solution =
+            solve_by_ranks(instance, options_with(threads, policy, techniques), ranks, network,
+                           LimitOfHangs(), silent);
+        batches += solution.stats.counts.at("node_batches");
         EXPECT_EQ(solution.status, Status::kOptimal)
             << "seed " << seed << ", " << ranks << " ranks, " << threads << " threads";
         EXPECT_EQ(solution.lower_bound, alone.lower_bound) << "seed " << seed;
         EXPECT_TRUE(network.empty());
       }
   }
-  EXPECT_GT(batches, 20) << "too few nodes travelled to be a test";
+  EXPECT_GT(batches, 20) << "too few nodes were sent to test anything";
 }
 
 TEST(Threads, FindTheOptimumInOneTree) {
@@ -160,7 +163,7 @@ TEST(Threads, FindTheOptimumInManyTrees) {
   expect_optima(Policy::kFixed, {Technique::kTarget, Technique::kStrongBranching});
 }
 
-// Interrupts the run once there is a plan and other ranks have found some prices.
+// Interrupts the run once there is a plan and other ranks have priced some subproblems.
 class Interrupter : public RunObserver {
  public:
   explicit Interrupter(const ThreadNetwork& network) : network_(network) {}
@@ -176,15 +179,16 @@ class Interrupter : public RunObserver {
   bool has_plan_ = false;
 };
 
-// A crowd, which no search solves so soon. What is proven is below a plan that was checked.
-TEST(Threads, FindPricesForEachOther) {
+// A dense instance that no search solves within this time. The plan is checked, and the bound is at
+// most its cost.
+TEST(Threads, PriceSubproblemsForEachOther) {
   const Instance instance =
       random_crowd({.size = 20, .obstacles = 20, .agents = 120, .tasks = 0}, 1);
   std::int64_t prices = 0;
   for (const int threads : {1, 2}) {
-    SolveOptions options = poor(threads, Policy::kFree, Techniques::defaults());
-    options.tuning.lagrangian_begins_work = 0;
-    options.tuning.lagrangian_share_work = 1000;
+    SolveOptions options = options_with(threads, Policy::kFree, Techniques::defaults());
+    options.tuning.lagrangian_start_work = 0;
+    options.tuning.lagrangian_min_remote_work = 1000;
     ThreadNetwork network(3, 5, 1);
     Interrupter interrupter(network);
     LimitOfHangs limits;
@@ -193,7 +197,7 @@ TEST(Threads, FindPricesForEachOther) {
     ASSERT_TRUE(solution.plan);
     EXPECT_TRUE(check(instance, solution).empty());
     EXPECT_LE(solution.lower_bound, solution.plan->cost);
-    const auto found = solution.stats.counts.find("prices_of_ranks");
+    const auto found = solution.stats.counts.find("remote_pricings");
     if (found != solution.stats.counts.end()) prices += found->second;
     EXPECT_TRUE(network.empty());
   }

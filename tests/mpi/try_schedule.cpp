@@ -29,8 +29,8 @@ namespace {
 using oracle::Answer;
 using oracle::Verdict;
 
-// The truth about crowds, which are too many for exhaustive search, is what one thread proves with
-// all it has.
+// Optimum of a dense instance, which is too large for exhaustive search: a single-threaded run with
+// all techniques proves it.
 Answer truth_by_one_thread(const Instance& instance) {
   const LimitOfLooks limits(20'000);
   SolveOptions options;
@@ -40,20 +40,20 @@ Answer truth_by_one_thread(const Instance& instance) {
   return {Verdict::kSolved, std::move(solution.plan)};
 }
 
-// Plain CBS makes many nodes, which is what travels; bounds from pairs make fewer, but then what is
-// known of pairs travels too. The primal search takes a millisecond a step.
-void make_search_poor(Techniques& techniques, fuzz::Random& dice) {
+// Chooses weak techniques, so that many nodes are made and sent. Bounds on pairs make fewer nodes,
+// but then learned bounds on pairs are sent too. A step of the primal search takes a millisecond.
+void choose_weak_techniques(Techniques& techniques, fuzz::Random& dice) {
   if (dice.percent(20)) techniques = {};
   if (dice.percent(70)) techniques = {Technique::kTarget, Technique::kStrongBranching};
-  if (dice.percent(25))
-    techniques = {Technique::kDependencies, Technique::kJointPaths, Technique::kClusters};
+  if (dice.percent(25)) techniques = {Technique::kWdg, Technique::kJointMdd, Technique::kClusters};
   if (dice.percent(95)) techniques = techniques.without(Technique::kPrimal);
 }
 
 Schedule random_schedule(Techniques techniques, fuzz::Random& dice) {
   Schedule schedule;
-  if (techniques.has(Technique::kPrimal)) schedule.most_turns /= 10;  // they take a millisecond
-  if (dice.percent(15)) schedule.strikes = dice.pick<int>({10, 100});
+  if (techniques.has(Technique::kPrimal))
+    schedule.most_turns /= 10;  // a primal step takes a millisecond
+  if (dice.percent(15)) schedule.limit_rate = dice.pick<int>({10, 100});
   schedule.ranks = dice.pick<int>({1, 2, 2, 3, 4, 5, 7, 8});
   schedule.workers = dice.between(1, 2);
   schedule.seed = static_cast<std::uint64_t>(dice.below(1 << 30));
@@ -64,12 +64,12 @@ Policy policy_of(const SolveOptions& options) {
   return options.policy == Policy::kFixed ? Policy::kFixed : Policy::kFree;
 }
 
-// Asks for checkpoints now and then, looks whether one process finds the optimum in them, and kills
-// all, so that others, of another number, must go on from the last one.
-class Asker : public RunObserver {
+// Requests checkpoints at random, tests whether a single process finds the optimum from them, and
+// kills all ranks, so that a different number of ranks must resume from the last one.
+class CheckpointTester : public RunObserver {
  public:
-  Asker(const Instance& instance, const Answer& truth, SolveOptions& options, fuzz::Random& dice,
-        const std::filesystem::path& folder)
+  CheckpointTester(const Instance& instance, const Answer& truth, SolveOptions& options,
+                   fuzz::Random& dice, const std::filesystem::path& folder)
       : instance_(instance),
         truth_(truth),
         options_(options),
@@ -94,7 +94,7 @@ class Asker : public RunObserver {
     killing_ = kills_left_ > 0 && kill_in_ > 0 && --kill_in_ == 0;
     return killing_;
   }
-  // Has it killed all since it was last asked?
+  // Returns whether it has killed all ranks since the last call.
   bool has_killed() {
     if (killing_) --kills_left_;
     return std::exchange(killing_, false);
@@ -104,7 +104,7 @@ class Asker : public RunObserver {
     return std::make_unique<CheckpointReader>(options_.checkpoints.directory,
                                               fingerprint(instance_), policy_of(options_));
   }
-  // A run that has ended has left one.
+  // True if a run that has ended left no checkpoint.
   bool misses_one() const { return used_ && !is_there_; }
   int reopened() const { return reopened_; }
   const std::vector<std::string>& wrong() const { return wrong_; }
@@ -112,7 +112,7 @@ class Asker : public RunObserver {
  private:
   static constexpr int kMostReopened = 8;
 
-  // Without the primal search: that would find the optimum where its node is missing.
+  // Without the primal search, which would find the optimum even if its node is missing.
   void reopen() {
     ++reopened_;
     const LimitOfLooks limits(1'000);
@@ -138,7 +138,7 @@ class Asker : public RunObserver {
   std::atomic<bool> asked_{false};
   bool is_there_ = false;
   bool killing_ = false;
-  int kill_in_ = 0;  // steps; 0: not
+  int kill_in_ = 0;  // steps; 0: do not kill
   int kills_left_ = 3;
   int asks_left_ = 30;
   int reopened_ = 0;
@@ -151,27 +151,27 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
   fuzz::Random dice(seed);
   fuzz::FuzzCase fuzz_case = fuzz::random_case(seed);
   SolveOptions& options = fuzz_case.options;
-  options.low_level = LowLevel::kOwn;  // others are slow, and all one to what ranks say
+  options.low_level = LowLevel::kOwn;  // the others are slow and do not affect the protocol
   options.threads = 1;
   options.deterministic = false;
-  make_search_poor(options.techniques, dice);
+  choose_weak_techniques(options.techniques, dice);
   if (dice.percent(60)) options.omega = Omega();
   if (dice.percent(40)) {
     options.techniques = options.techniques.with(Technique::kJointSearch);
-    options.tuning.joint_begins_work = 0;
+    options.tuning.joint_start_work = 0;
     options.tuning.joint_step_work = 1;
   }
   if (dice.percent(70)) {
     options.techniques = options.techniques.with(Technique::kLagrangian);
-    options.tuning.lagrangian_agents = 1;
-    options.tuning.lagrangian_begins_work = 0;
+    options.tuning.lagrangian_min_agents = 1;
+    options.tuning.lagrangian_start_work = 0;
     options.tuning.lagrangian_step_work = 1;
-    options.tuning.lagrangian_share_work = 1;
-    options.tuning.most_lagrangian = dice.pick<double>({2, 50});
+    options.tuning.lagrangian_min_remote_work = 1;
+    options.tuning.lagrangian_max_share = dice.pick<double>({2, 50});
     options.tuning.lagrangian_level = dice.pick<double>({0.02, 0.2});
   }
   options.tuning.coordinator_children = std::array{2, 3, 2, 64}[seed % 4];
-  options.tuning.knowledge_rate = std::array{8.0, 0.01, 0.0}[seed % 3];
+  options.tuning.bound_broadcast_rate = std::array{8.0, 0.01, 0.0}[seed % 3];
   if (dice.percent(20)) options.policy = Policy::kFixed;
   if (dice.percent(30)) options.node_memory = dice.pick<std::size_t>({500, 2000, 5000});
   const bool is_tiny = dice.percent(50);
@@ -184,45 +184,46 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
   ++tally.tried;
 
   const TemporaryDirectory folder;
-  Asker asker(instance, truth, options, dice, folder.path());
+  CheckpointTester tester(instance, truth, options, dice, folder.path());
   std::vector<std::string> wrong;
   const auto look = [&, optimum = truth.plan->cost](Cost lower_bound) {
     if (lower_bound > optimum && wrong.empty())
       wrong.push_back(fmt::format("lower bound {} above the optimum {}", lower_bound, optimum));
-    return asker.kills();
+    return tester.kills();
   };
   ScheduleCounts counts;
   Solution solution;
   do {
-    const auto checkpoint = asker.checkpoint();
+    const auto checkpoint = tester.checkpoint();
     options.resume = checkpoint.get();
     tally.resumed += checkpoint != nullptr;
     counts = {};
     solution = solve_in_random_order(instance, options, random_schedule(options.techniques, dice),
-                                     asker, look, counts);
+                                     tester, look, counts);
     options.seed = static_cast<std::uint64_t>(dice.below(1000));
-    make_search_poor(options.techniques, dice);
-  } while (asker.has_killed());
+    choose_weak_techniques(options.techniques, dice);
+  } while (tester.has_killed());
   const auto stop = solution.stats.texts.find("stopped_by");
   const bool gave_up = stop != solution.stats.texts.end() && stop->second == "memory limit";
-  const bool stopped = !counts.ended || counts.struck || gave_up;
+  const bool stopped = !counts.ended || counts.limit_reached || gave_up;
   std::ranges::copy(fuzz::false_claims(instance, truth, options.omega, solution, stopped),
                     std::back_inserter(wrong));
-  std::ranges::copy(asker.wrong(), std::back_inserter(wrong));
-  if (counts.stuck) wrong.emplace_back("all wait for each other");
-  if (counts.left_messages) wrong.emplace_back("messages were left under way");
-  if (counts.ended && !counts.struck && asker.misses_one()) wrong.emplace_back("no checkpoint");
+  std::ranges::copy(tester.wrong(), std::back_inserter(wrong));
+  if (counts.stuck) wrong.emplace_back("deadlock: all ranks wait for each other");
+  if (counts.left_messages) wrong.emplace_back("messages were not received");
+  if (counts.ended && !counts.limit_reached && tester.misses_one())
+    wrong.emplace_back("no checkpoint");
   tally.unfinished += !counts.ended;
-  tally.struck += counts.struck;
-  tally.reopened += asker.reopened();
+  tally.limit_reached += counts.limit_reached;
+  tally.reopened += tester.reopened();
   tally.messages += counts.messages;
   const auto& stats = solution.stats.counts;
   if (counts.ended) {
     tally.nodes += stats.at("nodes_expanded");
-    tally.batches += stats.at("batches");
+    tally.batches += stats.at("node_batches");
     tally.restarts += stats.at("restarts");
-    tally.facts += stats.at("facts_sent");
-    if (stats.contains("prices_of_ranks")) tally.prices += stats.at("prices_of_ranks");
+    tally.facts += stats.at("learned_bounds_sent");
+    if (stats.contains("remote_pricings")) tally.prices += stats.at("remote_pricings");
   }
   return wrong;
 }

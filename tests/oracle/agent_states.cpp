@@ -41,7 +41,7 @@ AgentStates::State AgentStates::number(const Standing& standing) {
   return known->second;
 }
 
-// Tasks that take no time are visited by being there.
+// A task that takes no time is visited by being on its place.
 void AgentStates::arrive(Standing& standing) const {
   for (std::size_t k = 0; k < agent_.tasks.size(); ++k) {
     const Task& task = instance_.task(agent_.tasks[k]);
@@ -60,7 +60,7 @@ bool AgentStates::may_rest(const Standing& standing) const {
          });
 }
 
-// Work that has begun is gone on with; when it is done the agent may go on at once.
+// An agent that has begun a task continues it until it is completed; then it may move at once.
 std::vector<Standing> AgentStates::next(const Standing& standing) const {
   std::vector<Standing> next;
   const auto work_on = [&](int work, Time done) {
@@ -111,7 +111,7 @@ void AgentStates::connect(State s) {
   }
 }
 
-// Sweeps until nothing changes: slow and hard to get wrong.
+// Value iteration until no cost changes: slow, but simple.
 void AgentStates::settle_costs() {
   to_go_.assign(moves_.size(), kNever);
   for (State s = 0; s < count(); ++s)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One agent alone in the world: its states, its moves and its exact cost to go.
+// State space of one agent without other agents: states, moves and exact cost-to-go.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,13 @@
 
 namespace grove::detail::oracle {
 
-// Where an agent is and what it is doing there, said from the instance alone.
+// State of an agent: its pose, the task in execution and the visited tasks. Derived only from the
+// instance.
 struct Standing {
   Pose pose;
-  int work = -1;              // the task it is at work on, as position in Agent::tasks; -1: none
-  Time done = 0;              // steps of that
-  std::uint64_t visited = 0;  // of Agent::tasks, as bits
+  int work = -1;              // task in execution, as index in Agent::tasks; -1: none
+  Time done = 0;              // steps of `work` done
+  std::uint64_t visited = 0;  // bit i: Agent::tasks[i] is visited
   bool resting = false;       // for ever
 
   auto key() const {
@@ -26,9 +27,8 @@ struct Standing {
   bool operator<(const Standing& other) const { return key() < other.key(); }
 };
 
-// The states that one agent can come to, numbered from 0. A state in which the agent may come to
-// rest offers, besides its moves, the decision to do so: it stays, now and for ever, and no longer
-// costs anything.
+// The reachable states of one agent, numbered from 0. In a state in which the agent may rest, it
+// can also decide to do so: then it stays there for ever, at no further cost.
 class AgentStates {
  public:
   using State = std::int32_t;
@@ -43,13 +43,14 @@ class AgentStates {
   struct TooMany {};
 
   State count() const { return static_cast<State>(states_.size()); }
-  // At time 0; a task on the start that takes no time is visited already.
+  // State at time 0; a task on the start that takes no time is visited already.
   State start() const { return 0; }
   const std::vector<Move>& moves(State s) const { return moves_[s]; }
   const Standing& standing(State s) const { return states_[s]; }
   Place cell(State s) const { return states_[s].pose.place; }
   bool resting(State s) const { return states_[s].resting; }
-  // Least cost until it can rest, were it alone; 0 exactly where it rests or may. kNever: never.
+  // Least cost until the agent can rest, without other agents. 0 if and only if it rests or may
+  // rest; kNever if it never can.
   Time to_go(State s) const { return to_go_[s]; }
 
  private:

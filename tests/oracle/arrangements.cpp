@@ -13,7 +13,7 @@ class Walk {
   explicit Walk(const Instance& instance)
       : steps_(steps_on(instance.map())), may_follow_(instance.may_follow()) {}
 
-  // Calls `visit` with each arrangement one step of all after `now`.
+  // Calls `visit` with each configuration that one joint step from `now` leads to.
   template <class Visit>
   void for_each_next(const Places& now, Places& next, Visit visit) const {
     const std::size_t agent = next.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All that a tiny crowd can come to, by exhaustive search.
+// Reachable configurations of the agents of a tiny instance, by exhaustive search.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,11 @@
 
 namespace grove::detail::oracle {
 
-// By agent: its place.
+// Configuration: the place of each agent.
 using Places = std::vector<Place>;
 
-// The arrangements that come of the starts by steps in which nobody collides, whoever turns taken
-// for one that turns freely; empty if there are more than `most`.
+// The configurations that are reachable from the starts by steps without collisions. Agents that
+// turn are treated as if they turned freely. Empty if there are more than `most`.
 std::set<Places> arrangements_from_starts(const Instance& instance, std::size_t most);
 
 }  // namespace grove::detail::oracle

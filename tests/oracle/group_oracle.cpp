@@ -11,35 +11,35 @@
 namespace grove::detail::oracle {
 namespace {
 
-constexpr std::size_t kLookedAtPerWay = 40;
+constexpr std::size_t kExaminedPerWay = 40;
 
 class Lister {
  public:
-  Lister(const Instance& instance, AgentIndex agent, std::span<const Constraint> demands, Time most,
-         std::size_t cap)
+  Lister(const Instance& instance, AgentIndex agent, std::span<const Constraint> constraints,
+         Time most, std::size_t cap)
       : world_(instance.world()),
         states_(instance, agent),
-        demands_(demands),
+        constraints_(constraints),
         most_(most),
         cap_(cap) {}
 
   std::optional<std::vector<Way>> list() {
-    go_on(states_.start());
-    if (looked_at_ > kLookedAtPerWay * cap_ || ways_.size() > cap_) return std::nullopt;
+    extend(states_.start());
+    if (examined_ > kExaminedPerWay * cap_ || ways_.size() > cap_) return std::nullopt;
     std::vector<Way> ways(ways_.begin(), ways_.end());
     std::ranges::stable_sort(ways, {}, &Way::size);
     return ways;
   }
 
  private:
-  void go_on(AgentStates::State state) {
-    if (++looked_at_ > kLookedAtPerWay * cap_ || ways_.size() > cap_) return;
+  void extend(AgentStates::State state) {
+    if (++examined_ > kExaminedPerWay * cap_ || ways_.size() > cap_) return;
     const auto time = static_cast<Time>(way_.size());
     if (states_.to_go(state) > most_ - time) return;
     way_.push_back(states_.cell(state));
     for (const AgentStates::Move& move : states_.moves(state)) {
       if (!states_.resting(move.to))
-        go_on(move.to);
+        extend(move.to);
       else if (satisfies())
         ways_.insert(way_);
     }
@@ -48,8 +48,8 @@ class Lister {
   bool satisfies() const {
     Path path;
     for (const Place place : way_) path.push_back(some_state_on(place));
-    return std::ranges::all_of(demands_, [&](const Constraint& demand) {
-      return testing::satisfies(world_, path, demand);
+    return std::ranges::all_of(constraints_, [&](const Constraint& constraint) {
+      return testing::satisfies(world_, path, constraint);
     });
   }
   State some_state_on(Place place) const {
@@ -60,10 +60,10 @@ class Lister {
 
   const World& world_;
   const AgentStates states_;
-  const std::span<const Constraint> demands_;
+  const std::span<const Constraint> constraints_;
   const Time most_;
   const std::size_t cap_;
-  std::size_t looked_at_ = 0;
+  std::size_t examined_ = 0;
   Way way_;
   std::set<Way> ways_;
 };
@@ -83,9 +83,9 @@ bool collide(const Way& a, const Way& b, bool may_follow) {
   return false;
 }
 
-class Together {
+class CheapestCombination {
  public:
-  Together(const Instance& instance, std::span<const std::vector<Way>> ways)
+  CheapestCombination(const Instance& instance, std::span<const std::vector<Way>> ways)
       : may_follow_(instance.may_follow()), ways_(ways) {}
   std::optional<Cost> least() {
     choose(0);
@@ -100,7 +100,7 @@ class Together {
     }
     for (const Way& way : ways_[chosen_.size()]) {
       const Cost more = cost + static_cast<Cost>(way.size()) - 1;
-      if (more + others_at_least() >= best_) return;  // the others cost no less
+      if (more + others_at_least() >= best_) return;  // the remaining paths cost no less
       if (std::ranges::any_of(chosen_,
                               [&](const Way* other) { return collide(*other, way, may_follow_); }))
         continue;
@@ -125,16 +125,16 @@ class Together {
 }  // namespace
 
 std::optional<std::vector<Way>> ways_within(const Instance& instance, AgentIndex agent,
-                                            std::span<const Constraint> demands, Time most,
+                                            std::span<const Constraint> constraints, Time most,
                                             std::size_t cap) try {
-  return Lister(instance, agent, demands, most, cap).list();
+  return Lister(instance, agent, constraints, most, cap).list();
 } catch (const AgentStates::TooMany&) {
   return std::nullopt;
 }
 
 std::optional<Cost> least_together(const Instance& instance,
                                    std::span<const std::vector<Way>> ways) {
-  return Together(instance, ways).least();
+  return CheapestCombination(instance, ways).least();
 }
 
 }  // namespace grove::detail::oracle

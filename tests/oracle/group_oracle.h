@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The truth about a few agents under demands: all their paths, listed and compared.
+// Optimum of a few agents under constraints, by enumeration and comparison of all their paths.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,19 @@
 
 namespace grove::detail::oracle {
 
-// Where an agent is at each time until it comes to rest; so many steps, less one, it costs.
+// Path of an agent as places at times 0, 1, ... until it comes to rest. Its cost is its size
+// less 1.
 using Way = std::vector<Place>;
 
-// The ways of an agent, alone, that obey these demands and cost `most` or less, the cheapest first.
-// None: there are more than `cap`, or more than many times that to look at.
+// The paths of an agent that satisfy `constraints` and cost `most` or less, in ascending order of
+// cost. Returns nullopt if there are more than `cap` paths, or more than 40 * `cap` states to
+// examine.
 std::optional<std::vector<Way>> ways_within(const Instance& instance, AgentIndex agent,
-                                            std::span<const Constraint> demands, Time most,
+                                            std::span<const Constraint> constraints, Time most,
                                             std::size_t cap);
 
-// The least that one way of each costs together, if they do not collide. None: all do.
+// The least total cost of one path per agent without collisions. `ways`: the paths of each agent.
+// Returns nullopt if all combinations collide.
 std::optional<Cost> least_together(const Instance& instance,
                                    std::span<const std::vector<Way>> ways);
 

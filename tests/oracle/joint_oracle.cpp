@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-// A* over joint states. A joint state holds, for every agent, where it is, its work, the tasks it
-// has visited and whether it has come to rest for ever (agent_states.h); a step moves all agents at
-// once and costs the number of agents that are not at rest. So the cost of a way is the sum of the
-// agents' finish times: an agent pays for every step up to the one at which it rests for ever,
-// waits included. Whether to rest is a decision: an agent that is done may also pay on and leave
-// again.
+// A* over joint states. A joint state holds, for every agent, its pose, its task in execution, the
+// tasks it has visited and whether it rests for ever (agent_states.h). A step moves all agents
+// concurrently and costs the number of agents that are not at rest. So the cost of a path is the
+// sum of the agents' finish times: an agent pays for every step, waits included, up to the one at
+// which it rests for ever. To rest is a decision: an agent that may rest can also continue to pay
+// and leave again.
 //
-// Soundness. The heuristic adds up the agents' exact costs when alone: one step costs an agent 1
-// and lowers its cost to go by at most 1, or costs 0 and leaves it at 0. So it is consistent, a
-// state is final when it is taken from the queue, and the first state taken in which all agents may
-// rest is optimal. There are finitely many states: an empty queue proves that there is no plan. A
-// state in which some agent alone has no way left is dropped: from it nobody gets home.
+// *Soundness.* The heuristic is the sum of the agents' exact individual costs-to-go. One step costs
+// an agent 1 and lowers its cost-to-go by at most 1, or costs 0 and leaves it at 0. So the
+// heuristic is consistent, a state's cost is final when the state is taken from the queue, and the
+// first state taken in which all agents may rest is optimal. There are finitely many states, so an
+// empty queue proves that there is no plan. A state in which some agent has no individual path left
+// is dropped, because no plan leads through it.
 //
-// Shares nothing with Grove but the model's types.
+// Shares only the types of the model with Grove.
 #include "tests/oracle/joint_oracle.h"
 
 #include <algorithm>
@@ -36,10 +37,10 @@ struct Node {
   bool closed = false;
 };
 
-// Finds nodes by key: open addressing, at most half full.
+// Hash table of nodes by key: open addressing, at most half full.
 class NodeTable {
  public:
-  // The node of `key`, appended to `nodes` when it is new.
+  // The node of `key`, appended to `nodes` if it is new.
   NodeIndex find_or_add(Key key, std::vector<Node>& nodes) {
     if ((nodes.size() + 1) * 2 > slots_.size()) grow(nodes);
     NodeIndex& slot = slots_[find(key, nodes)];
@@ -68,9 +69,9 @@ class NodeTable {
   int shift_ = 64;
 };
 
-class EpeaStar {
+class JointAStar {
  public:
-  EpeaStar(const Instance& instance, std::size_t state_cap)
+  JointAStar(const Instance& instance, std::size_t state_cap)
       : instance_(instance), state_cap_(state_cap) {}
 
   Answer run();
@@ -99,14 +100,14 @@ class EpeaStar {
   NodeTable table_;
   std::vector<std::vector<NodeIndex>> buckets_;  // by cost + cost to go
   std::size_t first_bucket_ = 0;
-  // The expansion under way.
+  // The current expansion.
   NodeIndex parent_ = kNoNode;
   std::vector<State> from_;
   std::vector<State> to_;
 };
 
-// False when the instance does not fit into a key.
-bool EpeaStar::prepare() {
+// Returns false if the joint states of the instance do not fit into a key.
+bool JointAStar::prepare() {
   int bits = 0;
   for (AgentIndex a = 0; a < instance_.agent_count(); ++a) {
     try {
@@ -126,7 +127,7 @@ bool EpeaStar::prepare() {
   return true;
 }
 
-Time EpeaStar::to_go(Key key) const {
+Time JointAStar::to_go(Key key) const {
   Time sum = 0;
   for (std::size_t a = 0; a < agents_.size(); ++a) {
     const Time alone = agents_[a].to_go(state(key, a));
@@ -136,7 +137,7 @@ Time EpeaStar::to_go(Key key) const {
   return sum;
 }
 
-void EpeaStar::reach(Key key, Time cost) {
+void JointAStar::reach(Key key, Time cost) {
   const Time left = to_go(key);
   if (left == kNever) return;
   const NodeIndex n = table_.find_or_add(key, nodes_);
@@ -148,7 +149,7 @@ void EpeaStar::reach(Key key, Time cost) {
   buckets_[bucket].push_back(n);
 }
 
-NodeIndex EpeaStar::pop() {
+NodeIndex JointAStar::pop() {
   while (first_bucket_ < buckets_.size()) {
     auto& bucket = buckets_[first_bucket_];
     if (bucket.empty()) {
@@ -162,7 +163,7 @@ NodeIndex EpeaStar::pop() {
   return kNoNode;
 }
 
-bool EpeaStar::collides(std::size_t agent, State to) const {
+bool JointAStar::collides(std::size_t agent, State to) const {
   const auto cell = [&](std::size_t a, State s) { return agents_[a].cell(s); };
   for (std::size_t other = 0; other < agent; ++other) {
     if (cell(other, to_[other]) == cell(agent, to)) return true;
@@ -174,8 +175,8 @@ bool EpeaStar::collides(std::size_t agent, State to) const {
   return false;
 }
 
-// Chooses the moves of `agent` and all after it; those before have chosen.
-void EpeaStar::advance(std::size_t agent, Key key, Time cost) {
+// Enumerates the moves of `agent` and of all agents after it; the moves of those before are chosen.
+void JointAStar::advance(std::size_t agent, Key key, Time cost) {
   if (agent == agents_.size()) {
     reach(key, cost);
     return;
@@ -187,13 +188,13 @@ void EpeaStar::advance(std::size_t agent, Key key, Time cost) {
   }
 }
 
-void EpeaStar::expand(NodeIndex node) {
+void JointAStar::expand(NodeIndex node) {
   parent_ = node;
   for (std::size_t a = 0; a < agents_.size(); ++a) from_[a] = state(nodes_[node].key, a);
   advance(0, 0, nodes_[node].cost);
 }
 
-Answer EpeaStar::run() {
+Answer JointAStar::run() {
   if (!prepare()) return {};
   Key start = 0;
   for (std::size_t a = 0; a < agents_.size(); ++a)
@@ -207,7 +208,7 @@ Answer EpeaStar::run() {
   return {Verdict::kInfeasible, std::nullopt, nodes_.size()};
 }
 
-Plan EpeaStar::plan(NodeIndex last) const {
+Plan JointAStar::plan(NodeIndex last) const {
   std::vector<Key> keys;
   for (NodeIndex n = last; n != kNoNode; n = nodes_[n].parent) keys.push_back(nodes_[n].key);
   std::ranges::reverse(keys);
@@ -216,7 +217,7 @@ Plan EpeaStar::plan(NodeIndex last) const {
   return plan;
 }
 
-AgentPlan EpeaStar::agent_plan(std::size_t agent, const std::vector<Key>& keys) const {
+AgentPlan JointAStar::agent_plan(std::size_t agent, const std::vector<Key>& keys) const {
   const AgentStates& states = agents_[agent];
   const auto index = static_cast<AgentIndex>(agent);
   const auto& tasks = instance_.agent(index).tasks;
@@ -224,7 +225,7 @@ AgentPlan EpeaStar::agent_plan(std::size_t agent, const std::vector<Key>& keys) 
   std::uint64_t before = 0;
   for (const Key key : keys) {
     const Standing& here = states.standing(state(key, agent));
-    if (here.resting) break;  // it rests since the step before
+    if (here.resting) break;  // it has rested since the step before
     const auto now = static_cast<Time>(result.path.size());
     result.path.push_back(instance_.state_of(index, here.pose));
     for (std::uint64_t bits = here.visited & ~before; bits != 0; bits &= bits - 1) {
@@ -240,8 +241,8 @@ AgentPlan EpeaStar::agent_plan(std::size_t agent, const std::vector<Key>& keys) 
   return result;
 }
 
-// An agent that comes back to a task to rest there visits it last, if it takes no time.
-void EpeaStar::finish_on_last(AgentIndex index, AgentPlan& agent) const {
+// An agent that returns to a task to rest there visits that task last, if it takes no time.
+void JointAStar::finish_on_last(AgentIndex index, AgentPlan& agent) const {
   if (!instance_.rests_on_last_stop(index)) return;
   const auto last = std::ranges::find(agent.sequence, instance_.world().place(agent.path.back()),
                                       [&](TaskIndex t) { return instance_.task(t).cell; });
@@ -251,7 +252,7 @@ void EpeaStar::finish_on_last(AgentIndex index, AgentPlan& agent) const {
 }  // namespace
 
 Answer solve_jointly(const Instance& instance, std::size_t state_cap) {
-  return EpeaStar(instance, state_cap).run();
+  return JointAStar(instance, state_cap).run();
 }
 
 }  // namespace grove::detail::oracle

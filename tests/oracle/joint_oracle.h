@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The truth about tiny instances, by exhaustive search.
+// Optimum of tiny instances, by exhaustive search.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +12,13 @@ namespace grove::detail::oracle {
 
 enum class Verdict : std::uint8_t {
   kSolved,
-  kInfeasible,  // every joint state that can be reached was looked at
-  kTooLarge,    // more states than allowed: nothing is known
+  kInfeasible,  // every reachable joint state was expanded
+  kTooLarge,    // more states than allowed: no result
 };
 
 struct Answer {
   Verdict verdict = Verdict::kTooLarge;
-  std::optional<Plan> plan;  // an optimal one, when solved
+  std::optional<Plan> plan;  // an optimal plan if solved
   std::size_t states = 0;    // joint states generated
 };
 

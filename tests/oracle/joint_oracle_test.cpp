@@ -16,35 +16,35 @@ Answer solve_text(const char* text) {
   return solve_jointly(fuzz::TinyInstance::parse(text).build());
 }
 
-// The optimal cost, -1 when there is no plan.
+// The optimal cost; -1 if there is no plan.
 Cost optimum(const char* text) {
   const Answer answer = solve_text(text);
   EXPECT_NE(answer.verdict, Verdict::kTooLarge);
   return answer.plan ? answer.plan->cost : -1;
 }
 
-TEST(JointOracle, AnAgentAloneWalksItsShortestTour) {
+TEST(JointOracle, SingleAgentTakesItsShortestTour) {
   EXPECT_EQ(optimum("map\n......\nagents\n2,0 -> 3,0\ntasks\n0,0: 0\n5,0: 0\n"), 9);
   EXPECT_EQ(optimum("map\n...\n.@.\n...\nagents\n0,0 -> 2,2\n"), 4);
 }
 
-TEST(JointOracle, StartingAtHomeCostsNothing) {
+TEST(JointOracle, AgentAtItsDestinationCostsNothing) {
   EXPECT_EQ(optimum("map\n..\nagents\n0,0 -> 0,0\n1,0 -> 1,0\n"), 0);
 }
 
-TEST(JointOracle, ATaskOnTheStartIsVisitedAtTimeZero) {
+TEST(JointOracle, TaskOnStartIsVisitedAtTimeZero) {
   EXPECT_EQ(optimum("map\n...\nagents\n1,0 -> 2,0\ntasks\n1,0: 0\n"), 1);
   EXPECT_EQ(optimum("map\n...\nagents\n1,0 -> -\ntasks\n1,0: 0\n"), 0);
 }
 
-TEST(JointOracle, AnAgentAtHomeMustLeaveForItsTask) {
+TEST(JointOracle, AgentAtItsDestinationMustLeaveForItsTask) {
   EXPECT_EQ(optimum("map\n...\nagents\n0,0 -> 0,0\ntasks\n2,0: 0\n"), 4);
 }
 
-TEST(JointOracle, AnAgentLeavesItsDestinationToLetAnotherPass) {
-  // Agent 0 is home, but agent 1 must get by: out of the way, and back; 2 + 4.
+TEST(JointOracle, AgentLeavesItsDestinationForAnotherToPass) {
+  // Agent 0 is at its destination, but agent 1 must pass. So agent 0 leaves and returns at time 3.
   EXPECT_EQ(optimum("map\n.....\n@@.@@\nagents\n2,0 -> 2,0\n0,0 -> 4,0\n"), 2 + 5);
-  // With its bay one step away and the other coming from far it has the time to pay only 4.
+  // In a longer corridor agent 0 waits before it leaves, and returns at time 4.
   EXPECT_EQ(optimum("map\n.......\n@@@.@@@\nagents\n3,0 -> 3,0\n0,0 -> 6,0\n"), 4 + 6);
 }
 
@@ -59,28 +59,28 @@ TEST(JointOracle, SwappingNeighborsIsAnEdgeConflict) {
   EXPECT_EQ(optimum("map\n..\n..\nagents\n0,0 -> 1,0\n1,0 -> 0,0\n"), 4);
 }
 
-TEST(JointOracle, FourAgentsMayTurnInARing) {
+TEST(JointOracle, FourAgentsMayRotate) {
   EXPECT_EQ(optimum("map\n..\n..\nagents\n0,0 -> 1,0\n1,0 -> 1,1\n1,1 -> 0,1\n0,1 -> 0,0\n"), 4);
 }
 
-TEST(JointOracle, ABayMakesTheSwapPossible) {
-  // One steps into the bay at (2, 1) and out again: two steps more, and nobody waits.
+TEST(JointOracle, BayMakesTheSwapPossible) {
+  // One agent enters the bay at (2, 1) and leaves it again, 2 more steps; the other waits 1 step.
   EXPECT_EQ(optimum("map\n.....\n@@.@@\nagents\n0,0 -> 4,0\n4,0 -> 0,0\n"), 8 + 3);
 }
 
-TEST(JointOracle, ARestingAgentBlocksATaskThatAnotherNeeds) {
+TEST(JointOracle, RestingAgentBlocksTaskOfAnother) {
   // Agent 1 needs agent 0's destination, at the end of a corridor: agent 0 has to let it in first.
   EXPECT_EQ(optimum("map\n...\n@.@\nagents\n1,1 -> 2,0\n0,0 -> 0,0\ntasks\n2,0: 1\n"), 4 + 5);
 }
 
-TEST(JointOracle, ARestingAgentMayMakeItImpossible) {
+TEST(JointOracle, RestingAgentMayMakeTheInstanceInfeasible) {
   // Agent 1 cannot get behind agent 0, and agent 0 cannot step aside.
   EXPECT_EQ(optimum("map\n...\nagents\n1,0 -> 1,0\n0,0 -> 0,0\ntasks\n2,0: 1\n"), -1);
 }
 
-TEST(JointOracle, AnMgAgentChoosesWhereToFinish) {
+TEST(JointOracle, MgAgentChoosesWhereToFinish) {
   EXPECT_EQ(optimum("map\n.....\nagents\n1,0 -> -\ntasks\n0,0: 0\n4,0: 0\n"), 1 + 4);
-  // Agent 1 needs (4, 0) as well, for good: agent 0 has to turn round and finish at (0, 0).
+  // Agent 1 rests on (4, 0), so agent 0 must return and finish at (0, 0).
   EXPECT_EQ(optimum("map\n.....\n...@@\nagents\n1,0 -> -\n0,1 -> 4,0\ntasks\n0,0: 0\n4,0: 0\n"),
             7 + 8);
 }
@@ -94,7 +94,7 @@ TEST(JointOracle, UnreachableCellsHaveNoPlan) {
   EXPECT_EQ(optimum("map\n.@.\nagents\n0,0 -> 0,0\ntasks\n2,0: 0\n"), -1);
 }
 
-TEST(JointOracle, SaysWhenItIsTooLarge) {
+TEST(JointOracle, ReportsTooManyStates) {
   const auto instance =
       fuzz::TinyInstance::parse("map\n....\n....\n@.@@\nagents\n0,0 -> 3,0\n3,0 -> 0,0\n").build();
   EXPECT_EQ(solve_jointly(instance, 5).verdict, Verdict::kTooLarge);
@@ -117,7 +117,7 @@ TEST(JointOracle, PlansAreValid) {
   }
 }
 
-TEST(JointOracle, AgreesWithASearchByLayersOfTime) {
+TEST(JointOracle, AgreesWithLayeredSearch) {
   const char* more = std::getenv("GROVE_FUZZ_ROUNDS");
   const std::uint64_t rounds = more ? std::strtoull(more, nullptr, 10) : 300;
   int solved = 0;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// As long as neither agent rests, both pay for every step: all ways to a joint state at time t cost
-// 2t, and breadth-first search by layers of time finds the earliest. Whichever agent rests first
-// does so at some time t in some joint state; from there on it is a wall, and the other's cheapest
-// way home is a breadth-first search of its own. The optimum is the least 2t + that way, over all
-// joint states and both agents. An agent that reaches a state later has no more choices there than
-// one that reached it earlier, so the earliest time is enough.
+// Optimal cost of two agents by breadth-first search over joint states, layer by layer of time.
+//
+// As long as neither agent rests, both pay for every step. So all paths to a joint state at time t
+// cost 2t, and breadth-first search finds the earliest t. The agent that rests first does so at
+// some time t in some joint state. From then on it is a wall, and a second breadth-first search
+// finds the other agent's cheapest path to its rest. The optimum is the least sum of 2t and the
+// cost of that path, over all joint states and both agents. An agent that reaches a state later has
+// no more choices there than an agent that reached it earlier, so the earliest time suffices.
 #include "tests/oracle/layered_search.h"
 
 #include <algorithm>
@@ -18,14 +20,15 @@
 namespace grove::detail::oracle {
 namespace {
 
-// An agent, and what is left of the tasks it has still to do: steps of work, 0 for being there.
+// State of an agent with its remaining tasks and their remaining steps; 0 steps: a task that takes
+// no time.
 struct Walker {
   Place cell;
   Heading heading;
   Heading turning_to;
   Time turned;
   std::map<TaskIndex, Time> left;
-  TaskIndex at_work;  // it must go on with this one; -1: with none
+  TaskIndex at_work;  // it must continue this task; -1: none
   auto operator<=>(const Walker&) const = default;
 };
 
@@ -38,19 +41,19 @@ void arrive(const Instance& instance, Walker& walker, Place cell) {
 
 bool is_home(const Instance& instance, AgentIndex agent, const Walker& walker) {
   if (!walker.left.empty()) return false;
-  const Agent& who = instance.agent(agent);
-  if (who.goal) {
-    if (walker.cell != *who.goal) return false;
-    return !who.goal_heading || (walker.turned == 0 && walker.heading == *who.goal_heading);
+  const Agent& spec = instance.agent(agent);
+  if (spec.goal) {
+    if (walker.cell != *spec.goal) return false;
+    return !spec.goal_heading || (walker.turned == 0 && walker.heading == *spec.goal_heading);
   }
-  return who.tasks.empty() || std::ranges::any_of(who.tasks, [&](TaskIndex task) {
+  return spec.tasks.empty() || std::ranges::any_of(spec.tasks, [&](TaskIndex task) {
            return instance.task(task).cell == walker.cell;
          });
 }
 
 using Steps = std::vector<std::vector<Place>>;
 
-// A step of the work that is under way, or of this task.
+// The state after one step of `task`.
 Walker worked(const Walker& walker, TaskIndex task) {
   Walker then = walker;
   Time& left = then.left.at(task);
@@ -68,7 +71,7 @@ Walker turned(const Instance& instance, AgentIndex agent, Walker walker, Heading
   return walker;
 }
 
-bool looks_at(const Instance& instance, const Walker& walker, Place cell) {
+bool faces(const Instance& instance, const Walker& walker, Place cell) {
   const Position a = instance.grid().position(walker.cell);
   const Position b = instance.grid().position(cell);
   const Position ahead{b.x - a.x, b.y - a.y};
@@ -98,7 +101,7 @@ std::vector<Walker> steps(const Instance& instance, const Steps& map, AgentIndex
     return next;
   }
   for (Place cell : map[walker.cell]) {
-    if (turns && !looks_at(instance, walker, cell)) continue;
+    if (turns && !faces(instance, walker, cell)) continue;
     next.push_back(walker);
     arrive(instance, next.back(), cell);
   }
@@ -110,20 +113,20 @@ std::vector<Walker> steps(const Instance& instance, const Steps& map, AgentIndex
 }
 
 Walker at_start(const Instance& instance, AgentIndex agent) {
-  const Agent& who = instance.agent(agent);
-  const Pose pose = instance.pose_of(who.start);
+  const Agent& spec = instance.agent(agent);
+  const Pose pose = instance.pose_of(spec.start);
   Walker walker{pose.place, pose.heading, pose.to, pose.steps, {}, -1};
-  for (TaskIndex task : who.tasks) walker.left[task] = instance.task(task).duration;
+  for (TaskIndex task : spec.tasks) walker.left[task] = instance.task(task).duration;
   arrive(instance, walker, pose.place);
-  if (instance.world().is_working(who.start)) {
-    const Work& work = instance.world().work(who.start);
+  if (instance.world().is_working(spec.start)) {
+    const Work& work = instance.world().work(spec.start);
     walker.left[work.task] -= work.done;
     walker.at_work = work.task;
   }
   return walker;
 }
 
-// Steps until `walker` is home, with `wall` blocked for good; none when it cannot be.
+// Steps until `walker` may rest, with `wall` blocked for ever. Returns nullopt if it never can.
 std::optional<Cost> way_home(const Instance& instance, const Steps& map, AgentIndex agent,
                              const Walker& walker, Place wall) {
   std::set<Walker> seen{walker};
@@ -147,7 +150,7 @@ bool collide(const Pair& from, const Pair& to) {
   return swap || to.first.cell == to.second.cell;
 }
 
-// The least cost from `pair` on when one of the two rests there at once.
+// The least cost from `pair` on if one of the two rests there at once.
 std::optional<Cost> cost_after_first_rest(const Instance& instance, const Steps& map,
                                           const Pair& pair) {
   std::optional<Cost> best;

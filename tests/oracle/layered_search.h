@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A second opinion for the oracle, for two agents.
+// Independent check of the joint oracle, for two agents.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace grove::detail::oracle {
 
-// The optimal cost of an instance with exactly two agents; none when there is no plan. Slow, plain,
-// and built on another idea than the joint oracle, with which it shares no text.
+// The optimal cost of an instance with exactly two agents. Returns nullopt if there is no plan.
+// Slow and simple. It uses another method than the joint oracle and shares no code with its search.
 std::optional<Cost> solve_two_agents(const Instance& instance);
 
 }  // namespace grove::detail::oracle

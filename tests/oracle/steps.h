@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where an agent can go in one step, read off a map: a second time, not from its world.
+// Steps of an agent, computed from the map. Independent of the library's World.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,10 @@
 
 namespace grove::detail::oracle {
 
-// By place: the places one move away; waits are not among them.
+// For each place: the places one move away, without waits.
 std::vector<std::vector<Place>> steps_on(const Map& map);
 
-// The poses of this agent one step away from `pose`, on a map with these steps; waits are not among
-// them.
+// The poses of `agent` one step away from `pose`, on a map with these steps, without waits.
 std::vector<Pose> next_poses(const Instance& instance, const Agent& agent,
                              const std::vector<std::vector<Place>>& steps, const Pose& pose);
 

@@ -34,7 +34,7 @@ TEST(BucketQueue, OrdersByLayerThenConflictsThenLastIn) {
   EXPECT_EQ(drain(queue), (std::vector<std::int32_t>{1, 2, 3, 5, 6, 7}));
 }
 
-TEST(BucketQueue, ResetForgetsEverything) {
+TEST(BucketQueue, ResetRemovesAllEntries) {
   BucketQueue queue;
   queue.reset(0);
   for (Time layer : {0, 1, 900, 5000}) queue.push(layer, entry(1, 1023));
@@ -43,8 +43,8 @@ TEST(BucketQueue, ResetForgetsEverything) {
   EXPECT_TRUE(drain(queue).empty());
 }
 
-// Against a multimap, pushing and popping in turns.
-TEST(BucketQueue, AgreesWithASortedMap) {
+// Compares random pushes and pops with a multimap.
+TEST(BucketQueue, AgreesWithSortedMap) {
   std::mt19937 random(1);
   BucketQueue queue;
   for (int round = 0; round < 100; ++round) {

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "tests/planning/random_matter.h"
+#include "tests/planning/random_cases.h"
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"
 
@@ -54,8 +54,9 @@ TEST(ConflictAvoidanceTable, AgreesWithNaiveCounts) {
   }
 }
 
-// Those that are gone take room until it is wanted: three times as many paths come as fit at first.
-TEST(ConflictAvoidanceTable, AgreesWhenItMakesRoom) {
+// Counts of removed paths occupy memory until the table needs it. The test adds three times as many
+// paths as fit at first.
+TEST(ConflictAvoidanceTable, AgreesAfterDroppingRemovedPaths) {
   std::mt19937 random(8);
   const Grid grid =
       grid_of({"........", "........", "........", "........", "........", "........"});
@@ -74,7 +75,7 @@ TEST(ConflictAvoidanceTable, AgreesWhenItMakesRoom) {
   }
 }
 
-TEST(ConflictAvoidanceTable, ForgetsHoweverOftenItIsCleared) {
+TEST(ConflictAvoidanceTable, ClearRemovesPathsEvenAfterManyClears) {
   const Grid grid = grid_of({"...."});
   ConflictAvoidanceTable table(grid);
   for (int round = 0; round < 140'000; ++round) {
@@ -91,11 +92,11 @@ TEST(ConflictAvoidanceTable, CountsVertexAndSwap) {
   table.add({0, 1, 2});
   EXPECT_EQ(table.conflicts(1, 0, 1), 1);  // a swap
   EXPECT_EQ(table.conflicts(1, 1, 1), 1);
-  EXPECT_EQ(table.conflicts(0, 1, 1), 1);  // side by side: the cell alone
+  EXPECT_EQ(table.conflicts(0, 1, 1), 1);  // the same move: a vertex conflict only
   EXPECT_EQ(table.conflicts(1, 0, 2), 0);
 }
 
-TEST(ConflictAvoidanceTable, AgentsRestForEver) {
+TEST(ConflictAvoidanceTable, AgentsRestForever) {
   const Grid grid = grid_of({"..."});
   ConflictAvoidanceTable table(grid);
   table.add({0, 1});
@@ -104,7 +105,7 @@ TEST(ConflictAvoidanceTable, AgentsRestForEver) {
   EXPECT_EQ(table.conflicts_of_waiting(1, 11, 1'000), 990);
 }
 
-TEST(ConflictAvoidanceTable, AnEmptyPathIsNothing) {
+TEST(ConflictAvoidanceTable, EmptyPathHasNoConflicts) {
   const Grid grid = grid_of({".."});
   ConflictAvoidanceTable table(grid);
   table.add({});
@@ -112,7 +113,7 @@ TEST(ConflictAvoidanceTable, AnEmptyPathIsNothing) {
   EXPECT_EQ(table.conflicts(0, 1, 1), 0);
 }
 
-TEST(ConflictAvoidanceTable, ManyPathsOnOneCellAreManyEvenAfterRemovals) {
+TEST(ConflictAvoidanceTable, CountsManyPathsOnOneCellAfterRemovals) {
   const Grid grid = grid_of({".."});
   ConflictAvoidanceTable table(grid);
   for (int i = 0; i < 300; ++i) table.add({0, 1});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a constraint asks of a path is written twice, in the library and in tests/support/obeys: the
-// two must agree.
+// Constraints and the paths that satisfy them. The library and tests/support/satisfies implement
+// satisfies() independently; the two must agree.
 #include "planning/constraint.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "planning/corridors.h"
-#include "tests/planning/random_matter.h"
+#include "tests/planning/random_cases.h"
 #include "tests/planning/single_agent.h"
 #include "tests/support/satisfies.h"
 
@@ -23,7 +23,7 @@ namespace constraint_test {
 constexpr std::array kOnPaths{ConstraintKind::kVertexOrEdge, ConstraintKind::kNoRestBy,
                               ConstraintKind::kRestBy, ConstraintKind::kNoTraversal};
 
-TEST(Constraint, IsObeyedAsTheTestsSay) {
+TEST(Constraint, SatisfiesAgreesWithReference) {
   std::mt19937 random(5);
   std::map<std::pair<ConstraintKind, bool>, int> seen;
   for (int round = 0; round < 300; ++round) {
@@ -35,28 +35,28 @@ TEST(Constraint, IsObeyedAsTheTestsSay) {
       const Constraint c = random() % 3 == 0
                                ? testing::random_bar(grid, path, goals, random)
                                : testing::random_conditional_constraint(grid, path, goals, random);
-      const bool obeyed = satisfies(grid, path, c, corridors);
-      ++seen[{c.kind, obeyed}];
-      ASSERT_EQ(obeyed, testing::satisfies(grid, path, c))
+      const bool satisfied = satisfies(grid, path, c, corridors);
+      ++seen[{c.kind, satisfied}];
+      ASSERT_EQ(satisfied, testing::satisfies(grid, path, c))
           << name_of(c.kind) << " " << c.cell << " " << c.from << " " << c.begin << " " << c.end;
     }
   }
   for (const ConstraintKind kind : kOnPaths) {
-    const int obeyed = seen[{kind, true}];
-    const int broken = seen[{kind, false}];
-    EXPECT_GT(obeyed, 100) << name_of(kind);
-    EXPECT_GT(broken, 100) << name_of(kind);
+    const int satisfied = seen[{kind, true}];
+    const int violated = seen[{kind, false}];
+    EXPECT_GT(satisfied, 100) << name_of(kind);
+    EXPECT_GT(violated, 100) << name_of(kind);
   }
 }
 
-TEST(Constraint, OnTheSequenceIsNotObeyedByAPathAlone) {
+TEST(Constraint, SatisfiesThrowsForSequenceConstraint) {
   const Grid grid = testing::grid_of({".."});
   const Constraint next{1, kNoCell, 0, 0, ConstraintKind::kStopIs};
   EXPECT_TRUE(is_about_sequence(next));
   EXPECT_THROW(satisfies(grid, {0, 1}, next, Corridors(grid)), std::invalid_argument);
 }
 
-// Files and other processes know kinds by these numbers.
+// Files and messages between processes contain these numbers.
 TEST(Constraint, KindsHaveNumbersAndNames) {
   const std::array names{"bar", "no-rest-by", "rest-by", "no-traversal", "stop-is", "stop-is-not"};
   for (std::uint8_t number = 0; number < names.size(); ++number) {
@@ -69,26 +69,27 @@ TEST(Constraint, KindsHaveNumbersAndNames) {
   EXPECT_FALSE(constraint_kind(255));
 }
 
-// Three agents; what each of them is asked, by either function.
-TEST(Constraint, ConcernsItsAgentAndOfRestsTheOthersToo) {
+// Three agents: the constraint on each of them, by for_each_implied_constraint() and by
+// constraint_on().
+TEST(Constraint, AppliesToItsAgentAndRestByToAllOthers) {
   const std::array<AgentIndex, 3> all{0, 1, 2};
-  const auto asked = [&](const AgentConstraint& added) {
-    std::array<std::optional<Constraint>, 3> demands;
+  const auto implied_by = [&](const AgentConstraint& added) {
+    std::array<std::optional<Constraint>, 3> implied;
     for_each_implied_constraint(added, all,
-                                [&](AgentIndex agent, const Constraint& c) { demands[agent] = c; });
-    for (const AgentIndex agent : all) EXPECT_EQ(demands[agent], constraint_on(agent, added));
-    return demands;
+                                [&](AgentIndex agent, const Constraint& c) { implied[agent] = c; });
+    for (const AgentIndex agent : all) EXPECT_EQ(implied[agent], constraint_on(agent, added));
+    return implied;
   };
   for (const ConstraintKind kind : kOnPaths) {
     const Constraint c{7, kNoCell, 0, 5, kind};
-    const auto demands = asked({1, c});
-    EXPECT_EQ(demands[1], c);
-    EXPECT_EQ(demands[0].has_value(), kind == ConstraintKind::kRestBy);
-    EXPECT_EQ(demands[2], demands[0]);
-    if (demands[0]) {
-      EXPECT_EQ(*demands[0], (Constraint{7, kNoCell, 5, kNever}));
+    const auto implied = implied_by({1, c});
+    EXPECT_EQ(implied[1], c);
+    EXPECT_EQ(implied[0].has_value(), kind == ConstraintKind::kRestBy);
+    EXPECT_EQ(implied[2], implied[0]);
+    if (implied[0]) {
+      EXPECT_EQ(*implied[0], (Constraint{7, kNoCell, 5, kNever}));
     }
-    for (const auto& demand : asked({-1, c})) EXPECT_FALSE(demand);
+    for (const auto& constraint : implied_by({-1, c})) EXPECT_FALSE(constraint);
   }
 }
 

@@ -9,17 +9,17 @@
 #include "tests/planning/single_agent.h"
 
 namespace grove::detail {
-namespace chains_test {
+namespace corridors_test {
 
 using testing::grid_of;
 using Cells = std::vector<Cell>;
 
-Cells cells_of(const Corridors& corridors, int chain) {
-  const auto cells = corridors.places(chain);
+Cells cells_of(const Corridors& corridors, int corridor) {
+  const auto cells = corridors.places(corridor);
   return {cells.begin(), cells.end()};
 }
 
-TEST(Corridors, ADoorIsOne) {
+TEST(Corridors, DoorIsACorridor) {
   const Corridors corridors(grid_of({"..@..", ".....", "..@.."}));
   const int door = corridors.corridor_of(7);
   ASSERT_NE(door, Corridors::kNoCorridor);
@@ -30,7 +30,7 @@ TEST(Corridors, ADoorIsOne) {
   EXPECT_EQ(corridors.corridor_of(6), Corridors::kNoCorridor);
 }
 
-TEST(Corridors, ACorridorEndsInDeadEnds) {
+TEST(Corridors, CorridorExtendsToDeadEnds) {
   const Corridors corridors(grid_of({"......"}));
   ASSERT_EQ(corridors.count(), 1);
   Cells cells = cells_of(corridors, 0);
@@ -38,13 +38,13 @@ TEST(Corridors, ACorridorEndsInDeadEnds) {
   EXPECT_EQ(cells, (Cells{0, 1, 2, 3, 4, 5}));
 }
 
-TEST(Corridors, ARingIsNone) {
+TEST(Corridors, IsolatedRingIsNoCorridor) {
   const Corridors corridors(grid_of({"...", ".@.", "..."}));
   EXPECT_EQ(corridors.count(), 0);
   EXPECT_EQ(corridors.corridor_of(1), Corridors::kNoCorridor);
 }
 
-TEST(Corridors, ALoopBeginsAndEndsAtOneCell) {
+TEST(Corridors, LoopBeginsAndEndsAtOneCell) {
   const Corridors corridors(grid_of({"...@", ".@.@", "....", "@@@."}));
   ASSERT_EQ(corridors.count(), 2);
   const auto loop = corridors.places(corridors.corridor_of(0));
@@ -53,33 +53,34 @@ TEST(Corridors, ALoopBeginsAndEndsAtOneCell) {
   EXPECT_EQ(loop.back(), 10);
 }
 
-// By definition, on random maps.
+// Checks the definition on random maps.
 TEST(Corridors, AreMaximalRowsOfCellsWithTwoNeighbors) {
   std::mt19937 random(1);
-  int chains_seen = 0;
+  int corridors_seen = 0;
   for (int round = 0; round < 300; ++round) {
     std::vector<bool> passable(48);
     for (std::size_t i = 0; i < passable.size(); ++i) passable[i] = random() % 3 > 0;
     const Grid grid(8, 6, passable);
     const Corridors corridors(grid);
     Cells inner;
-    for (int chain = 0; chain < corridors.count(); ++chain) {
-      const auto cells = corridors.places(chain);
+    for (int corridor = 0; corridor < corridors.count(); ++corridor) {
+      const auto cells = corridors.places(corridor);
       ASSERT_GE(cells.size(), 3u);
       EXPECT_NE(grid.neighbors(cells.front()).size(), 2u);
       EXPECT_NE(grid.neighbors(cells.back()).size(), 2u);
       for (std::size_t i = 1; i < cells.size(); ++i)
         EXPECT_EQ(std::ranges::count(grid.neighbors(cells[i - 1]), cells[i]), 1);
       for (std::size_t i = 1; i + 1 < cells.size(); ++i) {
-        EXPECT_EQ(corridors.corridor_of(cells[i]), chain);
+        EXPECT_EQ(corridors.corridor_of(cells[i]), corridor);
         EXPECT_EQ(corridors.position(cells[i]), static_cast<int>(i));
         inner.push_back(cells[i]);
       }
-      ++chains_seen;
+      ++corridors_seen;
     }
     std::ranges::sort(inner);
     EXPECT_EQ(std::ranges::adjacent_find(inner), inner.end());
-    // All others with two neighbors are on rings: no way leads from them to another cell.
+    // All other cells with two neighbours are on isolated rings: each of their neighbours has two
+    // neighbours, too.
     for (Cell cell = 0; cell < grid.cell_count(); ++cell) {
       if (std::ranges::binary_search(inner, cell)) continue;
       EXPECT_EQ(corridors.corridor_of(cell), Corridors::kNoCorridor);
@@ -90,8 +91,8 @@ TEST(Corridors, AreMaximalRowsOfCellsWithTwoNeighbors) {
       }
     }
   }
-  EXPECT_GT(chains_seen, 300);
+  EXPECT_GT(corridors_seen, 300);
 }
 
-}  // namespace chains_test
+}  // namespace corridors_test
 }  // namespace grove::detail

@@ -7,13 +7,14 @@
 #include <limits>
 #include <random>
 
-#include "tests/planning/random_matter.h"
+#include "tests/planning/random_cases.h"
 #include "tests/support/instances.h"
 
 namespace grove::detail {
 namespace fewest_conflicts_test {
 
-// The fewest conflicts of any way, by trying all.
+// Fewest conflicts of any path of the MDD that begins with `path` and continues with `node`, by
+// enumeration.
 int fewest(const Mdd& paths, const ConflictAvoidanceTable& others, Mdd::NodeId node, Path& path) {
   path.push_back(paths.state(node));
   int best = std::numeric_limits<int>::max();
@@ -55,7 +56,7 @@ void expect_fewest(const Instance& instance, std::initializer_list<Time> costs) 
   EXPECT_GT(waits, 100);
 }
 
-TEST(FewestConflicts, FindsAPathWithTheFewest) {
+TEST(FewestConflicts, FindsPathWithFewestConflicts) {
   expect_fewest(testing::instance_of({".....", "..@..", "....."},
                                      {{{0, 0}, Position{4, 2}, {{1, 1}, {3, 0}, {0, 2}}}}),
                 {10, 11, 12, 13});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Each case is a trap in which some low level has been caught.
+// Single-agent search in a fixed order of goals: cases that some low-level search has solved
+// wrongly.
 #include "planning/fixed_order_sipp.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@
 #include "tests/support/clocks.h"
 
 namespace grove::detail {
-namespace low_level_search_test {
+namespace fixed_order_sipp_test {
 
 using Outcome = PathOutcome;
 using testing::grid_of;
@@ -34,38 +35,38 @@ Time cost_of(const Grid& grid, const SingleAgent& agent, const Constraints& cons
   return static_cast<Time>(path_of(grid, agent, constraints).size()) - 1;
 }
 
-TEST(FixedOrderSipp, WalksThroughItsGoals) {
+TEST(FixedOrderSipp, VisitsGoalsInTheGivenOrder) {
   const Grid grid = grid_of({"...."});
   const SingleAgent agent(grid, 1, {3, 0}, 2);
   EXPECT_EQ(path_of(grid, agent, {}), (Path{1, 2, 3, 2, 1, 0, 1, 2}));
 }
 
-TEST(FixedOrderSipp, ArrivingEarlyInADeadEndCanBeATrap) {
+TEST(FixedOrderSipp, EarlyArrivalInDeadEndMayCostMore) {
   const Grid grid = grid_of({"...."});
   const SingleAgent agent(grid, 3, {0}, 3);
-  // Whoever is on the task at time 3 cannot get out before time 21 and cannot stay at time 10.
+  // An agent on the task at time 3 cannot leave before time 21 and cannot stay at time 10.
   EXPECT_EQ(cost_of(grid, agent, {{1, kNoCell, 4, 20}, {0, kNoCell, 10, 10}}), 25);
 }
 
-TEST(FixedOrderSipp, PassesItsDestinationAndComesBack) {
+TEST(FixedOrderSipp, PassesItsDestinationAndReturns) {
   const Grid grid = grid_of({"...."});
   const SingleAgent agent(grid, 0, {3}, 1);
   EXPECT_EQ(path_of(grid, agent, {}), (Path{0, 1, 2, 3, 2, 1}));
 }
 
-TEST(FixedOrderSipp, ALateBanOnTheDestinationCountsWhileResting) {
+TEST(FixedOrderSipp, LateConstraintOnDestinationDelaysFinish) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 0, {}, 2);
   EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 9, 9}}), 10);
 }
 
-TEST(FixedOrderSipp, ACellBarredForEverIsNoPlaceToFinish) {
+TEST(FixedOrderSipp, CellBarredForeverCannotBeTheFinish) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 0, {}, 2);
   EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 50, kNever}}), kInfeasible);
 }
 
-TEST(FixedOrderSipp, ATaskBarredForEverMustBeReachedInTime) {
+TEST(FixedOrderSipp, TaskBarredForeverMustBeReachedBefore) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 0, {2}, 0);
   EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 3, kNever}}), 4);
@@ -73,7 +74,7 @@ TEST(FixedOrderSipp, ATaskBarredForEverMustBeReachedInTime) {
   EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 0, kNever}}), kInfeasible);
 }
 
-TEST(FixedOrderSipp, CannotStartOnABarredCell) {
+TEST(FixedOrderSipp, CannotStartOnBarredCell) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 0, {}, 2);
   EXPECT_EQ(cost_of(grid, agent, {{0, kNoCell, 0, 0}}), kInfeasible);
@@ -81,32 +82,32 @@ TEST(FixedOrderSipp, CannotStartOnABarredCell) {
   EXPECT_EQ(cost_of(grid, agent, {{0, kNoCell, 1, 9}}), 2);
 }
 
-TEST(FixedOrderSipp, AnAgentAlreadyThereCostsNothing) {
+TEST(FixedOrderSipp, AgentAtItsDestinationCostsNothing) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 1, {1}, 1);
   EXPECT_EQ(path_of(grid, agent, {}), Path{1});
 }
 
-TEST(FixedOrderSipp, AnAgentAlreadyThereMayHaveToStepAside) {
+TEST(FixedOrderSipp, AgentAtItsDestinationLeavesIfBarredLater) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 1, {}, 1);
   EXPECT_EQ(cost_of(grid, agent, {{1, kNoCell, 5, 5}}), 6);
 }
 
-TEST(FixedOrderSipp, ATaskOnTheStartIsVisitedAtTimeZero) {
+TEST(FixedOrderSipp, TaskOnStartIsVisitedAtTimeZero) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 0, {0}, 2);
   EXPECT_EQ(cost_of(grid, agent, {}), 2);
   EXPECT_EQ(cost_of(grid, agent, {{0, kNoCell, 1, kNever}}), 2);
 }
 
-TEST(FixedOrderSipp, ATaskOnTheDestinationIsVisitedOnArrival) {
+TEST(FixedOrderSipp, TaskOnDestinationIsVisitedOnArrival) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 0, {1, 2}, 2);
   EXPECT_EQ(cost_of(grid, agent, {}), 2);
 }
 
-TEST(FixedOrderSipp, AnAgentWithoutDestinationRestsOnItsLastTask) {
+TEST(FixedOrderSipp, AgentWithoutDestinationRestsOnItsLastTask) {
   const Grid grid = grid_of({"...."});
   const SingleAgent agent(grid, 1, {0, 3}, std::nullopt);
   EXPECT_EQ(path_of(grid, agent, {}), (Path{1, 0, 1, 2, 3}));
@@ -114,7 +115,7 @@ TEST(FixedOrderSipp, AnAgentWithoutDestinationRestsOnItsLastTask) {
   EXPECT_EQ(cost_of(grid, agent, {{3, kNoCell, 7, kNever}}), kInfeasible);
 }
 
-TEST(FixedOrderSipp, BarredMovesBarOneDirectionAtTheTimeOfArrival) {
+TEST(FixedOrderSipp, EdgeConstraintBarsOneDirectionAtArrivalTime) {
   const Grid grid = grid_of({"..."});
   const SingleAgent there(grid, 0, {}, 2);
   EXPECT_EQ(cost_of(grid, there, {{1, 0, 1, 4}}), 6);
@@ -123,10 +124,11 @@ TEST(FixedOrderSipp, BarredMovesBarOneDirectionAtTheTimeOfArrival) {
   EXPECT_EQ(cost_of(grid, there, {{1, 0, 1, kNever}}), kInfeasible);
 }
 
-TEST(FixedOrderSipp, WaitsNowhereOnceEveryWaitingPlaceIsBarred) {
+TEST(FixedOrderSipp, IsInfeasibleWhenEveryWaitingPlaceIsBarred) {
   const Grid grid = grid_of({"...", "@.@"});
   const SingleAgent agent(grid, 0, {}, 2);
-  // The middle is barred at 3: wait at the start, unless that is barred too; then in the niche.
+  // The destination is barred at times 2 and 3. The agent waits at the start, in the middle or in
+  // the niche, until all of them are barred.
   EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 2, 3}}), 4);
   EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 2, 3}, {0, kNoCell, 1, 9}}), 4);
   EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 2, 3}, {0, kNoCell, 1, 9}, {1, kNoCell, 2, 2}}), 4);
@@ -136,8 +138,8 @@ TEST(FixedOrderSipp, WaitsNowhereOnceEveryWaitingPlaceIsBarred) {
       kInfeasible);
 }
 
-// The gates of fixed_order_goals.h: the first visit of the task is of no use, a later one is.
-TEST(FixedOrderSipp, ALaterVisitOfATaskIsTriedWhenTheFirstLeadsNowhere) {
+// Gates of fixed_order_goals.h: the first visit of the task leads to no path, but a later one does.
+TEST(FixedOrderSipp, LaterVisitIsTriedWhenFirstVisitLeadsNowhere) {
   const Grid grid = grid_of({".....", "@@.@@"});
   const SingleAgent agent(grid, 0, {7}, 4);
   Constraints constraints{{7, kNoCell, 6, 6}, {2, kNoCell, 4, 11}};
@@ -148,16 +150,17 @@ TEST(FixedOrderSipp, ALaterVisitOfATaskIsTriedWhenTheFirstLeadsNowhere) {
   EXPECT_EQ(cost_of(grid, agent, constraints), kInfeasible);
 }
 
-// Labels postponed by a gate come late, here after a gate of an earlier goal that they could pass
-// sooner. That gate must let them through: its first condition, f(L) >= g + after_goal(k).
-TEST(FixedOrderSipp, AGateLetsThroughWhoComesEarlierToItsGoal) {
+// A gate postpones labels. Here they are expanded after a gate of an earlier goal, although they
+// can visit that goal before the gate's time g. The gate must not postpone them: they violate its
+// first condition, f(L) >= g + after_goal(k).
+TEST(FixedOrderSipp, GateKeepsLabelsThatReachItsGoalEarlier) {
   const Grid grid = grid_of({".......", "@.@@@@@"});
   const SingleAgent agent(grid, 0, {2, 5}, 6);
   const Constraints constraints{
       {1, kNoCell, 3, 3},     {1, kNoCell, 5, 5},   // to the first task at once, at 5, or from 7 on
       {2, kNoCell, 3, 4},     {2, kNoCell, 6, 6},   //
-      {3, kNoCell, 4, 5},     {3, kNoCell, 8, 30},  // whoever is there from 7 on waits for long
-      {4, kNoCell, 6, 6},     {3, 4, 6, 6},         // whoever is there at 2 is caught on the second
+      {3, kNoCell, 4, 5},     {3, kNoCell, 8, 30},  // an agent there at 7 or later waits for long
+      {4, kNoCell, 6, 6},     {3, 4, 6, 6},         // an agent there at 2 is trapped at the second
       {5, kNoCell, 6, 14},    {6, kNoCell, 6, 15},  //
       {8, kNoCell, 0, kNever}};
   ConflictAvoidanceTable others(grid);
@@ -172,13 +175,13 @@ TEST(FixedOrderSipp, UnreachableGoalsAreInfeasible) {
   EXPECT_EQ(cost_of(grid, SingleAgent(grid, 0, {3}, 1), {}), kInfeasible);
 }
 
-TEST(FixedOrderSipp, WaitsAMillionStepsIfItMust) {
+TEST(FixedOrderSipp, WaitsAMillionStepsIfNecessary) {
   const Grid grid = grid_of({"...."});
   const SingleAgent agent(grid, 0, {2}, 3);
   EXPECT_EQ(cost_of(grid, agent, {{2, kNoCell, 1, 999'999}, {3, kNoCell, 5, 5}}), 1'000'001);
 }
 
-TEST(FixedOrderSipp, PrefersTheWayWithFewerConflicts) {
+TEST(FixedOrderSipp, PrefersPathWithFewerConflicts) {
   const Grid grid = grid_of({"...", ".@.", "..."});
   const SingleAgent agent(grid, 0, {}, 8);
   ConflictAvoidanceTable others(grid);
@@ -189,7 +192,7 @@ TEST(FixedOrderSipp, PrefersTheWayWithFewerConflicts) {
   EXPECT_EQ(path_of(grid, agent, {}, &others), (Path{0, 1, 2, 5, 8}));
 }
 
-TEST(FixedOrderSipp, WaitsWhereItIsInNobodysWay) {
+TEST(FixedOrderSipp, WaitsWhereNoOtherAgentPasses) {
   const Grid grid = grid_of({"...", ".@.", "..."});
   const SingleAgent agent(grid, 0, {}, 8);
   const Constraints constraints{{8, kNoCell, 1, 6}};  // wait on 5 or on 7
@@ -222,7 +225,7 @@ TEST(FixedOrderSipp, RejectsConstraintsOutsideTheGrid) {
                std::invalid_argument);
 }
 
-TEST(FixedOrderSipp, StopsWithoutAnAnswerWhenALimitStrikes) {
+TEST(FixedOrderSipp, StopsWithoutAnswerWhenALimitIsReached) {
   const Grid grid = grid_of({"..."});
   const SingleAgent agent(grid, 0, {}, 2);
   FixedOrderSipp search(grid);
@@ -244,8 +247,9 @@ TEST(FixedOrderSipp, StopsWithoutAnAnswerWhenALimitStrikes) {
   EXPECT_GT(search.expanded(), 0);
 }
 
-// A proof of infeasibility that takes long: every cell is walled in by bans of every other moment.
-TEST(FixedOrderSipp, StopsInTheMiddleOfALongProof) {
+// A long proof of infeasibility: no move may enter the task's cell, and the cell itself is barred
+// at every second time from 400 to 3998.
+TEST(FixedOrderSipp, StopsDuringLongInfeasibilityProof) {
   const Grid grid(100, 100, std::vector<bool>(10'000, true));
   const SingleAgent agent(grid, 0, {5'050}, 9'999);
   Constraints constraints;
@@ -263,5 +267,5 @@ TEST(FixedOrderSipp, StopsInTheMiddleOfALongProof) {
   EXPECT_LT(search.expanded() - whole, whole);
 }
 
-}  // namespace low_level_search_test
+}  // namespace fixed_order_sipp_test
 }  // namespace grove::detail

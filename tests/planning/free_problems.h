@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Random problems for the low levels that choose the order, on tiny maps.
+// Random problems on tiny maps for single-agent searches that choose the order of the stops.
 #pragma once
 
 #include <random>
 
 #include "model/plan.h"
 #include "tests/planning/free_reference.h"
-#include "tests/planning/random_matter.h"
+#include "tests/planning/random_cases.h"
 
 namespace grove::detail::testing {
 
-// The seed settles what comes. `conditional`: constraints of all kinds, not bars alone.
+// Generates problems, determined by the seed. `conditional`: constraints of all kinds, not only
+// vertex and edge constraints.
 class FreeProblems {
  public:
   FreeProblems(unsigned seed, bool conditional) : random_(seed), conditional_(conditional) {}
 
-  // One of 0 .. bound - 1.
+  // A random number from 0 to bound - 1.
   int below(int bound) { return static_cast<int>(random_() % static_cast<unsigned>(bound)); }
   Grid grid();
-  // Without constraints.
+  // A problem without constraints.
   FreeProblem problem(const Grid& grid);
   Path walk(const Grid& grid) { return random_walk(grid, random_); }
-  // Adds a constraint that most likely matters to an agent that went `path`.
+  // Adds a constraint that `path` probably violates.
   void make_harder(FreeProblem& problem, const Path& path);
 
  private:

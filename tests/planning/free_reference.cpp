@@ -17,9 +17,9 @@ namespace {
 struct FreePlace {
   Cell cell;
   unsigned counted;  // stops
-  int last;          // the last one of them or -1
-  Mouth mouth;       // inside a chain: by which it came in, none if inside since time 0
-  bool late;         // it came here after all times by which it may not have come to rest here
+  int last;          // the stop counted last, or -1
+  Mouth mouth;       // entrance of the corridor it is in; none outside, or inside since time 0
+  bool late;         // it arrived here later than all times by which it may not rest here
 
   auto key() const { return std::tuple(cell, counted, last, mouth.end, mouth.inner, late); }
   bool operator<(const FreePlace& other) const { return key() < other.key(); }
@@ -44,7 +44,7 @@ class FreeLayers {
     });
   }
 
-  // False if nothing changes any more.
+  // Advances to `time`. Returns false if the reachable states no longer change.
   bool step(Time time) {
     next_.clear();
     for (const FreePlace& place : now_) {

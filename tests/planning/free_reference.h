@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the free low level must find, by definition: time step by time step, and order by order.
+// Reference for single-agent search that chooses the order of the stops: by definition, time step
+// by time step, and by enumeration of orders.
 #pragma once
 
 #include <optional>
@@ -24,10 +25,10 @@ struct FreeProblem {
   std::vector<Constraint> constraints;
 };
 
-// With this one agent.
+// An instance with only this agent.
 Instance instance_of(const FreeProblem& problem);
 
-// What the library makes of it; not to be moved.
+// A problem and the library's objects for it. Not movable.
 struct FreeAgent {
   explicit FreeAgent(const FreeProblem& given)
       : problem(given),
@@ -44,12 +45,12 @@ struct FreeAgent {
   SequenceStages goals;
 };
 
-// The cost of a cheapest path that realizes a sequence of the class, none if there is no path. An
-// agent on a stop may or may not count it; it rests on its destination, or without one on the stop
-// counted last.
+// The least cost of a path that realizes a sequence of the class. Returns nullopt if there is no
+// path. An agent on a stop may or may not count it. It rests on its destination, or, without one,
+// on the stop counted last.
 std::optional<Time> free_reference_cost(const FreeProblem& problem);
 
-// What is wrong with `path` as one that realizes this sequence of all stops; empty if nothing.
+// Describes why `path` does not realize this sequence of all stops; empty if it does.
 std::string path_error(const FreeProblem& problem, const Sequence& sequence, const Path& path);
 
 // All members of a class of n stops.

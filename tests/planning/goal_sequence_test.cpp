@@ -22,14 +22,14 @@ TEST(GoalSequence, EndsAtTheDestination) {
   EXPECT_EQ(agent.goals.last(), 3);
 }
 
-TEST(GoalSequence, EndsAtTheLastTaskWithoutDestination) {
+TEST(GoalSequence, EndsAtLastTaskWithoutDestination) {
   const Grid grid = grid_of({"......"});
   const SingleAgent agent(grid, 2, {0, 5}, std::nullopt);
   EXPECT_EQ(agent.goals.size(), 2);
   EXPECT_EQ(agent.goals.last(), 5);
 }
 
-TEST(GoalSequence, DistanceGoesThroughTheRemainingGoals) {
+TEST(GoalSequence, DistanceIncludesTheRemainingGoals) {
   const Grid grid = grid_of({"......"});
   const SingleAgent agent(grid, 2, {0, 5}, 3);
   EXPECT_EQ(agent.goals.distance(2, 0), 2 + 5 + 2);
@@ -37,13 +37,13 @@ TEST(GoalSequence, DistanceGoesThroughTheRemainingGoals) {
   EXPECT_EQ(agent.goals.distance(2, 2), 1);
 }
 
-TEST(GoalSequence, DistanceIsNeverAcrossAWall) {
+TEST(GoalSequence, DistanceAcrossWallIsNever) {
   const Grid grid = grid_of({"..@.@.."});
   const SingleAgent agent(grid, 0, {3, 5, 1}, 6);
   for (int k = 0; k < agent.goals.size(); ++k) EXPECT_GE(agent.goals.distance(0, k), kNever);
 }
 
-TEST(GoalSequence, WithNothingToDoAnAgentRestsAnywhere) {
+TEST(GoalSequence, AgentWithoutGoalsRestsAnywhere) {
   const Grid grid = grid_of({".."});
   const SingleAgent agent(grid, 0, {}, std::nullopt);
   EXPECT_EQ(agent.goals.size(), 1);

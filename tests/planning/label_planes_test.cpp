@@ -38,7 +38,7 @@ void write_all(LabelPlanes<Mark>& planes) {
       EXPECT_EQ(planes.label(slot, plane).value, slot + plane);
 }
 
-TEST(LabelPlanes, ForgetFromSearchToSearch) {
+TEST(LabelPlanes, HaveNoCurrentLabelsInNewSearch) {
   LabelPlanes<Mark> planes;
   for (int search = 0; search < 4; ++search) {
     planes.begin_search(kSlots);
@@ -46,7 +46,7 @@ TEST(LabelPlanes, ForgetFromSearchToSearch) {
   }
 }
 
-TEST(LabelPlanes, GiveBackWhatManySearchesHaveTouched) {
+TEST(LabelPlanes, ReleaseWidelyUsedMemoryInNewSearch) {
 #ifdef GROVE_SANITIZERS_MEMORY
   GTEST_SKIP() << "the sanitizer's own memory stays";
 #endif
@@ -60,8 +60,9 @@ TEST(LabelPlanes, GiveBackWhatManySearchesHaveTouched) {
   EXPECT_LT(resident_bytes(), before + kAll / 2);
 }
 
-// A page is asked for once, by whoever writes to it; else a read and a write would fault.
-TEST(LabelPlanes, WriteToAPageBeforeTheyReadIt) {
+// Each page faults only once, on a write. If a read came first, the read and the write would both
+// fault.
+TEST(LabelPlanes, WriteToPageBeforeReadingIt) {
   constexpr int kPages = kSlots / kSlotsOnAPage;
   LabelPlanes<Mark> planes;
   planes.begin_search(kSlots);
@@ -72,7 +73,7 @@ TEST(LabelPlanes, WriteToAPageBeforeTheyReadIt) {
     planes.label(slot, 0) = {planes.stamp(), slot};
   }
   EXPECT_LT(page_faults() - before, kPages * 3 / 2);
-  planes.begin_search(kSlots);  // so little is kept
+  planes.begin_search(kSlots);  // keeps the pages, because they are few
   ASSERT_TRUE(planes.open(0, Limits()));
   const std::int64_t between = page_faults();
   for (int slot = 0; slot < kSlots; slot += kSlotsOnAPage)
@@ -80,7 +81,7 @@ TEST(LabelPlanes, WriteToAPageBeforeTheyReadIt) {
   EXPECT_LT(page_faults() - between, kPages / 2);
 }
 
-TEST(LabelPlanes, AskForMemory) {
+TEST(LabelPlanes, ReportTheMemoryLimitWhenExhausted) {
   Limits limits;
   limits.set_memory_limit(1);
   LabelPlanes<Mark> planes;

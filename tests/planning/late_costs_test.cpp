@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Legs priced under cells that are barred for ever: against what paths cost, order by order.
+// Costs of legs while cells are barred for ever, compared with the costs of paths, order by order.
 #include "planning/late_costs.h"
 
 #include <gtest/gtest.h>
@@ -30,13 +30,13 @@ class LateCosts {
 
   int count() const { return stops_.count(); }
   const CostMatrix& plain() const { return stops_.cost_to_go().matrix(); }
-  // The costs with these constraints; the plain ones where none is higher.
+  // The cost matrix under these constraints; the plain one if they raise no cost.
   CostMatrix late(const std::vector<Constraint>& constraints, Time least_cost) {
     intervals_.assign(constraints);
     const auto matrix = late_cost_matrix(grid_, intervals_, stops_, least_cost);
     return matrix ? *matrix : plain();
   }
-  // kNever: no path.
+  // The least cost of a path in this order; kNever if there is no path.
   Time path_cost(const Sequence& sequence, const std::vector<Constraint>& constraints) {
     const std::vector<TaskIndex> tasks(sequence.begin(), sequence.end());
     FixedOrderSipp search(grid_);
@@ -53,7 +53,7 @@ class LateCosts {
   SafeIntervals intervals_;
 };
 
-// A room with a door each in the west and in the east, the destination inside.
+// A room with one door in the west and one in the east, and the destination inside.
 const std::vector<std::string> kRoom = {
     "............",  //
     ".@@@@@@@@@@.",  // 12 ..
@@ -62,17 +62,18 @@ const std::vector<std::string> kRoom = {
     ".@@@@@@@@@@.",  // 48 ..
 };
 
-TEST(LateCosts, TheLastLegGoesAround) {
+TEST(LateCosts, LastLegTakesTheDetour) {
   const Grid grid = grid_of(kRoom);
   // From the corner to (0, 10) and (0, 0), and then to (3, 2).
   LateCosts costs(grid, 48, {10, 0}, 38);
   const Time least = 24;  // 48 -> 0 -> 10 -> 38 is 4 + 10 + 11; 48 -> 10 -> 0 -> 38: 14 + 10 + 5
   const std::vector<Constraint> shut = {{37, kNoCell, 20, kNever}};
   const CostMatrix late = costs.late(shut, least);
-  // Stop 1, (0, 0): last at 24 - 5 = 19, so at the door at 19 + 4 = 23 or later: by the east.
+  // If stop 1, (0, 0), comes last, the agent leaves it at 24 - 5 = 19 or later. So it is at the
+  // west door at 19 + 4 = 23 or later and must use the east door.
   EXPECT_EQ(costs.plain().to_end(1), 5);
   EXPECT_EQ(late.to_end(1), 11 + 3 + 9);
-  // Other legs may begin early.
+  // Other legs may begin early, so their costs do not change.
   EXPECT_EQ(late.from_start(0), costs.plain().from_start(0));
   EXPECT_EQ(late.between(0, 1), costs.plain().between(0, 1));
   // A door that stays open long enough, or opens again, changes nothing.
@@ -80,7 +81,7 @@ TEST(LateCosts, TheLastLegGoesAround) {
   EXPECT_EQ(costs.late({{37, kNoCell, 2, 999}}, least).cost, costs.plain().cost);
 }
 
-TEST(LateCosts, AStopBehindAShutDoorIsNotReached) {
+TEST(LateCosts, StopBehindClosedDoorIsUnreachable) {
   const Grid grid = grid_of({"......"});
   LateCosts costs(grid, 0, {1, 4}, 0);
   const CostMatrix late = costs.late({{3, kNoCell, 2, kNever}}, 8);
@@ -94,7 +95,7 @@ class LateCostsFuzz {
  public:
   explicit LateCostsFuzz(unsigned seed) : random_(seed) {}
 
-  // Returns how many sequences cost more than before.
+  // Returns the number of sequences whose bound the constraints raise.
   int check(bool with_destination) {
     const Grid grid = random_grid();
     std::vector<Cell> cells;
@@ -140,7 +141,7 @@ class LateCostsFuzz {
   std::mt19937 random_;
 };
 
-TEST(LateCosts, NoPathCostsLess) {
+TEST(LateCosts, NeverExceedTheCostOfAPath) {
   int raised = 0;
   for (int seed = 0; seed < testing::fuzz_rounds(400); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The low level against a search that looks at every time step. GROVE_FUZZ_FACTOR multiplies the
+// FixedOrderSipp compared with a search over all time steps. GROVE_FUZZ_FACTOR multiplies the
 // number of cases.
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "planning/fixed_order_sipp.h"
-#include "tests/planning/random_matter.h"
+#include "tests/planning/random_cases.h"
 #include "tests/planning/reference_search.h"
 #include "tests/planning/single_agent.h"
 #include "tests/support/fuzz_factor.h"
@@ -27,7 +27,7 @@ using testing::SingleAgent;
 // Random problems on tiny maps, each made harder one constraint at a time.
 class Fuzzer {
  public:
-  // `conditional`: constraints of all kinds, not bars alone.
+  // `conditional`: constraints of all kinds, not only vertex and edge constraints.
   Fuzzer(unsigned seed, bool conditional) : random_(seed), conditional_(conditional) {}
 
   void run() {
@@ -95,7 +95,7 @@ class Fuzzer {
     if (!expected || ::testing::Test::HasFatalFailure()) return false;
     if (*expected > agent.goals.distance(agent.goals.start(), 0))
       ++delayed;
-    else  // the promise of the essay: no delay, then the fewest conflicts possible
+    else  // guaranteed by the proof: without delay, the path has the fewest conflicts possible
       EXPECT_EQ(others.conflicts(path), reference_conflicts(problem, others, *expected));
     return true;
   }
@@ -122,9 +122,9 @@ class Fuzzer {
   const bool conditional_;
 };
 
-class LowLevelFuzz : public ::testing::TestWithParam<bool> {};
+class FixedOrderSippFuzz : public ::testing::TestWithParam<bool> {};
 
-TEST_P(LowLevelFuzz, AgreesWithATimeExpandedSearch) {
+TEST_P(FixedOrderSippFuzz, AgreesWithTimeExpandedSearch) {
   int delayed = 0;
   int infeasible = 0;
   const int seeds = testing::fuzz_rounds(1000);
@@ -136,12 +136,12 @@ TEST_P(LowLevelFuzz, AgreesWithATimeExpandedSearch) {
     delayed += fuzzer.delayed;
     infeasible += fuzzer.infeasible;
   }
-  // Most cases must be worth something.
+  // Most cases must be non-trivial.
   EXPECT_GT(delayed, GetParam() ? 2 * seeds : 5 * seeds);
   EXPECT_GT(infeasible, seeds / 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(, LowLevelFuzz, ::testing::Bool(),
+INSTANTIATE_TEST_SUITE_P(, FixedOrderSippFuzz, ::testing::Bool(),
                          [](const auto& all) { return all.param ? "AllKinds" : "Bars"; });
 
 }  // namespace low_level_fuzz_test

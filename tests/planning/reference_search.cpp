@@ -14,15 +14,15 @@ namespace {
 
 constexpr int kUnreached = std::numeric_limits<int>::max();
 
-// An agent in the course of its way.
+// State of an agent at one time.
 struct State {
   Cell cell;
   std::size_t visited;
-  std::size_t mouth;  // in Layers::mouths_: by which it came into the chain it is in
-  bool late;          // it came here later than all times by which it may not have come to rest
+  std::size_t mouth;  // entrance of the corridor it is in: index in Layers::mouths_
+  bool late;          // it arrived here later than all times by which it may not rest here
 };
 
-// Fewest conflicts to each state at one time, step by step.
+// Fewest conflicts of a path to each state, layer by layer of time.
 class Layers {
  public:
   Layers(const Problem& problem, const NaiveConflicts& others)
@@ -36,7 +36,7 @@ class Layers {
       reach(now_, {problem.start, 0, 0, rules_.is_late(problem.start, 0)}, 0);
   }
 
-  // All goals visited, at rest on the last one.
+  // Fewest conflicts of a path that has visited all goals and rests on the last one from `time` on.
   int conflicts_at_rest(Time time) const {
     const Cell cell = problem_.goals.back();
     int fewest = kUnreached;
@@ -46,7 +46,7 @@ class Layers {
     return fewest;
   }
 
-  // False if nothing changes any more.
+  // Advances to `time`. Returns false if the layers no longer change.
   bool step(Time time) {
     std::vector<int> next(now_.size(), kUnreached);
     for (Cell cell = 0; cell < problem_.grid->cell_count(); ++cell)
@@ -58,7 +58,7 @@ class Layers {
   }
 
  private:
-  // Only if it matters; the first one stands for none.
+  // Lists the entrances of corridors if a constraint depends on them. Index 0 means no entrance.
   void find_mouths() {
     if (std::ranges::none_of(problem_.constraints, [](const Constraint& c) {
           return c.kind == ConstraintKind::kNoTraversal;

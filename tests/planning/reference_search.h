@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the low level must find, worked out the slow way: time step by time step.
+// Reference for single-agent search in a fixed order of goals: a slow search over all time steps.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace grove::detail::testing {
 
-// One agent's problem in plain terms: the goals include the destination.
+// One agent's problem. The goals include the destination.
 struct Problem {
   const Grid* grid = nullptr;
   Cell start = kNoCell;
@@ -20,12 +20,13 @@ struct Problem {
   std::vector<Constraint> constraints;
 };
 
-// The cost of a cheapest path, none if there is no path. Reachable sets of states for each time,
-// until every bounded constraint is over and nothing changes any more. An agent on its next goal
-// may or may not count it as visited: the definition, not a rule.
+// The least cost of a path. Returns nullopt if there is no path. Computes the set of reachable
+// states for each time, until all bounded constraints are over and the set no longer changes. An
+// agent on its next goal may or may not count it as visited; this is the definition, not a pruning
+// rule.
 std::optional<Time> reference_cost(const Problem& problem);
 
-// What is wrong with `path` as a solution; empty if nothing.
+// Describes why `path` does not solve the problem; empty if it does.
 std::string path_error(const Problem& problem, const Path& path);
 
 // The paths of other agents, without an index.
@@ -35,7 +36,7 @@ struct NaiveConflicts {
   static Cell at(const Path& path, Time time);
   int conflicts(Cell from, Cell to, Time time) const;
   int conflicts_of_resting(Cell cell, Time time) const;
-  // Of a whole path and of resting at its end.
+  // Conflicts of a whole path, including its rest at the end.
   int conflicts(const Path& path) const;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reservations, and the free low level around them against the same search under the constraints
-// that say the same. GROVE_FUZZ_FACTOR multiplies the number of cases.
+// ReservationTable, and FreeOrderSipp with reservations compared with the same search under
+// equivalent constraints. GROVE_FUZZ_FACTOR multiplies the number of cases.
 #include "planning/reservation_table.h"
 
 #include <gtest/gtest.h>
@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "planning/free_order_sipp.h"
-#include "tests/planning/random_matter.h"
+#include "tests/planning/random_cases.h"
 #include "tests/support/fuzz_factor.h"
 #include "tests/support/instances.h"
 
 namespace grove::detail {
-namespace reservations_test {
+namespace reservation_table_test {
 
 using testing::random_cell;
 
@@ -38,7 +38,7 @@ std::vector<StayIs> stays_of(const ReservationTable& reservations, Cell cell) {
   return result;
 }
 
-TEST(ReservationTable, HoldTheStaysOfPathsInOrderOfTime) {
+TEST(ReservationTable, HoldsTheStaysOfPathsInOrderOfTime) {
   const Grid grid = testing::grid_of({"....", "...."});
   ReservationTable reservations(grid);
   reservations.add(7, {4, 0, 0, 1, 0});
@@ -48,9 +48,9 @@ TEST(ReservationTable, HoldTheStaysOfPathsInOrderOfTime) {
   EXPECT_EQ(reservations.count(), 9);
   EXPECT_EQ(reservations.agent_at(0, 0), 3);
   EXPECT_EQ(reservations.agent_at(0, 2), 7);
-  EXPECT_EQ(reservations.agent_at(0, 3), ReservationTable::kNobody);
+  EXPECT_EQ(reservations.agent_at(0, 3), ReservationTable::kNoAgent);
   EXPECT_EQ(reservations.agent_at(0, kNever), 7);
-  EXPECT_EQ(reservations.agent_at(6, 0), ReservationTable::kNobody);
+  EXPECT_EQ(reservations.agent_at(6, 0), ReservationTable::kNoAgent);
 
   reservations.remove(7, {4, 0, 0, 1, 0});
   EXPECT_EQ(stays_of(reservations, 0), (std::vector<StayIs>{{0, 0, 1, 3}}));
@@ -81,8 +81,8 @@ void bar(const Path& path, std::vector<Constraint>& constraints) {
   constraints.push_back({path.back(), kNoCell, static_cast<Time>(path.size()) - 1, kNever});
 }
 
-// Step by step, against all paths.
-TEST(ReservationTable, LetOthersArriveAndRestWhereNobodyIs) {
+// Compares every move and rest with all paths.
+TEST(ReservationTable, AllowsArrivalAndRestOnlyOnFreePlaces) {
   const Grid grid = testing::grid_of({"...", "..."});
   const Path paths[] = {{0, 1, 1, 4, 5}, {2, 2, 2, 1, 0, 3}};
   for (const Time margin : {0, 1}) {
@@ -111,10 +111,11 @@ TEST(ReservationTable, LetOthersArriveAndRestWhereNobodyIs) {
   }
 }
 
-// One agent with tasks among others that walk about, on a random map.
-class Crowd {
+// One agent with tasks among other agents on random walks, on a random map.
+class Fuzzer {
  public:
-  explicit Crowd(unsigned seed) : random_(seed), grid_(random_grid()), instance_(make_instance()) {}
+  explicit Fuzzer(unsigned seed)
+      : random_(seed), grid_(random_grid()), instance_(make_instance()) {}
 
   void check() {
     const DistanceFields distances(instance_);
@@ -195,17 +196,17 @@ class Crowd {
     EXPECT_EQ(path.size(), expected.size());
     expect_valid(goals, path, walks);
     const Time cost = static_cast<Time>(expected.size()) - 1;
-    for (const int greed : {0, 30, 200}) {
+    for (const int inflation : {0, 30, 200}) {
       PathQuery query{
-          .cutoff = cost - 1, .reservations = &reservations, .inflation_percent = greed};
+          .cutoff = cost - 1, .reservations = &reservations, .inflation_percent = inflation};
       EXPECT_EQ(search.find(goals, query, limits, path), Outcome::kAboveCutoff);
       query.cutoff = cost + below(10);
       ASSERT_EQ(search.find(goals, query, limits, path), Outcome::kFound);
-      EXPECT_LE(static_cast<Time>(path.size()) - 1, greed == 0 ? cost : query.cutoff);
+      EXPECT_LE(static_cast<Time>(path.size()) - 1, inflation == 0 ? cost : query.cutoff);
       expect_valid(goals, path, walks);
     }
-    const PathQuery greedy{.reservations = &reservations, .inflation_percent = 200};
-    ASSERT_EQ(search.find(goals, greedy, limits, path), Outcome::kFound);
+    const PathQuery inflated{.reservations = &reservations, .inflation_percent = 200};
+    ASSERT_EQ(search.find(goals, inflated, limits, path), Outcome::kFound);
     expect_valid(goals, path, walks);
   }
 
@@ -225,24 +226,24 @@ class Crowd {
   AgentIndex next_name_ = 0;
 };
 
-TEST(ReservationTable, TheLowLevelFindsWhatItFindsUnderTheSameConstraints) {
+TEST(ReservationTable, SearchAgreesWithEquivalentConstraints) {
   const int seeds = testing::fuzz_rounds(1500);
   int compared = 0;
   int found = 0;
   for (int seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    Crowd crowd(static_cast<unsigned>(seed));
-    crowd.check();
+    Fuzzer fuzzer(static_cast<unsigned>(seed));
+    fuzzer.check();
     if (HasFailure()) return;
-    compared += crowd.compared;
-    found += crowd.found;
+    compared += fuzzer.compared;
+    found += fuzzer.found;
   }
   EXPECT_EQ(compared, 12 * seeds);
   EXPECT_GT(found, compared / 5);
   EXPECT_LT(found, compared * 4 / 5);
 }
 
-TEST(ReservationTable, AnEffortIsLimited) {
+TEST(ReservationTable, LabelLimitStopsTheSearch) {
   const Instance instance =
       testing::instance_of({std::string(60, '.'), std::string(60, '.'), std::string(60, '.')},
                            {{{0, 0}, Position{59, 2}, {{30, 0}, {2, 2}, {50, 1}, {20, 1}}}});
@@ -250,7 +251,7 @@ TEST(ReservationTable, AnEffortIsLimited) {
   AgentStops stops(instance, distances, 0);
   SequenceStages goals(stops, {});
   ReservationTable reservations(instance.grid());
-  Path late(300, 30);  // on a task for long
+  Path late(300, 30);  // the other agent stays on a task for long
   late.push_back(31);
   reservations.add(1, late);
   FreeOrderSipp search(instance.grid());
@@ -263,5 +264,5 @@ TEST(ReservationTable, AnEffortIsLimited) {
   EXPECT_GE(path.size(), 300u);
 }
 
-}  // namespace reservations_test
+}  // namespace reservation_table_test
 }  // namespace grove::detail

@@ -41,7 +41,7 @@ TEST_F(SafeIntervalsTest, UnconstrainedCellsAreAlwaysSafe) {
   EXPECT_EQ(of(1), (Intervals{{0, kNever}}));
 }
 
-TEST_F(SafeIntervalsTest, BarsAreMergedInAnyOrder) {
+TEST_F(SafeIntervalsTest, VertexConstraintsAreMergedInAnyOrder) {
   intervals_.assign(std::vector<Constraint>{{1, kNoCell, 7, 9},
                                             {1, kNoCell, 2, 3},
                                             {1, kNoCell, 3, 4},
@@ -56,7 +56,7 @@ TEST_F(SafeIntervalsTest, BarsAreMergedInAnyOrder) {
   EXPECT_EQ(intervals_.rest_begin(1), 10);
 }
 
-TEST_F(SafeIntervalsTest, BarsForEverLeaveNoLastInterval) {
+TEST_F(SafeIntervalsTest, VertexConstraintForeverRemovesLastInterval) {
   intervals_.assign(std::vector<Constraint>{{0, kNoCell, 4, kNever}, {1, kNoCell, 0, kNever}});
   EXPECT_EQ(of(0), (Intervals{{0, 3}}));
   EXPECT_EQ(of(1), Intervals{});
@@ -73,7 +73,7 @@ TEST_F(SafeIntervalsTest, EmptyAndPastRangesBarNothing) {
   EXPECT_TRUE(intervals_.unconstrained(0));
 }
 
-TEST_F(SafeIntervalsTest, BarredMovesDelayOnlyThatMove) {
+TEST_F(SafeIntervalsTest, EdgeConstraintsDelayOnlyTheirMove) {
   intervals_.assign(
       std::vector<Constraint>{{1, 0, 6, 8}, {1, 0, 3, 6}, {1, 2, 9, 9}, {1, 0, 20, kNever}});
   EXPECT_EQ(of(1), (Intervals{{0, kNever}}));
@@ -87,8 +87,9 @@ TEST_F(SafeIntervalsTest, BarredMovesDelayOnlyThatMove) {
   EXPECT_EQ(intervals_.last_move(2, 1, 9), 8);
 }
 
-// From any time on the first, and up to any time the last, that no bar holds.
-TEST_F(SafeIntervalsTest, FirstAndLastMovesAreThoseThatNoBarHolds) {
+// For each time: the first allowed move at that time or later, and the last one at that time or
+// earlier.
+TEST_F(SafeIntervalsTest, FirstAndLastMovesSkipEdgeConstraints) {
   constexpr Time kEnd = 24;
   std::mt19937 random(1);
   const auto below = [&](int bound) {
@@ -144,8 +145,8 @@ TEST_F(SafeIntervalsTest, RestByLeavesOnePlaceToRest) {
   EXPECT_EQ(intervals_.rest_begin(0), 0);
 }
 
-// 0 - 1 - 2, with 1 the inner cell.
-TEST_F(SafeIntervalsTest, ATraversalIsBarredToThoseWhoCameFromTheOtherEnd) {
+// A corridor 0 - 1 - 2 with inner cell 1.
+TEST_F(SafeIntervalsTest, TraversalIsBarredOnlyFromTheOtherEnd) {
   intervals_.assign(
       std::vector<Constraint>{{1, kNoCell, 3, 3}, {2, 1, 5, 6, ConstraintKind::kNoTraversal}});
   EXPECT_EQ(of(1), (Intervals{{0, 2}, {4, kNever}, {0, 2}, {4, kNever}}));
@@ -166,14 +167,14 @@ TEST_F(SafeIntervalsTest, ATraversalIsBarredToThoseWhoCameFromTheOtherEnd) {
   EXPECT_EQ(intervals_.next_begin(intervals_.start_slot(1)), 4);
 }
 
-TEST_F(SafeIntervalsTest, RejectsTraversalsOfWhatIsNoChain) {
+TEST_F(SafeIntervalsTest, RejectsTraversalOutsideCorridors) {
   for (const auto& [cell, from] : {std::pair{0, 2}, {1, 0}, {0, kNoCell}})
     EXPECT_THROW(intervals_.assign(
                      std::vector<Constraint>{{cell, from, 0, 1, ConstraintKind::kNoTraversal}}),
                  std::invalid_argument);
 }
 
-TEST_F(SafeIntervalsTest, AssigningAgainForgetsTheOldConstraints) {
+TEST_F(SafeIntervalsTest, AssignReplacesEarlierConstraints) {
   intervals_.assign(std::vector<Constraint>{{1, kNoCell, 2, 3}, {0, 1, 2, 3}});
   intervals_.assign(std::vector<Constraint>{{2, kNoCell, 2, 3}});
   EXPECT_TRUE(intervals_.unconstrained(0));
@@ -181,7 +182,7 @@ TEST_F(SafeIntervalsTest, AssigningAgainForgetsTheOldConstraints) {
   EXPECT_EQ(of(2), (Intervals{{0, 1}, {4, kNever}}));
 }
 
-TEST_F(SafeIntervalsTest, RejectsWhatIsNotOnTheGrid) {
+TEST_F(SafeIntervalsTest, RejectsConstraintsOutsideTheGrid) {
   for (const Constraint& c :
        {Constraint{3, kNoCell, 0, 0}, Constraint{kNoCell, kNoCell, 0, 0}, Constraint{0, 3, 0, 0},
         Constraint{0, -2, 0, 0}, Constraint{1, 1, 0, 0}})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One agent on a small map, made for the tests of the planning layer.
+// Fixture of the planning tests: one agent on a small map.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace grove::detail::testing {
 
-// One agent with a start, tasks in the order to visit, and perhaps a destination.
+// One agent with a start, tasks in the order of visits, and an optional destination.
 struct SingleAgent {
   SingleAgent(const Grid& grid, Cell start, const std::vector<Cell>& tasks,
               std::optional<Cell> destination);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What constraints say to an agent that goes step by step: for the references.
+// Rules of the constraints for an agent that moves step by step, for the reference searches.
 #pragma once
 
 #include <vector>
@@ -9,23 +9,24 @@
 
 namespace grove::detail::testing {
 
-// Besides where it is and when, an agent must know by which mouth it came into the chain it is in
-// (none: not in one, or inside since time 0), and whether it came to where it is late.
+// Besides its cell and the time, the state of an agent must hold the mouth by which it entered its
+// corridor (none if it is in no corridor, or has been inside since time 0), and whether it arrived
+// late at its cell (is_late()).
 class StepRules {
  public:
-  // Both must outlive this.
+  // `grid` and `constraints` must outlive this object.
   StepRules(const World& grid, const std::vector<Constraint>& constraints)
       : grid_(grid), constraints_(constraints) {}
 
   bool barred(Cell cell, Time time) const;
-  // The move from -> to that arrives at `time`, by an agent that came in by `mouth`.
+  // Is the move that arrives at `time` barred to an agent that entered by `mouth`?
   bool move_barred(Cell from, Cell to, Mouth mouth, Time time) const;
   Mouth mouth_after(Cell from, Cell to, Mouth mouth) const;
-  // Who comes to `cell` at `time` is later than all times by which it may not have come to rest.
+  // Is an arrival at `time` later than all times by which the agent may not rest on `cell`?
   bool is_late(Cell cell, Time time) const;
-  // May an agent that came late rest here from `time` on?
+  // May an agent that arrived late rest here from `time` on?
   bool may_rest(Cell cell, Time time) const;
-  // From here on nothing changes any more.
+  // From this time on the rules no longer change.
   Time last_change() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Crowds on middle-sized random maps.
+// Random dense instances on maps of medium size.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,13 +17,13 @@
 namespace grove::detail::testing {
 
 struct Crowd {
-  int size = 12;       // of the square map
+  int size = 12;       // side of the square map, cells
   int obstacles = 15;  // percent
   int agents = 20;
   int tasks = 20;
   int no_destination = 0;  // percent of the agents
 
-  // In the names of tests.
+  // GoogleTest prints it in the names of tests.
   friend void PrintTo(const Crowd& crowd, std::ostream* out) {
     *out << fmt::format("{} agents, {} tasks, size {}, {} % obstacles, {} % without destination",
                         crowd.agents, crowd.tasks, crowd.size, crowd.obstacles,
@@ -31,7 +31,7 @@ struct Crowd {
   }
 };
 
-// The cells of the largest connected part.
+// Cells of the largest connected component.
 inline std::vector<Cell> largest_part(const Grid& grid) {
   std::vector<Cell> largest;
   for (Cell cell = 0; cell < grid.cell_count(); ++cell) {
@@ -45,8 +45,9 @@ inline std::vector<Cell> largest_part(const Grid& grid) {
   return largest;
 }
 
-// Agents start and end on distinct random cells of one connected part; one without a destination
-// has a task where it might end. The other tasks are anywhere else, each for one or two agents.
+// Agents start and end on distinct random cells of one connected component. An agent without a
+// destination has a task on its end cell. The other tasks are on other cells, each for one or two
+// agents.
 inline Instance random_crowd(const Crowd& crowd, std::uint64_t seed) {
   fuzz::Random random(seed);
   std::vector<bool> passable;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the checker says of a plan.
+// First violation that the checker finds in a plan.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace grove::detail::testing {
 
-// Empty: it is valid.
+// Returns "" if the plan is valid.
 inline std::string first_violation(const Instance& instance, const Plan& plan) {
   Solution claim;
   claim.status = status_of(plan.cost, 0, claim.omega);
   claim.plan = plan;
   const auto violations = check(instance, claim, 1);
-  return violations.empty() ? "" : violations[0].place + ": " + violations[0].message;
+  return violations.empty() ? "" : violations[0].json_pointer + ": " + violations[0].message;
 }
 
 }  // namespace grove::detail::testing

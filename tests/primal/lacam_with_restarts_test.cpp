@@ -18,7 +18,7 @@
 #include "tests/support/instances.h"
 
 namespace grove::detail {
-namespace configuration_search_test {
+namespace lacam_with_restarts_test {
 
 using testing::AgentSpec;
 using testing::Crowd;
@@ -28,7 +28,7 @@ using Outcome = LacamWithRestarts::Outcome;
 
 constexpr std::int64_t kWithoutEnd = std::numeric_limits<std::int64_t>::max();
 
-// A search and what it needs.
+// A search with its instance and problem.
 struct Trial {
   explicit Trial(const Instance& the_instance, std::uint64_t seed = 0)
       : instance(the_instance),
@@ -50,10 +50,10 @@ void expect_valid(const Instance& instance, const std::optional<Plan>& plan) {
   solution.status = status_of(plan->cost, 0, solution.omega);
   solution.plan = plan;
   const auto violations = check(instance, solution);
-  EXPECT_TRUE(violations.empty()) << violations[0].place << ": " << violations[0].message;
+  EXPECT_TRUE(violations.empty()) << violations[0].json_pointer << ": " << violations[0].message;
 }
 
-// Runs to the end and returns the cost of the valid plan that there must be.
+// Runs to the end and returns the cost of the plan; expects a valid plan.
 Cost solved_cost(const Instance& instance) {
   Trial run(instance);
   EXPECT_EQ(run.run(), Outcome::kFound);
@@ -66,18 +66,18 @@ bool same_plan(const Plan& a, const Plan& b) {
          std::ranges::equal(a.agents, b.agents, {}, &AgentPlan::path, &AgentPlan::path);
 }
 
-TEST(LacamWithRestarts, AnAgentAloneWalksItsCheapestOrder) {
+TEST(LacamWithRestarts, SingleAgentTakesItsCheapestOrder) {
   EXPECT_EQ(solved_cost(instance_of({"......"}, {{{2, 0}, Position{3, 0}, {{5, 0}, {0, 0}}}})), 9);
   EXPECT_EQ(solved_cost(instance_of({"......"}, {{{2, 0}, {}, {{5, 0}, {0, 0}}}})), 7);
 }
 
-TEST(LacamWithRestarts, WhereEverybodyIsAtHomeNobodyMoves) {
+TEST(LacamWithRestarts, NoAgentMovesIfAllStartAtTheirGoals) {
   EXPECT_EQ(solved_cost(
                 instance_of({".."}, {{{0, 0}, Position{0, 0}, {{0, 0}}}, {{1, 0}, {}, {{1, 0}}}})),
             0);
 }
 
-TEST(LacamWithRestarts, AgentsTurnInARing) {
+TEST(LacamWithRestarts, AgentsRotateOnARing) {
   EXPECT_EQ(solved_cost(instance_of({"..", ".."}, {{{0, 0}, Position{1, 0}},
                                                    {{1, 0}, Position{1, 1}},
                                                    {{1, 1}, Position{0, 1}},
@@ -85,13 +85,14 @@ TEST(LacamWithRestarts, AgentsTurnInARing) {
             4);
 }
 
-TEST(LacamWithRestarts, AgentsChangePlacesAtABay) {
+TEST(LacamWithRestarts, AgentsSwapAtABay) {
   solved_cost(
       instance_of({".......", "@@@@@.@"}, {{{0, 0}, Position{6, 0}}, {{2, 0}, Position{0, 0}}}));
 }
 
-TEST(LacamWithRestarts, ATaskAtADeadEndWhereAnotherRests) {
-  // a1 rests at the end of the dead end before a0 has been there: it must come out again.
+TEST(LacamWithRestarts, AgentLeavesADeadEndInWhichAnotherHasATask) {
+  // a1 reaches its goal at the end of the dead end before a0 has been there: a1 must come out
+  // again.
   solved_cost(instance_of({"@.@@@@@@@@", "..........", "@.@@@@@@@@", "@.@@@@@@@@"},
                           {{{9, 1}, Position{0, 1}, {{1, 3}}}, {{1, 0}, Position{1, 3}}}));
 }
@@ -101,12 +102,12 @@ TEST(LacamWithRestarts, AgentsWithoutADestinationEndOnDifferentStops) {
       instance_of({".....", "....."}, {{{0, 0}, {}, {{3, 0}, {4, 0}}}, {{1, 0}, {}, {{4, 0}}}}));
 }
 
-TEST(LacamWithRestarts, AnUnreachableStopExhaustsIt) {
+TEST(LacamWithRestarts, IsExhaustedIfAStopIsUnreachable) {
   const Instance instance = instance_of({".@."}, {{{0, 0}, Position{0, 0}, {{2, 0}}}});
   EXPECT_EQ(Trial(instance).run(), Outcome::kExhausted);
 }
 
-TEST(LacamWithRestarts, RefusesOrdersThatAreNotComplete) {
+TEST(LacamWithRestarts, RefusesIncompleteOrders) {
   const Instance instance = instance_of({"..."}, {{{0, 0}, Position{0, 0}, {{1, 0}, {2, 0}}}});
   const Problem problem(instance, Limits());
   for (const std::vector<Sequence>& orders :
@@ -114,8 +115,8 @@ TEST(LacamWithRestarts, RefusesOrdersThatAreNotComplete) {
     EXPECT_THROW(LacamWithRestarts(problem, orders, 0), std::invalid_argument);
 }
 
-// The oracle decides; the search must find a plan for all that have one, and none else.
-TEST(LacamWithRestarts, SolvesWhatTinyInstancesCanBeSolved) {
+// The search must find a plan for exactly the instances for which the oracle finds one.
+TEST(LacamWithRestarts, SolvesExactlyTheFeasibleTinyInstances) {
   int solved = 0;
   int impossible = 0;
   const std::uint64_t cases = testing::fuzz_rounds(600);
@@ -136,10 +137,10 @@ TEST(LacamWithRestarts, SolvesWhatTinyInstancesCanBeSolved) {
   EXPECT_GT(impossible, 10);
 }
 
-class Crowds : public ::testing::TestWithParam<Crowd> {};
+class DenseInstances : public ::testing::TestWithParam<Crowd> {};
 
-// A few random crowds have no plan, or none that is found soon.
-TEST_P(Crowds, GetAValidPlan) {
+// A few random dense instances have no plan, or none that is found soon.
+TEST_P(DenseInstances, GetAValidPlan) {
   const std::uint64_t cases = testing::fuzz_rounds(10);
   std::uint64_t unsolved = 0;
   for (std::uint64_t seed = 0; seed < cases; ++seed) {
@@ -154,14 +155,14 @@ TEST_P(Crowds, GetAValidPlan) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Kinds, Crowds,
+    Kinds, DenseInstances,
     ::testing::Values(Crowd{.tasks = 0}, Crowd{.agents = 50, .tasks = 50},
                       Crowd{.agents = 30, .tasks = 60, .no_destination = 100},
                       Crowd{.agents = 30, .tasks = 40, .no_destination = 40},
                       Crowd{.size = 20, .obstacles = 25, .agents = 60, .tasks = 60},
                       Crowd{.agents = 6, .tasks = 70}));
 
-TEST(LacamWithRestarts, TheSeedDecidesAlone) {
+TEST(LacamWithRestarts, PlanDependsOnTheSeedButNotOnTheSlices) {
   const Instance instance = random_crowd({.agents = 40}, 1);
   Trial whole(instance, 7);
   ASSERT_EQ(whole.run(), Outcome::kFound);
@@ -177,9 +178,9 @@ TEST(LacamWithRestarts, TheSeedDecidesAlone) {
   EXPECT_FALSE(same_plan(*whole.search.plan(), *other.search.plan()));
 }
 
-// Agents that would have to pass each other in a tree without room: no plan, and more joint states
-// than anyone looks at.
-Instance hopeless() {
+// Agents that would have to pass each other in a tree without room: no plan, and too many joint
+// states to enumerate.
+Instance infeasible_instance() {
   return instance_of({".........", "@.@.@.@.@", "@.@.@.@.@"}, {{{0, 0}, Position{8, 0}},
                                                                {{8, 0}, Position{0, 0}},
                                                                {{1, 2}, Position{1, 1}},
@@ -193,21 +194,21 @@ Instance hopeless() {
                                                                {{4, 0}, Position{4, 0}}});
 }
 
-TEST(LacamWithRestarts, BeginsAnewWhenItTakesLong) {
-  const Instance instance = hopeless();
+TEST(LacamWithRestarts, RestartsWhenItTakesLong) {
+  const Instance instance = infeasible_instance();
   Trial run(instance);
-  std::int64_t kept = 0;
-  int begun_anew = 0;
+  std::int64_t configurations = 0;
+  int restarts = 0;
   for (int slice = 0; slice < 40; ++slice) {
     ASSERT_EQ(run.run(1000), Outcome::kWorking);
-    begun_anew += run.search.configurations() < kept;
-    kept = run.search.configurations();
+    restarts += run.search.configurations() < configurations;
+    configurations = run.search.configurations();
   }
-  EXPECT_GE(begun_anew, 2);
-  EXPECT_LE(begun_anew, 4);
+  EXPECT_GE(restarts, 2);
+  EXPECT_LE(restarts, 4);
 }
 
-TEST(LacamWithRestarts, StopsAtLimitsAndGoesOnAfterwards) {
+TEST(LacamWithRestarts, StopsAtLimitsAndResumesAfterwards) {
   const Instance instance = random_crowd({.agents = 40}, 2);
   Trial whole(instance);
   ASSERT_EQ(whole.run(), Outcome::kFound);
@@ -227,8 +228,8 @@ TEST(LacamWithRestarts, StopsAtLimitsAndGoesOnAfterwards) {
   }
 }
 
-TEST(LacamWithRestarts, LeavesTheLastMemoryToOthers) {
-  const Instance instance = hopeless();
+TEST(LacamWithRestarts, StopsBeforeTheMemoryLimitIsReached) {
+  const Instance instance = infeasible_instance();
   Trial run(instance);
   Limits limits;
   limits.set_memory_limit(resident_bytes() + (std::size_t{16} << 20));
@@ -237,12 +238,12 @@ TEST(LacamWithRestarts, LeavesTheLastMemoryToOthers) {
 }
 
 TEST(LacamWithRestarts, StopsAtADeadline) {
-  const Instance instance = hopeless();
+  const Instance instance = infeasible_instance();
   Trial run(instance);
   const testing::LimitOfLooks limits(5);
   EXPECT_EQ(run.search.run(limits, kWithoutEnd), Outcome::kStopped);
   EXPECT_EQ(limits.reason(), StopReason::kTime);
 }
 
-}  // namespace configuration_search_test
+}  // namespace lacam_with_restarts_test
 }  // namespace grove::detail

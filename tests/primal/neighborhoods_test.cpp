@@ -13,7 +13,7 @@
 namespace grove::detail {
 namespace neighborhoods_test {
 
-// `count` agents that cross an open square from left to right, each one row up or down.
+// `count` agents that cross an open square from left to right, each to a row of its own.
 Instance crossing(int count) {
   std::vector<testing::AgentSpec> agents;
   for (int i = 0; i < count; ++i)
@@ -21,25 +21,25 @@ Instance crossing(int count) {
   return testing::instance_of(std::vector<std::string>(12, std::string(12, '.')), agents);
 }
 
-// All of them, with a path each.
+// The same instance with a collision-free path for each agent.
 struct Planned {
   explicit Planned(int count) : instance(crossing(count)) {
-    PrioritizedPlanning planning(instance.world(), router, paths, random, tuning);
+    PrioritizedPlanning planning(instance.world(), low_level, paths, random, tuning);
     std::vector<AgentIndex> order;
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
-      EXPECT_TRUE(router.meet(agent, Limits()));
+      EXPECT_TRUE(low_level.meet(agent, Limits()));
       order.push_back(agent);
     }
     planning.begin(order);
     while (planning.step(Limits()) == PrioritizedPlanning::Outcome::kWorking) {
     }
   }
-  Neighborhoods neighborhoods() { return {problem, router, paths, random, tuning}; }
+  Neighborhoods neighborhoods() { return {problem, low_level, paths, random, tuning}; }
 
   const Instance instance;
   const Problem problem{instance, Limits()};
   AgentStopsCache stops{instance, problem.distances};
-  PrimalLowLevel router{problem, stops};
+  PrimalLowLevel low_level{problem, stops};
   PlannedPaths paths{instance};
   Random random{1};
   const Tuning tuning;
@@ -47,7 +47,7 @@ struct Planned {
 
 class NeighborhoodsTest : public ::testing::TestWithParam<int> {};
 
-TEST_P(NeighborhoodsTest, AreDistinctAgentsAsManyAsShouldBe) {
+TEST_P(NeighborhoodsTest, HoldDistinctAgentsAndGrowWithoutSuccess) {
   Planned planned(GetParam());
   Neighborhoods neighborhoods = planned.neighborhoods();
   const auto agents = static_cast<std::size_t>(GetParam());
@@ -79,28 +79,28 @@ TEST_P(NeighborhoodsTest, AreDistinctAgentsAsManyAsShouldBe) {
   EXPECT_EQ(largest, agents);
 }
 
-// Nothing is charged for; but one agent pays more than its price.
-TEST(Neighborhoods, PlanThoseAnewWhoOverpay) {
+// All multipliers are zero, but the reduced cost of one agent's path is positive.
+TEST(Neighborhoods, PreferAgentsOfHighReducedCost) {
   Planned planned(12);
   Neighborhoods neighborhoods = planned.neighborhoods();
   const Instance& instance = planned.instance;
-  constexpr AgentIndex kOverpays = 5;
+  constexpr AgentIndex kHighReducedCost = 5;
   const auto times_chosen = [&] {
     int times = 0;
     for (int round = 0; round < 1000; ++round) {
-      times += static_cast<int>(std::ranges::count(neighborhoods.choose(), kOverpays));
+      times += static_cast<int>(std::ranges::count(neighborhoods.choose(), kHighReducedCost));
       neighborhoods.reward(1);
     }
     return times;
   };
   const int before = times_chosen();
-  DualSolution list{Multipliers(instance.world(), instance.agent_count()), {}, {}};
+  DualSolution dual{Multipliers(instance.world(), instance.agent_count()), {}, {}};
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
-    list.prices.push_back(list.multipliers.price(agent, planned.paths.path(agent)));
-    list.paths.push_back(planned.router.individual_path(agent));
+    dual.prices.push_back(dual.multipliers.price(agent, planned.paths.path(agent)));
+    dual.paths.push_back(planned.low_level.individual_path(agent));
   }
-  list.prices[kOverpays] -= 10 * Penalties::kUnit;
-  planned.router.use(std::make_shared<const DualSolution>(std::move(list)));
+  dual.prices[kHighReducedCost] -= 10 * Penalties::kUnit;
+  planned.low_level.use(std::make_shared<const DualSolution>(std::move(dual)));
   EXPECT_GT(times_chosen(), before + 80);
 }
 

@@ -11,12 +11,12 @@
 #include "tests/support/instances.h"
 
 namespace grove::detail {
-namespace configuration_generator_test {
+namespace pibt_generator_test {
 
 using testing::instance_of;
 
-struct Crowded {
-  explicit Crowded(const Instance& the_instance)
+struct Agents {
+  explicit Agents(const Instance& the_instance)
       : instance(the_instance), problem(instance, Limits()) {
     const auto orders = *cheapest_orders(problem, Limits());
     for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
@@ -45,58 +45,58 @@ void expect_step(const Grid& grid, std::span<const Standing> from, std::span<con
   }
 }
 
-TEST(PibtGenerator, StepsNeverCollideAndOrdersAreObeyed) {
-  int obeyed = 0;
+TEST(PibtGenerator, StepsNeverCollideAndSatisfyTheConstraints) {
+  int satisfied = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Instance instance = testing::random_crowd({.agents = 60, .tasks = 40}, seed);
-    Crowded crowd(instance);
-    PibtGenerator generator(instance.grid(), crowd.states);
+    Agents agents(instance);
+    PibtGenerator generator(instance.grid(), agents.states);
     fuzz::Random random(seed);
-    SplitMix64 dice(seed);
+    SplitMix64 generator_random(seed);
     for (int step = 0; step < 50; ++step) {
-      random.shuffle(crowd.priority);
+      random.shuffle(agents.priority);
       std::vector<LacamConstraint> orders;
       for (int i = random.below(4); i-- > 0;) {
-        const Cell here = crowd.places[crowd.priority[i]].state;
+        const Cell here = agents.places[agents.priority[i]].state;
         const auto near = instance.grid().neighbors(here);
         const int choice = random.below(static_cast<int>(near.size()) + 1);
-        orders.push_back({crowd.priority[i], choice == 0 ? here : near[choice - 1]});
+        orders.push_back({agents.priority[i], choice == 0 ? here : near[choice - 1]});
       }
-      const auto to = generator.step(crowd.places, crowd.priority, orders, dice);
+      const auto to = generator.step(agents.places, agents.priority, orders, generator_random);
       ASSERT_TRUE(!to.empty() || !orders.empty());
       if (to.empty()) continue;
-      expect_step(instance.grid(), crowd.places, to);
+      expect_step(instance.grid(), agents.places, to);
       for (const LacamConstraint& order : orders) EXPECT_EQ(to[order.agent], order.state);
-      obeyed += orders.size() > 1;
+      satisfied += orders.size() > 1;
       for (std::size_t i = 0; i < to.size(); ++i)
-        crowd.places[i] = {to[i], crowd.states[i].after(crowd.places[i].stage, to[i])};
+        agents.places[i] = {to[i], agents.states[i].after(agents.places[i].stage, to[i])};
     }
   }
-  EXPECT_GT(obeyed, 50);
+  EXPECT_GT(satisfied, 50);
 }
 
-TEST(PibtGenerator, ImpossibleOrdersGiveNothing) {
+TEST(PibtGenerator, ReturnsNothingIfConstraintsAreImpossible) {
   const Instance instance =
       instance_of({"..."}, {{{0, 0}, Position{0, 0}}, {{1, 0}, Position{1, 0}}});
-  Crowded crowd(instance);
-  PibtGenerator generator(instance.grid(), crowd.states);
-  SplitMix64 dice(0);
+  Agents agents(instance);
+  PibtGenerator generator(instance.grid(), agents.states);
+  SplitMix64 generator_random(0);
   const auto fails = [&](std::vector<LacamConstraint> orders) {
-    return generator.step(crowd.places, crowd.priority, orders, dice).empty();
+    return generator.step(agents.places, agents.priority, orders, generator_random).empty();
   };
-  EXPECT_TRUE(fails({{0, 1}, {1, 1}}));   // one cell for two
+  EXPECT_TRUE(fails({{0, 1}, {1, 1}}));   // two agents on one cell
   EXPECT_TRUE(fails({{0, 1}, {1, 0}}));   // a swap
-  EXPECT_TRUE(fails({{1, 0}}));           // the other cannot get away
-  EXPECT_FALSE(fails({{0, 1}, {1, 2}}));  // one after the other
+  EXPECT_TRUE(fails({{1, 0}}));           // the other agent cannot leave
+  EXPECT_FALSE(fails({{0, 1}, {1, 2}}));  // the agents follow each other
 }
 
-TEST(PibtGenerator, WhoComesFirstPushesTheOtherAway) {
+TEST(PibtGenerator, AgentOfHigherPriorityPushesTheOther) {
   const Instance instance =
       instance_of({"...", "@.@"}, {{{0, 0}, Position{2, 0}}, {{1, 0}, Position{1, 0}}});
-  Crowded crowd(instance);
-  PibtGenerator generator(instance.grid(), crowd.states);
-  SplitMix64 dice(0);
-  const auto to = generator.step(crowd.places, crowd.priority, {}, dice);
+  Agents agents(instance);
+  PibtGenerator generator(instance.grid(), agents.states);
+  SplitMix64 generator_random(0);
+  const auto to = generator.step(agents.places, agents.priority, {}, generator_random);
   ASSERT_FALSE(to.empty());
   EXPECT_EQ(to[0], 1);
   EXPECT_NE(to[1], 1);
@@ -106,14 +106,14 @@ TEST(PibtGenerator, BacksOffToTheJunctionWhereTwoMustPass) {
   // a0 and a1 face each other in the corridor; the only bay is behind a0.
   const Instance instance =
       instance_of({".......", "@.@@@@@"}, {{{2, 0}, Position{6, 0}}, {{3, 0}, Position{0, 0}}});
-  Crowded crowd(instance);
-  PibtGenerator generator(instance.grid(), crowd.states);
-  SplitMix64 dice(0);
-  const auto to = generator.step(crowd.places, crowd.priority, {}, dice);
+  Agents agents(instance);
+  PibtGenerator generator(instance.grid(), agents.states);
+  SplitMix64 generator_random(0);
+  const auto to = generator.step(agents.places, agents.priority, {}, generator_random);
   ASSERT_FALSE(to.empty());
   EXPECT_EQ(to[0], 1);
   EXPECT_EQ(to[1], 2);
 }
 
-}  // namespace configuration_generator_test
+}  // namespace pibt_generator_test
 }  // namespace grove::detail

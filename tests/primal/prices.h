@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prices as the search for plans is told them.
+// Dual solutions for tests of the primal search.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,8 @@
 
 namespace grove::detail::testing {
 
-// Of a Lagrangian bound after so many rounds at most; null: it came to nothing.
+// Dual solution of a Lagrangian bound after at most `rounds` rounds. Returns nullptr if there is
+// none.
 inline std::shared_ptr<const DualSolution> prices_of(const Instance& instance,
                                                      const AgentStopsCache& stops, int rounds) {
   constexpr Cost kAnyCost = 1'000'000;
@@ -22,7 +23,7 @@ inline std::shared_ptr<const DualSolution> prices_of(const Instance& instance,
     bound->perform(*job, pricer, kAnyCost, 0, {});
     bound->commit(std::move(*job));
   }
-  return bound->price_list();
+  return bound->dual_solution();
 }
 
 }  // namespace grove::detail::testing

@@ -23,7 +23,7 @@ namespace primal_search_test {
 using testing::first_violation;
 using testing::instance_of;
 
-// A search with what it needs.
+// A primal search with its instance and problem.
 struct Search {
   explicit Search(const Instance& the_instance, std::uint64_t seed = 0,
                   Techniques techniques = Techniques::defaults(), const Tuning& tuning = {})
@@ -32,7 +32,7 @@ struct Search {
         stops(instance, problem.distances),
         primal(problem, stops, seed, techniques, tuning) {}
 
-  // The plans of so many steps, each checked.
+  // The plans of `steps` steps, each checked.
   std::vector<Plan> plans(int steps) {
     std::vector<Plan> result;
     for (int step = 0; step < steps; ++step)
@@ -72,7 +72,7 @@ TEST(PrimalSearch, EveryPlanIsValid) {
   EXPECT_GT(solved, tried * 8 / 10);
 }
 
-TEST(PrimalSearch, TheSameSeedMakesTheSamePlans) {
+TEST(PrimalSearch, SameSeedGivesTheSamePlans) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const Instance instance = fuzz::random_instance(seed).build();
     if (!searchable(instance)) continue;
@@ -89,8 +89,8 @@ TEST(PrimalSearch, TheSameSeedMakesTheSamePlans) {
   }
 }
 
-// Wherever a limit strikes, the search can go on as if nothing had been.
-TEST(PrimalSearch, LimitsLeaveItWhole) {
+// After any limit the search resumes in a consistent state.
+TEST(PrimalSearch, ResumesAfterAnyLimit) {
   std::mt19937 random(1);
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -109,7 +109,7 @@ TEST(PrimalSearch, LimitsLeaveItWhole) {
   }
 }
 
-TEST(PrimalSearch, APastDeadlineDoesNothing) {
+TEST(PrimalSearch, DoesNothingAfterTheDeadline) {
   const Instance instance = instance_of({"....."}, {{{0, 0}, Position{4, 0}, {{2, 0}}}});
   Search search(instance);
   search.limits.set_deadline(testing::kPast);
@@ -118,14 +118,14 @@ TEST(PrimalSearch, APastDeadlineDoesNothing) {
   EXPECT_FALSE(search.primal.best_cost());
 }
 
-TEST(PrimalSearch, WhoFailsIsPlannedBeforeThoseInItsWay) {
-  // a0 has the shorter way and is planned first; its destination shuts a1 in.
+TEST(PrimalSearch, FailedAgentIsPlannedBeforeItsBlockingAgents) {
+  // a0 has the shorter path and is planned first; its destination encloses a1.
   const Instance instance = instance_of({"......", "@@@.@@", "@@@.@@"},
                                         {{{2, 0}, Position{3, 1}}, {{3, 2}, Position{0, 0}}});
   for (const bool keeps : {false, true}) {
     Tuning tuning;
-    if (keeps) tuning.planning_labels_to_keep = 0;
-    Search search(instance, 0, Techniques::defaults().without(Technique::kConfigurations), tuning);
+    if (keeps) tuning.pp_resume_labels = 0;
+    Search search(instance, 0, Techniques::defaults().without(Technique::kLacam), tuning);
     const std::vector<Plan> plans = search.plans(1);
     ASSERT_FALSE(plans.empty());
     EXPECT_EQ(search.primal.source(), PlanSource::kPrioritizedPlanning);
@@ -133,26 +133,26 @@ TEST(PrimalSearch, WhoFailsIsPlannedBeforeThoseInItsWay) {
   }
 }
 
-// However orders go on and paths are found.
-TEST(PrimalSearch, EveryPlanIsValidInAHurry) {
+// Failed attempts are always continued, and each low-level search soon takes any path instead of a
+// best one.
+TEST(PrimalSearch, EveryPlanIsValidWithMinimalLabelLimits) {
   Tuning tuning;
-  tuning.planning_labels_to_keep = 0;
-  tuning.planning_exact_labels = 1;
-  tuning.planning_exact_labels_of_found = 0;
+  tuning.pp_resume_labels = 0;
+  tuning.pp_exact_labels = 1;
+  tuning.pp_exact_labels_factor = 0;
   int solved = 0;
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Instance instance = fuzz::random_instance(seed).build();
     if (!searchable(instance)) continue;
-    Search search(instance, seed, Techniques::defaults().without(Technique::kConfigurations),
-                  tuning);
+    Search search(instance, seed, Techniques::defaults().without(Technique::kLacam), tuning);
     if (!search.plans(6).empty()) ++solved;
     if (HasFailure()) return;
   }
   EXPECT_GT(solved, 250);
 }
 
-TEST(PrimalSearch, StopsWhenEveryAgentIsOnItsOwnBestPath) {
+TEST(PrimalSearch, IsOptimalWhenEveryAgentHasItsIndividualPath) {
   const Instance instance =
       instance_of({"....", "...."}, {{{0, 0}, Position{3, 0}, {{1, 0}}}, {{0, 1}, Position{0, 1}}});
   Search search(instance);
@@ -187,11 +187,11 @@ TEST(PrimalSearch, ImprovesItsFirstPlan) {
   EXPECT_GT(search.primal.counts().neighborhoods, 100);
 }
 
-// Prices come on the way, and others later.
-TEST(PrimalSearch, PricesHelpAndAreHeededAlikeTwice) {
+// Dual solutions arrive during the search.
+TEST(PrimalSearch, UsesDualSolutionsRepeatably) {
   const Instance instance = doors();
   Tuning tuning;
-  tuning.priced_gap = 1;
+  tuning.lagrangian_lns_max_gap = 1;
   std::vector<std::int64_t> work[2];
   for (auto& counts : work) {
     Search search(instance, 1, Techniques::defaults(), tuning);
@@ -208,41 +208,42 @@ TEST(PrimalSearch, PricesHelpAndAreHeededAlikeTwice) {
   without.plans(300);
   EXPECT_NE(without.primal.work(), work[0].back());
 
-  tuning.priced_gap = 0;  // no plan is so near
+  tuning.lagrangian_lns_max_gap = 0;  // no gap is that small
   Search too_far(instance, 1, Techniques::defaults(), tuning);
   too_far.primal.use(testing::prices_of(instance, too_far.stops, 60));
   too_far.plans(300);
   EXPECT_EQ(too_far.primal.work(), without.primal.work());
 }
 
-TEST(PrimalSearch, EveryPlanByPricesIsValid) {
-  int priced = 0;
+TEST(PrimalSearch, EveryPlanWithDualSolutionsIsValid) {
+  int with_dual = 0;
   Tuning tuning;
-  tuning.priced_gap = 1e6;
+  tuning.lagrangian_lns_max_gap = 1e6;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Instance instance = fuzz::random_instance(seed).build();
     if (!searchable(instance)) continue;
     Search search(instance, seed, Techniques::defaults(), tuning);
     const auto prices = testing::prices_of(instance, search.stops, 12);
-    priced += prices != nullptr;
+    with_dual += prices != nullptr;
     search.plans(2);
     search.primal.use(prices);
     search.plans(10);
     if (HasFailure()) return;
   }
-  EXPECT_GT(priced, 50);
+  EXPECT_GT(with_dual, 50);
 }
 
-// A walk through worse plans tells none of them, and comes to one that descent alone misses.
-TEST(PrimalSearch, GoesOnFromPlansThatAreLittleWorse) {
+// Record-to-record travel accepts slightly worse plans, reports none of them, and finds plans that
+// pure descent misses.
+TEST(PrimalSearch, AcceptsSlightlyWorsePlansToImproveFurther) {
   const Instance instance = doors();
   int better = 0, worse = 0;
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     Tuning walk;
-    walk.worse_plans_loss = 10;
+    walk.record_deviation_max_loss = 10;
     Tuning descent;
-    descent.worse_plans = 0;
+    descent.record_deviation = 0;
     const Cost by_descent =
         Search(instance, seed, Techniques::defaults(), descent).plans(250).back().cost;
     const Cost by_walk =
@@ -253,45 +254,45 @@ TEST(PrimalSearch, GoesOnFromPlansThatAreLittleWorse) {
   EXPECT_GT(better, worse);
 }
 
-TEST(PrimalSearch, BeginsAnewWhenItStalls) {
+TEST(PrimalSearch, RestartsWhenItStalls) {
   const Instance instance = doors();
   Search search(instance);
   search.plans(1500);
   EXPECT_GT(search.primal.counts().attempts, 2);
 }
 
-// Half of the passable cells are taken: the first attempt of prioritised planning fails.
-Instance crowd(std::uint64_t seed) {
+// Half of the passable cells are occupied: the first attempt of prioritised planning fails.
+Instance dense_instance(std::uint64_t seed) {
   return testing::random_crowd({.agents = 50, .tasks = 50, .no_destination = 20}, seed);
 }
 
-TEST(PrimalSearch, ACrowdGetsItsFirstPlanFromConfigurations) {
-  int by_configurations = 0;
+TEST(PrimalSearch, DenseInstanceGetsItsFirstPlanFromLacam) {
+  int by_lacam = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const Instance instance = crowd(seed);
+    const Instance instance = dense_instance(seed);
     Search search(instance, seed);
     std::vector<Plan> first;
     for (int step = 0; step < 500 && first.empty(); ++step) first = search.plans(1);
-    if (first.empty() || search.primal.source() != PlanSource::kConfigurations) continue;
-    ++by_configurations;
+    if (first.empty() || search.primal.source() != PlanSource::kLacam) continue;
+    ++by_lacam;
     EXPECT_GT(search.primal.counts().joint_steps, 0);
     const std::vector<Plan> later = search.plans(60);
     ASSERT_FALSE(later.empty());
     EXPECT_LT(later.back().cost, first[0].cost);
   }
-  EXPECT_GE(by_configurations, 7);
+  EXPECT_GE(by_lacam, 7);
 }
 
-TEST(PrimalSearch, WithoutConfigurationsThereAreNoJointSteps) {
-  const Instance instance = crowd(1);
-  Search search(instance, 1, Techniques::defaults().without(Technique::kConfigurations));
+TEST(PrimalSearch, TakesNoJointStepsWithoutLacam) {
+  const Instance instance = dense_instance(1);
+  Search search(instance, 1, Techniques::defaults().without(Technique::kLacam));
   search.plans(100);
   EXPECT_EQ(search.primal.counts().joint_steps, 0);
   EXPECT_GT(search.primal.counts().attempts, 1);
 }
 
-TEST(PrimalSearch, TheFirstAttemptOfPrioritisedPlanningIsNotDisturbed) {
+TEST(PrimalSearch, FirstPrioritisedPlanningAttemptRunsUninterrupted) {
   const Instance instance = instance_of(
       {"....", "....", "...."},
       {{{0, 0}, Position{3, 2}, {{1, 0}}}, {{3, 0}, Position{0, 2}}, {{0, 1}, Position{3, 1}}});
@@ -302,8 +303,8 @@ TEST(PrimalSearch, TheFirstAttemptOfPrioritisedPlanningIsNotDisturbed) {
   EXPECT_EQ(search.primal.counts().joint_steps, 0);
 }
 
-TEST(PrimalSearch, ACrowdTooIsPlannedAlikeTwice) {
-  const Instance instance = crowd(2);
+TEST(PrimalSearch, DenseInstanceIsPlannedRepeatably) {
+  const Instance instance = dense_instance(2);
   std::vector<std::int64_t> work[2];
   for (auto& counts : work) {
     Search search(instance, 3);
@@ -318,11 +319,11 @@ TEST(PrimalSearch, ACrowdTooIsPlannedAlikeTwice) {
   EXPECT_EQ(work[0], work[1]);
 }
 
-TEST(PrimalSearch, LimitsLeaveTheRaceWhole) {
+TEST(PrimalSearch, FirstPlanSearchResumesAfterAnyLimit) {
   std::mt19937 random(4);
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const Instance instance = crowd(seed);
+    const Instance instance = dense_instance(seed);
     Search search(instance, seed);
     std::optional<Cost> best;
     for (int round = 0; round < 60; ++round) {
@@ -339,18 +340,18 @@ TEST(PrimalSearch, LimitsLeaveTheRaceWhole) {
   }
 }
 
-// The configuration search keeps off the last memory; the others go on.
-TEST(PrimalSearch, ShortMemoryEndsTheConfigurationsAlone) {
+// LaCAM stops before the memory limit is reached; the other searches continue.
+TEST(PrimalSearch, MemoryShortageEndsOnlyLacam) {
 #ifdef GROVE_SANITIZERS_MEMORY
   GTEST_SKIP() << "the sanitizer's own memory fills the limit";
 #endif
-  const Instance instance = crowd(1);
+  const Instance instance = dense_instance(1);
   Search search(instance, 1);
   Limits limits;
   testing::ManualClock clock(limits);
   limits.set_memory_limit(resident_bytes() + (std::size_t{1} << 20));
   for (int step = 0; step < 1000 && search.primal.counts().attempts < 3; ++step) {
-    clock.advance(std::chrono::seconds(1));  // so the memory is measured at every step
+    clock.advance(std::chrono::seconds(1));  // so that the memory is measured at every step
     search.primal.step(limits);
   }
   EXPECT_GE(search.primal.counts().attempts, 3);
@@ -358,14 +359,14 @@ TEST(PrimalSearch, ShortMemoryEndsTheConfigurationsAlone) {
   EXPECT_FALSE(search.primal.expects_plan());
 }
 
-// Those of configurations are dear: prioritised planning goes on, and its plan is taken.
-TEST(PrimalSearch, APlanOfAnotherSearchDoesNotEndPrioritisedPlanning) {
-  int by_priorities = 0;
+// Plans of LaCAM are of high cost: prioritised planning continues, and its plan is taken.
+TEST(PrimalSearch, AdoptedPlanDoesNotEndPrioritisedPlanning) {
+  int by_prioritized_planning = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Instance instance = testing::random_crowd({.size = 16, .agents = 50}, seed);
-    const Plan dear = [&] {
+    const Plan costly = [&] {
       Tuning tuning;
-      tuning.planning_head_start = 1;
+      tuning.pp_head_start = 1;
       Search donor(instance, seed, Techniques::defaults(), tuning);
       std::vector<Plan> plans;
       while (plans.empty()) plans = donor.plans(1);
@@ -375,20 +376,20 @@ TEST(PrimalSearch, APlanOfAnotherSearchDoesNotEndPrioritisedPlanning) {
     for (int steps : {0, 1, 2}) {
       Search search(instance, seed + 1);
       search.plans(steps);
-      search.primal.adopt(dear);
+      search.primal.adopt(costly);
       for (int step = 0; step < 40; ++step)
         if (!search.plans(1).empty() &&
             search.primal.source() == PlanSource::kPrioritizedPlanning) {
-          ++by_priorities;
+          ++by_prioritized_planning;
           break;
         }
     }
   }
-  EXPECT_GT(by_priorities, 15);
+  EXPECT_GT(by_prioritized_planning, 15);
 }
 
-TEST(PrimalSearch, APlanThatComesDuringTheRaceIsGoneOnWith) {
-  const Instance instance = crowd(3);
+TEST(PrimalSearch, ContinuesFromAPlanAdoptedDuringItsFirstAttempts) {
+  const Instance instance = dense_instance(3);
   Search donor(instance, 8);
   std::vector<Plan> plans;
   for (int step = 0; step < 500 && plans.empty(); ++step) plans = donor.plans(1);
@@ -404,12 +405,12 @@ TEST(PrimalSearch, APlanThatComesDuringTheRaceIsGoneOnWith) {
   }
 }
 
-TEST(PrimalSearch, TakesOverABetterPlan) {
+TEST(PrimalSearch, AdoptsABetterPlan) {
   const Instance instance = doors();
   Plan good = [&] { return Search(instance, 1).plans(400).back(); }();
   const Plan poor = [&] { return Search(instance, 2).plans(400).front(); }();
   ASSERT_LT(good.cost, poor.cost);
-  good.agents[0].path.push_back(good.agents[0].path.back());  // a file may write out a rest
+  good.agents[0].path.push_back(good.agents[0].path.back());  // a file may contain the final rest
   for (const int steps : {0, 1, 5}) {
     Search search(instance, 3);
     search.plans(steps);

@@ -16,7 +16,7 @@
 #include "tests/support/sanitizers.h"
 
 namespace grove::detail {
-namespace guided_search_test {
+namespace traffic_guided_lacam_test {
 
 using testing::Crowd;
 using testing::first_violation;
@@ -24,7 +24,7 @@ using testing::instance_of;
 using testing::random_crowd;
 using Outcome = TrafficGuidedLacam::Outcome;
 
-// The plan of a configuration search, and a guided search that has learnt it.
+// A plan of LaCAM, and a guided search to which its traffic was added.
 struct Trial {
   explicit Trial(const Instance& the_instance, std::uint64_t seed = 0)
       : instance(the_instance),
@@ -37,7 +37,7 @@ struct Trial {
     guided.learn(*first);
   }
 
-  // To the end of the round.
+  // Runs to the end of the round.
   Outcome run(std::int64_t slice) {
     for (;;)
       if (const Outcome outcome = guided.run(limits, slice); outcome != Outcome::kWorking)
@@ -53,7 +53,7 @@ struct Trial {
   std::optional<Plan> first;
 };
 
-// The costs of so many rounds' plans, each checked; -1: none.
+// The costs of the plans of `rounds` rounds, each checked; -1 for a round without a plan.
 std::vector<Cost> costs(Trial& trial, int rounds, std::int64_t slice = 4000) {
   std::vector<Cost> result;
   for (int round = 0; round < rounds; ++round) {
@@ -68,9 +68,9 @@ std::vector<Cost> costs(Trial& trial, int rounds, std::int64_t slice = 4000) {
   return result;
 }
 
-class GuidedCrowds : public ::testing::TestWithParam<Crowd> {};
+class GuidedDenseInstances : public ::testing::TestWithParam<Crowd> {};
 
-TEST_P(GuidedCrowds, GetValidPlansThatAreCheaperInTheMean) {
+TEST_P(GuidedDenseInstances, GetValidPlansOfLowerMeanCost) {
   double first = 0;
   double best = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
@@ -87,12 +87,12 @@ TEST_P(GuidedCrowds, GetValidPlansThatAreCheaperInTheMean) {
   EXPECT_LT(best, 0.95 * first);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, GuidedCrowds,
+INSTANTIATE_TEST_SUITE_P(Kinds, GuidedDenseInstances,
                          ::testing::Values(Crowd{.size = 16, .agents = 80, .tasks = 0},
                                            Crowd{.agents = 50, .tasks = 50},
                                            Crowd{.agents = 40, .tasks = 60, .no_destination = 40}));
 
-// Of all kinds: roads, turns, work, agents that idle.
+// Instances of all kinds: roads, turns, work, idle agents.
 TEST(TrafficGuidedLacam, EveryPlanOfTinyInstancesIsValid) {
   int found = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
@@ -107,7 +107,7 @@ TEST(TrafficGuidedLacam, EveryPlanOfTinyInstancesIsValid) {
   EXPECT_GT(found, 300);
 }
 
-TEST(TrafficGuidedLacam, TheSameHoweverItIsSliced) {
+TEST(TrafficGuidedLacam, DoesNotDependOnTheSlices) {
   const Instance instance = random_crowd({.agents = 50, .tasks = 50}, 1);
   Trial whole(instance, 7);
   Trial sliced(instance, 7);
@@ -117,7 +117,7 @@ TEST(TrafficGuidedLacam, TheSameHoweverItIsSliced) {
   EXPECT_EQ(whole.guided.joint_steps(), sliced.guided.joint_steps());
 }
 
-TEST(TrafficGuidedLacam, StopsAtADeadlineAndGoesOnAfterwards) {
+TEST(TrafficGuidedLacam, StopsAtADeadlineAndResumesAfterwards) {
   const Instance instance = random_crowd({.agents = 50, .tasks = 50}, 2);
   Trial whole(instance);
   Trial stopped(instance);
@@ -128,7 +128,7 @@ TEST(TrafficGuidedLacam, StopsAtADeadlineAndGoesOnAfterwards) {
   EXPECT_EQ(costs(whole, 3), costs(stopped, 3));
 }
 
-TEST(TrafficGuidedLacam, LeavesTheLastMemoryToOthers) {
+TEST(TrafficGuidedLacam, StopsBeforeTheMemoryLimitIsReached) {
 #ifdef GROVE_SANITIZERS_MEMORY
   GTEST_SKIP() << "the sanitizer's own memory fills the limit";
 #endif
@@ -141,8 +141,8 @@ TEST(TrafficGuidedLacam, LeavesTheLastMemoryToOthers) {
   EXPECT_EQ(limits.reason(), StopReason::kNone);
 }
 
-// Who is led round in circles finds home nevertheless.
-TEST(Lacam, LeavesAGuideThatLeadsNowhere) {
+// An agent whose guide leads nowhere still reaches its goal.
+TEST(Lacam, FindsAPlanDespiteAUselessGuide) {
   const Instance instance =
       instance_of({"....", "...."},
                   {{{0, 0}, Position{3, 0}}, {{3, 0}, Position{0, 0}}, {{0, 1}, Position{2, 1}}});
@@ -157,5 +157,5 @@ TEST(Lacam, LeavesAGuideThatLeadsNowhere) {
   EXPECT_EQ(first_violation(instance, *search.plan()), "");
 }
 
-}  // namespace guided_search_test
+}  // namespace traffic_guided_lacam_test
 }  // namespace grove::detail

@@ -11,17 +11,16 @@ namespace traffic_test {
 
 using testing::instance_of;
 
-// Two ways of equal length round a block, cells 0 to 14, and fields to the cell in the middle of
-// the right side.
+// Two paths of equal length around a block on cells 0 to 14, and distance fields to any cell.
 struct Block {
-  Block() { traffic.set_prices(); }
+  Block() { traffic.update_edge_costs(); }
   DistanceField field(Place to) {
     const DistanceField steps = distance_field(world, to);
     return traffic.field(DistanceView(steps));
   }
   void walk(const Path& path) {
     traffic.add(path, 1);
-    traffic.set_prices();
+    traffic.update_edge_costs();
   }
 
   const Instance instance = instance_of({".....", ".@@@.", "....."}, {{{0, 1}, Position{4, 1}}});
@@ -31,30 +30,30 @@ struct Block {
   const Path above{5, 0, 1, 2, 3, 4, 9};
 };
 
-// On worlds of all kinds: grids, roads one way or both, agents that turn or work.
-TEST(Traffic, WithoutAnyAStepIsAStep) {
+// Worlds of all kinds: grids, one-way and two-way roads, agents that turn or work.
+TEST(Traffic, StepsCostEightWithoutTraffic) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const Instance instance = fuzz::random_instance(seed).build();
     const World& world = instance.world();
     const Tuning tuning;
     Traffic traffic(world, 3, tuning);
-    traffic.set_prices();
+    traffic.update_edge_costs();
     const DistanceFields distances(instance);
     for (TaskIndex task = 0; task < instance.task_count(); ++task) {
       const DistanceView steps = distances.to_task(task);
-      const DistanceField dear = traffic.field(steps);
+      const DistanceField field = traffic.field(steps);
       for (State state = 0; state < world.state_count(); ++state) {
-        ASSERT_EQ(dear[state] == kNever, steps[state] == kNever);
+        ASSERT_EQ(field[state] == kNever, steps[state] == kNever);
         if (steps[state] < kNever) {
-          ASSERT_EQ(dear[state] % 8, 0);
-          ASSERT_EQ(dear[state] / 8, steps[state]);
+          ASSERT_EQ(field[state] % 8, 0);
+          ASSERT_EQ(field[state] / 8, steps[state]);
         }
       }
     }
   }
 }
 
-TEST(Traffic, MakesTheOtherWayRoundCheaper) {
+TEST(Traffic, MakesTheOtherPathCheaper) {
   Block block;
   const DistanceField before = block.field(9);
   EXPECT_EQ(before[0], before[10]);
@@ -64,7 +63,7 @@ TEST(Traffic, MakesTheOtherWayRoundCheaper) {
   EXPECT_LT(after[10], after[0]);
 }
 
-TEST(Traffic, IsDearerAgainstTheStream) {
+TEST(Traffic, CostsMoreAgainstTheFlow) {
   Block block;
   block.walk(block.above);
   EXPECT_GT(block.field(1)[3], block.field(3)[1]);
@@ -76,20 +75,20 @@ TEST(Traffic, CountsWaits) {
   EXPECT_GT(block.field(1)[5], block.field(3)[1]);
 }
 
-TEST(Traffic, Fades) {
+TEST(Traffic, FadesToNothingWithFactorZero) {
   Block block;
   const DistanceField before = block.field(9);
   block.walk(block.above);
   block.traffic.fade(0);
-  block.traffic.set_prices();
+  block.traffic.update_edge_costs();
   EXPECT_EQ(block.field(9), before);
 }
 
-// The price has a greatest value: the buckets hold it.
-TEST(Traffic, ALotIsStillFinite) {
+// The edge cost is capped so that the bucket queue can hold it.
+TEST(Traffic, EdgeCostIsCapped) {
   Block block;
   for (int i = 0; i < 10'000; ++i) block.traffic.add(block.above, 1);
-  block.traffic.set_prices();
+  block.traffic.update_edge_costs();
   const DistanceField field = block.field(5);
   for (State state = 0; state < block.world.state_count(); ++state)
     EXPECT_EQ(field[state] < kNever, !block.world.moves(state).empty());

@@ -45,14 +45,14 @@ TEST(CheapestOrders, AgentsWithoutADestinationEndOnDifferentStops) {
   EXPECT_EQ(ends.size(), 3u);
 }
 
-TEST(CheapestOrders, NobodyEndsOnAnothersDestination) {
+TEST(CheapestOrders, NoAgentEndsOnAnothersDestination) {
   const Instance instance =
       instance_of({"......"}, {{{0, 0}, {}, {{1, 0}, {4, 0}}}, {{2, 0}, Position{4, 0}}});
   const Problem problem(instance, Limits());
   EXPECT_EQ((*cheapest_orders(problem, Limits()))[0], (Sequence{1, 0}));
 }
 
-TEST(CheapestOrders, StopAtALimit) {
+TEST(CheapestOrders, AreNulloptAtALimit) {
   const Instance instance = instance_of({"..."}, {{{0, 0}, {}, {{1, 0}, {2, 0}}}});
   const Problem problem(instance, Limits());
   Limits over;

@@ -23,7 +23,7 @@ TEST(VisitStages, DistancesFollowTheOrder) {
   EXPECT_EQ(far_first.distance(far_first.first(), 1), 4 + 5 + 3);
 }
 
-TEST(VisitStages, StopsMetOnTheWayCount) {
+TEST(VisitStages, StopsPassedOnThePathAreVisited) {
   const Instance instance = instance_of({"......"}, {{{1, 0}, Position{3, 0}, {{0, 0}, {2, 0}}}});
   const Problem problem(instance, Limits());
   VisitStages visits(problem, 0, {0, 1});
@@ -39,7 +39,7 @@ TEST(VisitStages, StopsMetOnTheWayCount) {
   EXPECT_FALSE(visits.may_rest(done, 0));
 }
 
-TEST(VisitStages, AStopOnTheStartCountsAtOnce) {
+TEST(VisitStages, StopAtTheStartIsVisitedAtOnce) {
   const Instance instance = instance_of({"..."}, {{{1, 0}, {}, {{1, 0}, {2, 0}}}});
   const Problem problem(instance, Limits());
   VisitStages visits(problem, 0, {0, 1});
@@ -49,7 +49,7 @@ TEST(VisitStages, AStopOnTheStartCountsAtOnce) {
   EXPECT_FALSE(visits.may_rest(done, 0));
 }
 
-TEST(VisitStages, NoWayIsNever) {
+TEST(VisitStages, DistanceToAnUnreachableStopIsNever) {
   const Instance instance =
       instance_of({"..@.@."}, {{{0, 0}, Position{1, 0}, {{3, 0}, {5, 0}, {1, 0}}}});
   const Problem problem(instance, Limits());
@@ -59,7 +59,7 @@ TEST(VisitStages, NoWayIsNever) {
   }
 }
 
-TEST(Configurations, AreFoundAgain) {
+TEST(Configurations, AreFoundByTheirPlaces) {
   constexpr int kAgents = 5;
   Configurations configurations(kAgents);
   fuzz::Random random(1);

@@ -56,7 +56,7 @@ std::vector<std::string> lines_of(const fs::path& file) {
 
 class Certificates : public ::testing::Test {
  protected:
-  // What was written down makes these lines, but for the head.
+  // Lines of the certificate made from the records so far, without the head.
   std::vector<std::string> made(Cost claimed) {
     recorder_.flush();
     certificate_ = write_certificate(instance_, std::array{part_}, claimed, file_);
@@ -77,12 +77,12 @@ class Certificates : public ::testing::Test {
   Certificate certificate_;
 };
 
-TEST_F(Certificates, OfARootThatWasNotExpandedAreALeaf) {
+TEST_F(Certificates, OfAnUnexpandedRootHoldOneLeaf) {
   recorder_.tree(tree_);
   EXPECT_THAT(made(4), ElementsAre("theorem 4", "leaf", "end"));
 }
 
-TEST_F(Certificates, HaveOfTheTreeWhatTheBoundTakes) {
+TEST_F(Certificates, HoldOnlyTheSplitsThatTheBoundNeeds) {
   recorder_.tree(tree_);
   const Split first{bar(0, 1, 1, 1), bar(1, 1, 1, 1)};
   const Split second{bar(0, 4, 2, 2), bar(1, 4, 2, 2)};
@@ -91,12 +91,12 @@ TEST_F(Certificates, HaveOfTheTreeWhatTheBoundTakes) {
   recorder_.split({proof_key(7, first[1]), second, {5, 6}});
   EXPECT_THAT(made(6),
               ElementsAre("theorem 5", "split 0 bar 1 1 1 | 1 bar 1 1 1", "leaf", "leaf", "end"));
-  EXPECT_EQ(certificate_.bound, 5) << "for no more was written down";
+  EXPECT_EQ(certificate_.bound, 5) << "because no more was recorded";
   EXPECT_EQ(certificate_.splits, 1);
   EXPECT_EQ(certificate_.leaves, 2);
 }
 
-TEST_F(Certificates, NameLemmasThatAreNeededAndNoOthers) {
+TEST_F(Certificates, HoldOnlyTheLemmasThatTheBoundNeeds) {
   recorder_.tree(tree_);
   const ProofLemma joint{{0, 1}, {bar(1, 2, 3, kNever)}, 6};
   const ProofLemma idle{{0, 1}, {}, 5};
@@ -112,7 +112,7 @@ TEST_F(Certificates, NameLemmasThatAreNeededAndNoOthers) {
   EXPECT_EQ(certificate_.lemmas, 1);
 }
 
-TEST_F(Certificates, DoWithoutLemmasThatWereLost) {
+TEST_F(Certificates, OmitLostLemmas) {
   recorder_.tree(tree_);
   const ProofLemma lemma{{0, 1}, {}, 5};
   recorder_.lemma(lemma, kNoProof, {});
@@ -121,7 +121,7 @@ TEST_F(Certificates, DoWithoutLemmasThatWereLost) {
   EXPECT_THAT(made(6), ElementsAre("lemma 5 0 1", "joint", "theorem 5", "leaf 0", "end"));
 }
 
-TEST_F(Certificates, SayWhySplitsOnCostsLoseNoPlan) {
+TEST_F(Certificates, JustifySplitsOnCostsByALemma) {
   recorder_.tree(tree_);
   const ProofLemma lemma{{0, 1}, {}, 5};
   recorder_.lemma(lemma, kNoProof, {});
@@ -133,7 +133,7 @@ TEST_F(Certificates, SayWhySplitsOnCostsLoseNoPlan) {
                                    "leaf", "end"));
 }
 
-TEST_F(Certificates, GoDownToTreesStopByStop) {
+TEST_F(Certificates, SplitStopByStopDownToTheTrees) {
   recorder_.tree({11, 6, {{0, 1}, {}}});
   recorder_.tree({12, 6, {{1, 0}, {}}});
   EXPECT_THAT(
@@ -143,7 +143,7 @@ TEST_F(Certificates, GoDownToTreesStopByStop) {
                   "split 0 stop 1 0 | 0 nostop 1 0", "leaf", "leaf", "leaf", "end"));
 }
 
-TEST_F(Certificates, TakePricesWhereTheyProveMore) {
+TEST_F(Certificates, UsePricesIfTheyProveMore) {
   recorder_.tree(tree_);
   using Kind = RelaxedRow::Kind;
   recorder_.prices(5, std::array{RowMultiplier{{Kind::kPlace, 1, 0, 2, 0}, 700},
@@ -154,11 +154,11 @@ TEST_F(Certificates, TakePricesWhereTheyProveMore) {
   EXPECT_THAT(made(4), ElementsAre("theorem 4", "leaf", "end"));
 }
 
-TEST_F(Certificates, OfWhatWasSeenWithoutASearchAskForAllJointPaths) {
+TEST_F(Certificates, OfAPresolvedInstanceAskForAllJointPaths) {
   EXPECT_THAT(made(kInfiniteCost), ElementsAre("theorem inf", "joint", "end"));
 }
 
-TEST_F(Certificates, OfFilesThatAreNoneAreRefused) {
+TEST_F(Certificates, AreNotMadeFromInvalidRecordFiles) {
   std::ofstream(folder_ / "other") << "anything";
   EXPECT_THROW(write_certificate(instance_, std::array{fs::path(folder_ / "other")}, 4, file_),
                InputError);
@@ -167,8 +167,8 @@ TEST_F(Certificates, OfFilesThatAreNoneAreRefused) {
   EXPECT_FALSE(fs::exists(file_));
 }
 
-// What a process had not written when it was killed is not there; what it had is.
-TEST_F(Certificates, OfFilesThatBreakOffHaveWhatTheyHave) {
+// Records that a killed process had not yet written are missing; the others are used.
+TEST_F(Certificates, OfTruncatedRecordsUseTheCompleteOnes) {
   recorder_.tree(tree_);
   recorder_.flush();
   recorder_.split({7, {bar(0, 1, 1, 1), bar(1, 1, 1, 1)}, {5, 5}});

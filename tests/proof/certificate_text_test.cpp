@@ -40,7 +40,7 @@ class CertificateTexts : public ::testing::Test {
     folder_.write("c.proof", bytes);
     return read_certificate(folder_ / "c.proof", instance_, most_splits);
   }
-  // What is said of it, without the file's name.
+  // Message of the refusal, without the file's name.
   std::string refusal(const std::string& bytes, std::int64_t most_splits = 100) const {
     try {
       read(bytes, most_splits);
@@ -51,7 +51,7 @@ class CertificateTexts : public ::testing::Test {
     }
     return "it was read";
   }
-  // Of a certificate with this proof of its theorem, which begins in line 5.
+  // The same for a certificate with this proof of its theorem, which begins in line 5.
   std::string refusal_of_proof(const std::string& proof) const {
     return refusal(head() + "theorem 4\n" + proof + "end\n");
   }
@@ -60,7 +60,7 @@ class CertificateTexts : public ::testing::Test {
   const Instance instance_ = three_agents();
 };
 
-// All that the grammar has.
+// Every construct of the grammar.
 constexpr std::string_view kAll =
     "lemma inf 0 1\ndemand 1 bar 2 0 inf\njoint\n"
     "lemma 3 1\nleaf\n"
@@ -74,36 +74,38 @@ constexpr std::string_view kAll =
     "prices\nplace 0 1 20\nedge 0 1 3 5\nfinish 0 4 1 5 7\nend\n"
     "end\n";
 
-TEST_F(CertificateTexts, AreReadAsTheyAreOrCompressed) {
+TEST_F(CertificateTexts, AreReadPlainOrCompressed) {
   const std::string text = head() + std::string(kAll);
   const CertificateText plain = read(text, 5);
   EXPECT_EQ(plain.lines, text);
   EXPECT_EQ(plain.bound, 4);
   EXPECT_TRUE(plain.may_follow);
-  std::string packed(ZSTD_compressBound(text.size()), '\0');
-  packed.resize(ZSTD_compress(packed.data(), packed.size(), text.data(), text.size(), 3));
-  EXPECT_EQ(read(packed).lines, text);
+  std::string compressed(ZSTD_compressBound(text.size()), '\0');
+  compressed.resize(
+      ZSTD_compress(compressed.data(), compressed.size(), text.data(), text.size(), 3));
+  EXPECT_EQ(read(compressed).lines, text);
   const CertificateText none = read(head("no") + "theorem inf\njoint\nend\n");
   EXPECT_EQ(none.bound, kInfiniteCost);
   EXPECT_FALSE(none.may_follow);
 }
 
-TEST_F(CertificateTexts, ThatEndTooEarlySayWhere) {
+TEST_F(CertificateTexts, AreRefusedWithTheLineIfTruncated) {
   const std::string text = head() + std::string(kAll);
   for (std::size_t size = 0; size < text.size(); ++size)
     EXPECT_THAT(refusal(text.substr(0, size)), HasSubstr("; expected")) << size;
   EXPECT_EQ(refusal(""), "line 1: the file ends; expected a line, ended by LF");
   EXPECT_EQ(refusal(head() + "theorem 4"),
             "line 4: the file ends within it; expected a line, ended by LF");
-  std::string packed(ZSTD_compressBound(text.size()), '\0');
-  packed.resize(ZSTD_compress(packed.data(), packed.size(), text.data(), text.size(), 3));
-  for (std::size_t size = 4; size < packed.size(); ++size)
-    EXPECT_THAT(refusal(packed.substr(0, size)), HasSubstr("; expected")) << size;
-  packed[8] = static_cast<char>(packed[8] ^ 0x5A);
-  EXPECT_THAT(refusal(packed), HasSubstr("; expected"));
+  std::string compressed(ZSTD_compressBound(text.size()), '\0');
+  compressed.resize(
+      ZSTD_compress(compressed.data(), compressed.size(), text.data(), text.size(), 3));
+  for (std::size_t size = 4; size < compressed.size(); ++size)
+    EXPECT_THAT(refusal(compressed.substr(0, size)), HasSubstr("; expected")) << size;
+  compressed[8] = static_cast<char>(compressed[8] ^ 0x5A);
+  EXPECT_THAT(refusal(compressed), HasSubstr("; expected"));
 }
 
-TEST_F(CertificateTexts, OfAnotherInstanceAreRefused) {
+TEST_F(CertificateTexts, AreRefusedIfOfAnotherInstance) {
   EXPECT_EQ(
       refusal("grove-proof 1\ninstance 0123456789abcdef\nfollowing yes\ntheorem 4\nleaf\nend\n"),
       fmt::format("line 2: found '0123456789abcdef'; expected {:016x}, the checksum of this "
@@ -111,7 +113,7 @@ TEST_F(CertificateTexts, OfAnotherInstanceAreRefused) {
                   certificate_checksum(instance_)));
 }
 
-TEST_F(CertificateTexts, HaveTheGrammarToTheLetter) {
+TEST_F(CertificateTexts, FollowTheGrammarExactly) {
   EXPECT_EQ(refusal("{}\n"), "line 1: found '{}'; expected 'grove-proof'");
   EXPECT_EQ(refusal("grove-proof 2\n"), "line 1: found '2'; expected '1'");
   EXPECT_EQ(refusal(head("maybe")), "line 3: found 'maybe'; expected yes or no");
@@ -119,11 +121,11 @@ TEST_F(CertificateTexts, HaveTheGrammarToTheLetter) {
   EXPECT_EQ(refusal(head() + "theorem -1\n"),
             "line 4: found '-1'; expected a cost or inf, from 0 to 1152921504606846975");
   EXPECT_EQ(refusal(head() + "theorem 4\nleaf\nend\n\n"),
-            "line 6: found more behind it; expected nothing after 'end'");
+            "line 6: found more after it; expected nothing after 'end'");
   EXPECT_EQ(refusal(head() + "lemma 3 1 1\n"),
             "line 4: found '1'; expected agents in ascending order");
   EXPECT_EQ(refusal(head() + "lemma 3 1\ndemand 0 bar 0 0 0\n"),
-            "line 5: found '0 bar 0 0 0'; expected a demand on an agent of the lemma");
+            "line 5: found '0 bar 0 0 0'; expected a constraint on an agent of the lemma");
   EXPECT_EQ(refusal(head() + "lemma 3 1\nleaf 0\n"),
             "line 5: found '0'; expected the number of an earlier lemma, of which there is none");
   EXPECT_EQ(refusal_of_proof("leaf\n"), "it was read");
@@ -155,20 +157,19 @@ TEST_F(CertificateTexts, HaveTheGrammarToTheLetter) {
             "line 6: found 'swap'; expected place or edge or finish or end");
 }
 
-TEST_F(CertificateTexts, ThatAreTooLargeToBeLookedAtAreRefused) {
-  EXPECT_EQ(refusal(head() + std::string(kAll), 4),
-            "has 5 splits; expected at most 4, which people can look at");
+TEST_F(CertificateTexts, AreRefusedIfTooLarge) {
+  EXPECT_EQ(refusal(head() + std::string(kAll), 4), "has 5 splits; expected at most 4");
   const std::string blanks(std::size_t{1} << 25, ' ');
   std::string bomb(ZSTD_compressBound(blanks.size()), '\0');
   bomb.resize(ZSTD_compress(bomb.data(), bomb.size(), blanks.data(), blanks.size(), 3));
   for (const std::string& large : {blanks, bomb})
     EXPECT_EQ(refusal(large),
-              "is too large to be looked at; expected a certificate of at most 16777216 bytes, "
+              "is too large to be shown; expected a certificate of at most 16777216 bytes, "
               "uncompressed");
 }
 
-// A byte of it is another one: that is read as it is, or refused.
-TEST_F(CertificateTexts, WithAnyByteChangedAreReadOrRefused) {
+// A certificate with one byte changed is read as it is, or refused.
+TEST_F(CertificateTexts, AreReadOrRefusedWithAnyByteChanged) {
   const std::string text = head() + std::string(kAll);
   std::size_t refused = 0;
   for (std::size_t at = 0; at < text.size(); ++at) {
@@ -184,7 +185,7 @@ TEST_F(CertificateTexts, WithAnyByteChangedAreReadOrRefused) {
   EXPECT_GT(refused, text.size() / 2);
 }
 
-// As deep as it is long.
+// A proof as deep as it is long.
 TEST_F(CertificateTexts, MayBeDeep) {
   std::string proof;
   for (int i = 0; i < 100'000; ++i) proof += "split 0 bar 0 1 1 | 1 bar 0 1 1\nleaf\n";

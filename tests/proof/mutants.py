@@ -4,8 +4,8 @@
 
     mutants.py FOLDER [--count N] [--only K,K] [--jobs J]
 
-Copies the sources to FOLDER, plants the bugs of mutants.txt there, builds that once, and runs grove-proofs for each
-of them, chosen by the environment variable GROVE_MUTANT as it starts: for each part of the search that the bug is tried
+Copies the sources to FOLDER, inserts the bugs of mutants.txt there, builds that once, and runs grove-fuzz-certificates for
+each of them, chosen by the environment variable GROVE_MUTANT as it starts: for each part of the search that the bug is tried
 on, N tiny instances, searched, with a certificate each that grove-verify checks. Tables, one for each way in which bugs
 come out, say of each bug how often what was claimed was false (the oracle knows), how often the certificate was refused
 or fell short of the claim, and how often a false claim was verified, which must be never: else it ends with 1.
@@ -55,16 +55,16 @@ def pattern(text):
     return r"\s*".join(re.escape(word) for word in re.findall(r"\w+|[^\w\s]", text))
 
 
-def plant(text, number, before, old, new):
+def mutate(text, number, before, old, new):
     found = list(re.finditer(f"({pattern(before)}\\s*)({pattern(old)})", text))
     if len(found) != 1:
         sys.exit(f"mutants.py: error: mutant {number}: found {len(found)} times, expected once: {before}@{old}")
     match = found[0]
     is_statement = old.endswith(";")
     there = match.group(2)
-    planted = (f"if (!grove_mutant({number})) {there}" if is_statement
+    mutated = (f"if (!grove_mutant({number})) {there}" if is_statement
                else f"(grove_mutant({number}) ? ({new}) : ({there}))")
-    return text[:match.start(2)] + planted + text[match.end(2):]
+    return text[:match.start(2)] + mutated + text[match.end(2):]
 
 
 def write_if_new(file, text):
@@ -78,7 +78,7 @@ def copy_sources(folder, mutants):
     texts = {}
     for number, file, before, old, new, _ in mutants:
         text = texts.get(file) or (ROOT / file).read_text(encoding="utf-8")
-        texts[file] = plant(text, number, before, old, new)
+        texts[file] = mutate(text, number, before, old, new)
     names = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True).stdout.decode()
     for name in set(filter(None, names.split("\0"))) - set(texts):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -94,7 +94,7 @@ def copy_sources(folder, mutants):
 def build(folder):
     options = ["-D", "GROVE_BUILD_TESTS=ON", "-D", "GROVE_WITH_MPI=OFF"]
     subprocess.run(["cmake", "--preset", "release", *options], cwd=folder, check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["cmake", "--build", "--preset", "release", "--target", "grove-proofs", "grove-verify"],
+    subprocess.run(["cmake", "--build", "--preset", "release", "--target", "grove-fuzz-certificates", "grove-verify"],
                    cwd=folder, check=True)
 
 
@@ -108,7 +108,7 @@ def trial(folder, number, parts, count, seconds):
 
 
 def summed(of_parts, usual):
-    """Over all parts, without what is refused or ends in an error though no bug is planted."""
+    """Over all parts, without what is refused or ends in an error although there is no bug."""
     sums = collections.Counter()
     for part, counts in of_parts.items():
         sums.update(counts)
@@ -119,7 +119,7 @@ def summed(of_parts, usual):
 
 def trial_of_part(folder, place, number, part, count, seconds):
     bin_folder = folder / "build/release/bin"
-    program = next(path for path in (folder / "build/release").rglob("grove-proofs") if path.is_file())
+    program = next(path for path in (folder / "build/release").rglob("grove-fuzz-certificates") if path.is_file())
     command = [program, "--verify", bin_folder / "grove-verify", "--folder", place, "--count", str(count),
                "--part", part, "--json"]
     try:

@@ -7,17 +7,17 @@ import mutants
 
 
 class Mutants(unittest.TestCase):
-    def test_each_is_planted_in_one_place(self):
-        planted = 0
+    def test_each_is_inserted_in_one_place(self):
+        inserted = 0
         for number, file, before, old, new, _ in mutants.read_list():
             with self.subTest(number=number):
                 text = (mutants.ROOT / file).read_text(encoding="utf-8")
                 try:
-                    self.assertNotEqual(mutants.plant(text, number, before, old, new), text)
+                    self.assertNotEqual(mutants.mutate(text, number, before, old, new), text)
                 except SystemExit as error:
                     self.fail(str(error))
-                planted += 1
-        self.assertGreater(planted, 100)
+                inserted += 1
+        self.assertGreater(inserted, 100)
 
 
 if __name__ == "__main__":

@@ -51,11 +51,11 @@ class Rules(unittest.TestCase):
 
     def refused_splits(self, instance, *splits, following="yes"):
         for one in splits:
-            self.refused(2, "may meet neither", instance, "theorem 1", f"split {one}", "leaf", "leaf", following=following)
+            self.refused(2, "may satisfy neither", instance, "theorem 1", f"split {one}", "leaf", "leaf", following=following)
 
     def test_leaf(self):
         self.verified(CROSS, "theorem 4", "leaf")
-        self.refused(2, "costs 4 and 0 by lemmas, expected 5", CROSS, "theorem 5", "leaf")
+        self.refused(2, "costs 4 and 0 by lemmas; expected 5", CROSS, "theorem 5", "leaf")
         self.refused(2, "expected inf", CROSS, "theorem inf", "leaf")
 
     def test_bars(self):
@@ -88,7 +88,7 @@ class Rules(unittest.TestCase):
         self.refused_splits(SWAP, "0 move 0 1 1 1 | 1 move 0 1 1 1", "0 move 0 1 1 1 | 1 move 1 0 2 2",
                             "0 move 0 1 1 2 | 1 move 1 0 1 2", "0 move 0 1 1 1 | 0 move 1 0 1 1", "0 move 0 1 1 1 | 1 move 1 3 1 1",
                             "0 move 0 1 1 inf | 1 move 1 0 1 inf")
-        self.refused(2, "expected two places", SWAP, "theorem 1", "split 0 move 0 0 1 1 | 1 move 0 0 1 1", "leaf", "leaf")
+        self.refused(2, "expected two different places", SWAP, "theorem 1", "split 0 move 0 0 1 1 | 1 move 0 0 1 1", "leaf", "leaf")
 
     def test_rests(self):
         self.verified(PASSER, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf", "leaf")
@@ -100,7 +100,7 @@ class Rules(unittest.TestCase):
     def test_who_rests_bars_others(self):
         lemma = ["lemma inf 1", "demand 1 bar 2 2 inf", "leaf"]
         self.verified(PASSER, *lemma, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf", "leaf 0")
-        self.refused(6, "demand 0 of lemma 0 is not in force", PASSER, *lemma, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf 0")
+        self.refused(6, "constraint 0 of lemma 0 is not in force", PASSER, *lemma, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf 0")
         # Not in the demands of a lemma that say so, and not later than that side.
         self.refused(3, "costs 5", PASSER, "lemma 7 0 1", "demand 0 rest 2 2", "leaf")
         self.refused(4, "costs 7", PASSER, "theorem 8", "split 0 rest 2 2 | 0 norest 2 2", "leaf", "leaf")
@@ -114,7 +114,7 @@ class Rules(unittest.TestCase):
                             "0 pass 9 10 4 7 | 0 pass 8 7 4 7", "0 pass 9 10 4 inf | 1 pass 8 7 4 inf", "0 pass 9 10 4 inf | 1 pass 8 7 4 7",
                             "0 pass 9 10 4 7 | 1 pass 1 7 4 7")
         for wrong in ("8 10", "9 8", "7 8", "9 3", "9 9"):
-            self.refused(2, "the last of a chain", HALL, "theorem 1", f"split 0 pass {wrong} 4 7 | 1 pass 8 7 4 7", "leaf", "leaf")
+            self.refused(2, "the last place of a chain", HALL, "theorem 1", f"split 0 pass {wrong} 4 7 | 1 pass 8 7 4 7", "leaf", "leaf")
 
     def test_who_turns_back_does_not_traverse(self):
         # Barred from traversing either way it may still go in and out: to task 0 on 8.
@@ -143,9 +143,9 @@ class Rules(unittest.TestCase):
         self.refused(6, "expected 6", CROSS, *lemma, "theorem 6", "leaf 0")
         self.refused(6, "no lemma 1", CROSS, *lemma, "theorem 5", "leaf 1")
         self.refused(2, "no lemma 0", CROSS, "lemma 5 0 1", "leaf 0")
-        self.refused(6, "lemma 0 is of agent 1, too", CROSS, *lemma, "lemma 3 0", "leaf 0")
-        self.refused(1, "do not ascend", CROSS, "lemma 4 1 0", "leaf")
-        self.refused(1, "do not ascend", CROSS, "lemma 4 1 1", "leaf")
+        self.refused(6, "lemma 0 is also about agent 1", CROSS, *lemma, "lemma 3 0", "leaf 0")
+        self.refused(1, "must ascend", CROSS, "lemma 4 1 0", "leaf")
+        self.refused(1, "must ascend", CROSS, "lemma 4 1 1", "leaf")
         self.refused(1, "no agent 2", CROSS, "lemma 4 1 2", "leaf")
         self.refused(2, "agent 1 is not among", CROSS, "lemma 2 0", "demand 1 bar 4 1 1", "leaf")
         self.refused(2, "agent 1 is not among", CROSS, "lemma 2 0", "split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf", "leaf")
@@ -164,7 +164,7 @@ class Rules(unittest.TestCase):
     def test_covering(self):
         lemmas = [line for pair in ("0 1", "0 2", "1 2") for line in (f"lemma 9 {pair}", "joint")]
         self.verified(STAR, *lemmas, "theorem 14", "leaf 0 1 2")  # by halves it would be 13.5
-        self.refused(8, "costs 12 and 2 by lemmas, expected 15", STAR, *lemmas, "theorem 15", "leaf 0 1 2")
+        self.refused(8, "costs 12 and 2 by lemmas; expected 15", STAR, *lemmas, "theorem 15", "leaf 0 1 2")
         self.refused(8, "costs 12 and 1 by lemmas", STAR, *lemmas, "theorem 14", "leaf 0 1")
         self.refused(8, "costs 12 and 1 by lemmas", STAR, *lemmas, "theorem 14", "leaf 0 0 0 1")
         self.verified(STAR, "lemma 10 0 2", "joint", "theorem 14", "leaf 0")
@@ -176,11 +176,11 @@ class Rules(unittest.TestCase):
         self.verified(CROSS, *lemma, "theorem 5", "later 1 2 0 2 0", "leaf", "leaf")
         self.refused(7, "costs 5", CROSS, *lemma, "theorem 6", "later 0 2 1 2 0", "leaf", "leaf")
         for wrong in ("0 3 1 2", "0 2 1 3", "0 2 0 2"):
-            self.refused(6, "not of these two, or says less", CROSS, *lemma, "theorem 5", f"later {wrong} 0", "leaf", "leaf")
+            self.refused(6, "not about these two agents, or its bound", CROSS, *lemma, "theorem 5", f"later {wrong} 0", "leaf", "leaf")
         self.refused(6, "no lemma", CROSS, *lemma, "theorem 5", "later 0 2 1 2 1", "leaf", "leaf")
-        self.refused(4, "not of these two", STAR, "lemma 9 0 1", "joint", "theorem 13", "later 0 4 2 4 0", "leaf", "leaf")
+        self.refused(4, "not about these two agents", STAR, "lemma 9 0 1", "joint", "theorem 13", "later 0 4 2 4 0", "leaf", "leaf")
         self.refused(5, "not in force", CROSS, "lemma 5 0 1", "demand 0 bar 4 1 1", "leaf", "theorem 5", "later 0 2 1 2 0")
-        self.refused(4, "lemma 0 is of agent 2, too", STAR, "lemma 12 0 1 2", "leaf", "lemma 8 0 1", "later 0 3 1 3 0")
+        self.refused(4, "lemma 0 is also about agent 2", STAR, "lemma 12 0 1 2", "leaf", "lemma 8 0 1", "later 0 3 1 3 0")
 
     def test_later_is_for_plain_goals(self):
         ends = {"without a goal": ([Agent((3,)), Agent((1,), 7)], [(5, 0, [0])]), "who works there": ([Agent((3,), 5), Agent((1,), 7)], [(5, 1, [0])]),
@@ -204,20 +204,20 @@ class Rules(unittest.TestCase):
     def test_prices(self):
         place = ["prices", "place 4 1 1024", "end"]
         self.verified(CROSS, "theorem 5", *place)
-        self.refused(4, "prices prove 5, expected 6", CROSS, "theorem 6", *place)
+        self.refused(4, "prices prove 5; expected 6", CROSS, "theorem 6", *place)
         self.refused(4, "prices prove 3", CROSS, "theorem 5", "prices", "place 4 2 1024", "end")
         self.verified(CROSS, "theorem 5", "prices", "place 4 1 1", "end")  # rounded up
         self.refused(3, "prices prove 4", CROSS, "theorem 5", "prices", "end")
         self.refused(4, "prices prove 4", CROSS, "theorem 5", "prices", "place 5 2 600", "end")  # used once, on arrival
         self.verified(CROSS, "theorem 5", "prices", "finish 0 2 1 2 1024", "end")
-        self.refused(3, "may both have finished", CROSS, "theorem 5", "prices", "finish 0 3 1 2 1024", "end")
+        self.refused(3, "both agents may have finished", CROSS, "theorem 5", "prices", "finish 0 3 1 2 1024", "end")
         self.refused(3, "", CROSS, "theorem 5", "prices", "finish 1 2 0 2 1024", "end")
         self.verified(SWAP, "theorem 3", "prices", "edge 0 1 1 1024", "end")
         self.refused(4, "prices prove 3", SWAP, "theorem 4", "prices", "edge 0 1 1 1024", "end")
-        self.refused(3, "do not ascend", SWAP, "theorem 3", "prices", "edge 1 0 1 1024", "end")
-        self.refused(2, "prices are of all agents", CROSS, "lemma 2 0", *place)
-        self.refused(3, "without demands", CROSS, "lemma 4 0 1", "demand 0 bar 4 1 1", *place)
-        self.refused(3, "without demands", CROSS, "theorem 5", CROSSED[0], *place, "leaf")
+        self.refused(3, "must ascend", SWAP, "theorem 3", "prices", "edge 1 0 1 1024", "end")
+        self.refused(2, "prices require all agents", CROSS, "lemma 2 0", *place)
+        self.refused(3, "without constraints", CROSS, "lemma 4 0 1", "demand 0 bar 4 1 1", *place)
+        self.refused(3, "without constraints", CROSS, "theorem 5", CROSSED[0], *place, "leaf")
 
     def test_who_stays_on_the_lesser_place_uses_an_edge(self):
         # To 1 and back, and somebody far away, for seven steps.

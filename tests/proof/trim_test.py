@@ -257,7 +257,7 @@ class Files(unittest.TestCase):
                                      (self.TEXT.replace("0123", "012"), "line 2: found '012456789abcdef'; expected a checksum, 16 digits of 0 to f"),
                                      (self.TEXT.replace("leaf\nend", "leaf 1\nend"), "line 9: found '1'; expected the number of an earlier lemma, from 0 to 0"),
                                      (self.TEXT[:-1], "line 10: the file ends within it; expected a line, ended by LF"),
-                                     (self.TEXT + "\n", "line 10: found more behind it; expected nothing after 'end'"),
+                                     (self.TEXT + "\n", "line 10: found more after it; expected nothing after 'end'"),
                                      ("x" * 5000000, "line 1: it is too long; expected at most 4194304 bytes")]:
             code, said, after, files = trim(text_there)
             self.assertEqual((code, said), (2, f"grove: error: c.proof: {expected}\n"))

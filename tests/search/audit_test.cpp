@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Each audit sees the defect that it is there for.
+// Each audit detects the defect that it checks for.
 #include "search/audit.h"
 
 #include <gtest/gtest.h>
 
 #include "model/assert.h"
-#include "tests/search/node_at_hand.h"
+#include "tests/search/root_fixture.h"
 
 namespace grove::detail {
 namespace audit_test {
 
-struct TwoAgents : testing::NodeAtHand {
+struct TwoAgents : testing::RootFixture {
   TwoAgents()
-      : NodeAtHand({"....", "...."}, {{{0, 0}, Position{3, 0}}, {{0, 1}, Position{3, 1}}}) {}
+      : RootFixture({"....", "...."}, {{{0, 0}, Position{3, 0}}, {{0, 1}, Position{3, 1}}}) {}
 
-  // A child in which agent 0 takes this path, at what the node says to cost.
+  // A child of the root in which agent 0 takes `path` and the node claims `cost`.
   NodePtr child(const Path& path, Cost cost, const AgentConstraint& added = {}) {
     const NewPath taken{0, &path};
     NodeDelta change;
@@ -26,34 +26,34 @@ struct TwoAgents : testing::NodeAtHand {
   void audit_child(const NodePtr& node) { audit(problem, *node, all); }
 };
 
-TEST(Audit, AcceptsWhatIsTrue) {
+TEST(Audit, AcceptsConsistentNodes) {
   TwoAgents s;
   EXPECT_NO_THROW(s.audit_child(s.root));
   EXPECT_NO_THROW(s.audit_child(s.child({0, 0, 1, 2, 3}, 7, {0, {1, kNoCell, 1, 1}})));
 }
 
-TEST(Audit, SeesACostThatIsNotThatOfThePaths) {
+TEST(Audit, DetectsACostThatDiffersFromThePaths) {
   TwoAgents s;
   EXPECT_THROW(s.audit_child(s.child({0, 0, 1, 2, 3}, 6)), AssertionFailed);
   EXPECT_THROW(s.audit_child(s.child({0, 1, 2, 3}, 7)), AssertionFailed);
 }
 
-TEST(Audit, SeesAPathThatBreaksAConstraint) {
+TEST(Audit, DetectsAPathThatViolatesAConstraint) {
   TwoAgents s;
   const NodePtr broken = s.child({0, 1, 2, 3}, 6, {0, {1, kNoCell, 1, 1}});
   EXPECT_THROW(s.audit_child(broken), AssertionFailed);
-  // The other agent's obedience is none of this scope's business.
+  // An audit of agent 1 only does not check the path of agent 0.
   const std::array<AgentIndex, 1> other{1};
   EXPECT_NO_THROW(audit(s.problem, *broken, other));
   EXPECT_THROW(s.view.enter(broken, s.all), AssertionFailed);
 }
 
-TEST(Audit, SeesAPathThatEndsElsewhere) {
+TEST(Audit, DetectsAPathThatEndsOffTheGoal) {
   TwoAgents s;
   EXPECT_THROW(s.audit_child(s.child({0, 1, 2}, 5)), AssertionFailed);
 }
 
-TEST(Audit, SeesATableThatWasNotBroughtUp) {
+TEST(Audit, DetectsAnOutdatedConflictAvoidanceTable) {
   TwoAgents s;
   ConflictAvoidanceTable table(s.instance.grid());
   const std::array<Path, 2> paths{Path{0, 1, 2, 3}, Path{4, 5, 1, 5, 6, 7}};
@@ -66,8 +66,8 @@ TEST(Audit, SeesATableThatWasNotBroughtUp) {
 }
 
 #ifdef GROVE_ASSERTIONS
-// What was packed so unpacked to cells, or memory, that are not the path's.
-TEST(Assertion, SeesAStepThatIsNone) {
+// A step between non-adjacent cells would unpack to other cells, or access memory out of bounds.
+TEST(Assertion, DetectsAStepBetweenNonAdjacentCells) {
   TwoAgents s;
   EXPECT_THROW(s.child({0, 2, 3}, 5), AssertionFailed);
 }

@@ -6,27 +6,27 @@
 #include <algorithm>
 #include <set>
 
-#include "tests/search/node_at_hand.h"
+#include "tests/search/root_fixture.h"
 #include "tests/support/clocks.h"
 
 namespace grove::detail {
 namespace brancher_test {
 
 using testing::AgentSpec;
-using testing::NodeAtHand;
+using testing::RootFixture;
 
 const Techniques kCardinal{Technique::kStrongBranching};
 
-struct Branched : NodeAtHand {
-  using NodeAtHand::NodeAtHand;
+struct Branched : RootFixture {
+  using RootFixture::RootFixture;
 
   Brancher::Outcome branch(Cost cutoff = kInfiniteCost,
                            std::span<const Split> fallback_splits = {}) {
     children.clear();
     return brancher.branch(view, cutoff, fallback_splits, limits, children);
   }
-  // Who is asked something by the children, in ascending order.
-  std::vector<AgentIndex> asked() const {
+  // Agents that the children constrain, in ascending order.
+  std::vector<AgentIndex> constrained() const {
     std::vector<AgentIndex> agents;
     for (const NodePtr& child : children) agents.push_back(child->added().agent);
     std::ranges::sort(agents);
@@ -41,8 +41,8 @@ struct Branched : NodeAtHand {
   std::vector<NodePtr> children;
 };
 
-// Agents 0 and 1 cross in the open at time 1, where each can go another way as short; 2 and 3 at
-// time 3, each in an aisle of one cell's width, where one of them must wait.
+// Agents 0 and 1 cross on open ground at time 1 and each has another path of the same length.
+// Agents 2 and 3 cross at time 3, each in an aisle one cell wide, so one of them must wait.
 const std::vector<std::string> kOpenAndAisles{"...@@@.@@@",  //
                                               "...@@@.@@@",  //
                                               "...@@@.@@@",  //
@@ -54,19 +54,19 @@ const std::vector<AgentSpec> kFour{{{0, 1}, Position{2, 2}},
                                    {{3, 3}, Position{9, 3}},
                                    {{6, 0}, Position{6, 5}}};
 
-TEST(Brancher, PrefersTheConflictThatRaisesBothSides) {
+TEST(Brancher, PrefersTheConflictThatRaisesBothBranches) {
   Branched s(kOpenAndAisles, kFour, {kCardinal, 0, true});
   ASSERT_GE(s.view.conflicts().size(), 1u);
   ASSERT_EQ(s.branch(), Brancher::Outcome::kBranched);
-  EXPECT_EQ(s.asked(), std::vector<AgentIndex>({2, 3}));
+  EXPECT_EQ(s.constrained(), std::vector<AgentIndex>({2, 3}));
   for (const NodePtr& child : s.children) EXPECT_EQ(child->cost(), s.root->cost() + 1);
 }
 
-// A door: whoever gives way loses three steps, the other none.
+// A door: the agent that gives way loses three steps, the other none.
 const std::vector<std::string> kDoor{"..@..", ".....", "..@.."};
 const std::vector<AgentSpec> kHeadOn{{{0, 1}, Position{4, 1}}, {{4, 1}, Position{0, 1}}};
 
-TEST(Brancher, ClosesSidesThatReachTheCutoff) {
+TEST(Brancher, PrunesBranchesThatReachTheCutoff) {
   Branched s(kDoor, kHeadOn, {kCardinal, 0, true});
   ASSERT_EQ(s.branch(s.root->cost() + 2), Brancher::Outcome::kBranched);
   EXPECT_EQ(s.children.size(), 2u);
@@ -77,7 +77,7 @@ TEST(Brancher, ClosesSidesThatReachTheCutoff) {
   s.view.enter(s.root, s.all);
   ASSERT_EQ(s.branch(s.root->cost() + 2), Brancher::Outcome::kBranched);
   EXPECT_EQ(prices.asked(), 2 * asked);
-  EXPECT_GE(prices.known(), asked);  // all of the second time
+  EXPECT_GE(prices.known(), asked);  // every query of the second call
   for (const Cost cutoff : {s.root->cost() + 1, s.root->cost()}) {
     s.view.enter(s.root, s.all);
     ASSERT_EQ(s.branch(cutoff), Brancher::Outcome::kBranched);
@@ -85,20 +85,20 @@ TEST(Brancher, ClosesSidesThatReachTheCutoff) {
   }
 }
 
-TEST(Brancher, StopsWithoutChildrenWhenALimitStrikes) {
+TEST(Brancher, StopsWithoutChildrenAtALimit) {
   Branched s(kDoor, kHeadOn, {kCardinal, 0, true});
   s.limits.set_deadline(testing::kPast);
   EXPECT_EQ(s.branch(), Brancher::Outcome::kStopped);
   EXPECT_TRUE(s.children.empty());
 }
 
-// Two that cross on open ground, and there go round each other for free.
+// Two agents that cross on open ground and can avoid each other at no extra cost.
 const std::vector<std::string> kOpen{"...", "...", "..."};
 const std::vector<AgentSpec> kCrossing{{{0, 0}, Position{2, 2}}, {{0, 2}, Position{2, 0}}};
 const std::vector<std::vector<Position>> kCollide{{{0, 0}, {1, 0}, {1, 1}, {2, 1}, {2, 2}},
                                                   {{0, 2}, {0, 1}, {1, 1}, {1, 0}, {2, 0}}};
 
-TEST(Brancher, GoesRoundForFreeInsteadOfSplitting) {
+TEST(Brancher, BypassesAConflictInsteadOfSplitting) {
   Branched with(kOpen, kCrossing, {{Technique::kStrongBranching, Technique::kBypass}, 0, true});
   with.take(kCollide);
   ASSERT_FALSE(with.view.conflict_free());
@@ -119,8 +119,9 @@ TEST(Brancher, GoesRoundForFreeInsteadOfSplitting) {
   EXPECT_EQ(without.splits(ConstraintKind::kVertexOrEdge), 1);
 }
 
-// Below the node as it is routed now hang the children of a split, with all paths the view showed.
-TEST(Brancher, KeepsTheWaysRoundInTheChildren) {
+// The children of a split are children of the node with its current paths: they keep all paths that
+// the view showed.
+TEST(Brancher, KeepsBypassesInTheChildren) {
   Branched s(kOpenAndAisles, kFour, {{Technique::kStrongBranching, Technique::kBypass}, 0, true});
   ASSERT_EQ(s.branch(), Brancher::Outcome::kBranched);
   for (const NodePtr& child : s.children) {
@@ -134,9 +135,9 @@ TEST(Brancher, KeepsTheWaysRoundInTheChildren) {
   }
 }
 
-// Agent 1 rests in the passage of agent 0 from time 1 on, which therefore comes to rest later, or
-// sooner for good.
-TEST(Brancher, SplitsOnWhenAnAgentComesToRest) {
+// Agent 1 rests in the passage of agent 0 from time 1 on. In one branch it comes to rest later, in
+// the other it rests by then.
+TEST(Brancher, SplitsTargetConflictsOnTheTimeOfRest) {
   Branched s({"......", "@@.@@@"}, {{{0, 0}, Position{5, 0}}, {{4, 0}, Position{3, 0}}},
              {{Technique::kTarget}, 0, true});
   ASSERT_EQ(s.branch(), Brancher::Outcome::kBranched);
@@ -145,12 +146,12 @@ TEST(Brancher, SplitsOnWhenAnAgentComesToRest) {
     EXPECT_EQ(child->added().agent, 1);
     EXPECT_EQ(child->added().constraint.kind, ConstraintKind::kNoRestBy);
   }
-  // The other side bars agent 0 from its only way.
+  // The other branch blocks the only path of agent 0.
   EXPECT_EQ(s.children.size(), 1u);
   EXPECT_EQ(s.splits(ConstraintKind::kRestBy), 1);
 }
 
-TEST(Brancher, TakesALastResortOnlyOfAgentsInConflict) {
+TEST(Brancher, TakesAFallbackSplitOnlyForAgentsInConflict) {
   const auto later = [](AgentIndex agent, Cell goal, Time by) {
     return AgentConstraint{agent, {goal, kNoCell, 0, by, ConstraintKind::kNoRestBy}};
   };
@@ -168,38 +169,38 @@ TEST(Brancher, TakesALastResortOnlyOfAgentsInConflict) {
   const Split others{later(0, 8, 4), later(2, 11, 2)};
   ASSERT_EQ(apart.branch(kInfiniteCost, std::array<Split, 1>{others}),
             Brancher::Outcome::kBranched);
-  EXPECT_EQ(apart.asked(), std::vector<AgentIndex>({0, 1}));
+  EXPECT_EQ(apart.constrained(), std::vector<AgentIndex>({0, 1}));
 }
 
-// Two conflicts at one time: which of them is split depends on the seed alone.
+// Two conflicts at the same time: only the seed decides which of them is split.
 TEST(Brancher, BreaksTiesBySeed) {
   const std::vector<AgentSpec> twice{{{0, 0}, Position{2, 2}},
                                      {{0, 2}, Position{2, 0}},
                                      {{4, 0}, Position{6, 2}},
                                      {{4, 2}, Position{6, 0}}};
   const std::vector<std::string> rows{"...@...", "...@...", "...@..."};
-  auto ways = kCollide;
-  for (std::vector<Position> way : kCollide) {
-    for (Position& at : way) at.x += 4;
-    ways.push_back(way);
+  auto routes = kCollide;
+  for (std::vector<Position> route : kCollide) {
+    for (Position& at : route) at.x += 4;
+    routes.push_back(route);
   }
   std::set<std::vector<AgentIndex>> seen;
   for (std::uint64_t seed = 0; seed < 16; ++seed) {
     Branched s(rows, twice, {Techniques(), seed, true});
     Branched again(rows, twice, {Techniques(), seed, true});
-    s.take(ways);
-    again.take(ways);
+    s.take(routes);
+    again.take(routes);
     ASSERT_EQ(s.branch(), Brancher::Outcome::kBranched);
     ASSERT_EQ(again.branch(), Brancher::Outcome::kBranched);
-    EXPECT_EQ(s.asked(), again.asked());
-    seen.insert(s.asked());
+    EXPECT_EQ(s.constrained(), again.constrained());
+    seen.insert(s.constrained());
   }
   EXPECT_EQ(seen, (std::set<std::vector<AgentIndex>>{{0, 1}, {2, 3}}));
 }
 
-// A pair's search looks at two agents and leaves the others where they are.
-TEST(NodeView, SeesItsScopeAlone) {
-  NodeAtHand s(kOpenAndAisles, kFour);
+// A search for a pair of agents examines only these two and does not load the others.
+TEST(NodeView, LoadsOnlyTheAgentsOfItsScope) {
+  RootFixture s(kOpenAndAisles, kFour);
   const std::array<AgentIndex, 2> pair{2, 3};
   s.view.enter(s.root, pair);
   ASSERT_FALSE(s.view.conflict_free());
@@ -212,8 +213,8 @@ TEST(NodeView, SeesItsScopeAlone) {
   EXPECT_EQ(s.view.node_with_current_paths(), s.root);
 }
 
-TEST(NodeView, TellsWhomADemandDisturbs) {
-  NodeAtHand s({"....", "...."}, {{{0, 0}, Position{3, 0}}, {{0, 1}, Position{3, 1}}});
+TEST(NodeView, ListsTheAgentsAffectedByAConstraint) {
+  RootFixture s({"....", "...."}, {{{0, 0}, Position{3, 0}}, {{0, 1}, Position{3, 1}}});
   std::vector<AgentIndex> agents;
   const auto affected_agents = [&](AgentIndex agent, const Constraint& c) {
     s.view.affected_agents({agent, c}, agents);
@@ -222,10 +223,10 @@ TEST(NodeView, TellsWhomADemandDisturbs) {
   const Cell on_first = s.view.path(0)[1];
   EXPECT_EQ(affected_agents(0, {on_first, kNoCell, 1, 1}), std::vector<AgentIndex>({0}));
   EXPECT_EQ(affected_agents(0, {on_first, kNoCell, 2, 2}), std::vector<AgentIndex>());
-  // That agent 0 rests on its goal by 3 it does; agent 1 must keep off, and does.
+  // Agent 0 rests on its goal by time 3, and agent 1 does not enter it: no agent is affected.
   EXPECT_EQ(affected_agents(0, {3, kNoCell, 0, 3, ConstraintKind::kRestBy}),
             std::vector<AgentIndex>());
-  // If it were to rest where the other passes, both would be disturbed.
+  // If agent 0 had to rest on a cell of agent 1's path, both would be affected.
   EXPECT_EQ(affected_agents(0, {5, kNoCell, 0, 1, ConstraintKind::kRestBy}),
             std::vector<AgentIndex>({0, 1}));
 }

@@ -3,63 +3,66 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/search/node_at_hand.h"
+#include "tests/search/root_fixture.h"
 
 namespace grove::detail {
-namespace prices_test {
+namespace child_costs_test {
 
-using testing::NodeAtHand;
+using testing::RootFixture;
 using Outcome = ChildCosts::Outcome;
 
-// Through the door at time 2, or when it is barred up to time 9 at time 10: 12 steps in all.
+// Path lengths of the agent: 4 through the open door at time 2. If the door is blocked up to time 9
+// the agent passes at time 10 and needs 12 steps.
 constexpr Time kFree = 4;
-constexpr Time kBarred = 12;
+constexpr Time kBlocked = 12;
 
-class PricesTest : public ::testing::Test {
+class ChildCostsTest : public ::testing::Test {
  protected:
   Time cost(Time cutoff, std::int64_t label_limit = PathQuery::kUnlimited) {
     Time cost = -1;
-    EXPECT_EQ(prices_.cost(node_.view, 0, door_is_barred_, cutoff, label_limit, node_.limits, cost),
-              Outcome::kDone);
+    EXPECT_EQ(
+        child_costs_.cost(node_.view, 0, door_is_blocked_, cutoff, label_limit, node_.limits, cost),
+        Outcome::kDone);
     return cost;
   }
   Cost increase(Cost slack) {
     Cost increase = -1;
-    EXPECT_EQ(prices_.increase(node_.view, {0, door_is_barred_}, slack, node_.limits, increase),
-              Outcome::kDone);
+    EXPECT_EQ(
+        child_costs_.increase(node_.view, {0, door_is_blocked_}, slack, node_.limits, increase),
+        Outcome::kDone);
     return increase;
   }
 
-  NodeAtHand node_{{"..@..", ".....", "..@.."}, {{{0, 1}, Position{4, 1}}}};
-  const Constraint door_is_barred_{node_.instance.grid().cell({2, 1}), kNoPlace, 0, 9};
-  ChildCosts prices_{node_.planner, node_.memory, PathQuery::kUnlimited};
+  RootFixture node_{{"..@..", ".....", "..@.."}, {{{0, 1}, Position{4, 1}}}};
+  const Constraint door_is_blocked_{node_.instance.grid().cell({2, 1}), kNoPlace, 0, 9};
+  ChildCosts child_costs_{node_.planner, node_.memory, PathQuery::kUnlimited};
 };
 
-TEST_F(PricesTest, AreExactWithinTheCutoff) {
-  EXPECT_EQ(cost(kNever - 1), kBarred);
-  EXPECT_EQ(cost(kBarred), kBarred);
-  EXPECT_EQ(prices_.known(), 1);
+TEST_F(ChildCostsTest, CostIsExactWithinTheCutoff) {
+  EXPECT_EQ(cost(kNever - 1), kBlocked);
+  EXPECT_EQ(cost(kBlocked), kBlocked);
+  EXPECT_EQ(child_costs_.known(), 1);
 }
 
-// What is above the cutoff is not exact, but never more than the truth: it is remembered, and used
+// A cost above the cutoff is not exact, but never more than the true cost: it is cached, and used
 // under other cutoffs.
-TEST_F(PricesTest, AboveTheCutoffAreNeverMoreThanTheTruth) {
-  for (Time cutoff = kFree; cutoff < kBarred; ++cutoff) {
+TEST_F(ChildCostsTest, CostAboveTheCutoffIsALowerBound) {
+  for (Time cutoff = kFree; cutoff < kBlocked; ++cutoff) {
     const Time known = cost(cutoff);
     EXPECT_GT(known, cutoff);
-    EXPECT_LE(known, kBarred);
+    EXPECT_LE(known, kBlocked);
   }
-  EXPECT_EQ(cost(kBarred), kBarred);
+  EXPECT_EQ(cost(kBlocked), kBlocked);
 }
 
-TEST_F(PricesTest, JustAboveTheCutoffAreTheTruth) {
-  EXPECT_EQ(cost(kBarred - 1), kBarred);
+TEST_F(ChildCostsTest, CostOneAboveTheCutoffIsExact) {
+  EXPECT_EQ(cost(kBlocked - 1), kBlocked);
 }
 
-TEST_F(PricesTest, RiseByWhatTheDemandCosts) {
-  EXPECT_EQ(increase(kBarred - kFree - 1), kInfiniteCost);
-  EXPECT_EQ(increase(kBarred - kFree), kBarred - kFree);
+TEST_F(ChildCostsTest, IncreaseIsExactWithinTheSlackElseInfinite) {
+  EXPECT_EQ(increase(kBlocked - kFree - 1), kInfiniteCost);
+  EXPECT_EQ(increase(kBlocked - kFree), kBlocked - kFree);
 }
 
-}  // namespace prices_test
+}  // namespace child_costs_test
 }  // namespace grove::detail

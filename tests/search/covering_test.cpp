@@ -9,8 +9,9 @@
 namespace grove::detail {
 namespace covering_test {
 
-// The least sum by trying every assignment of at most `most` each.
-Cost brute_force(const std::vector<GroupExcess>& statements, int agents, int most) {
+// The least sum that satisfies all statements, by enumerating every assignment of 0 to `max_given`
+// per agent.
+Cost brute_force(const std::vector<GroupExcess>& statements, int agents, int max_given) {
   std::vector<int> given(static_cast<std::size_t>(agents));
   Cost best = kInfiniteCost;
   for (;;) {
@@ -23,7 +24,7 @@ Cost brute_force(const std::vector<GroupExcess>& statements, int agents, int mos
     });
     if (fulfilled) best = std::min(best, sum);
     int i = 0;
-    while (i < agents && given[i] == most) given[i++] = 0;
+    while (i < agents && given[i] == max_given) given[i++] = 0;
     if (i == agents) return best;
     ++given[i];
   }
@@ -42,7 +43,7 @@ std::vector<GroupExcess> random_statements(std::mt19937& random, int agents) {
   return statements;
 }
 
-TEST(CoveringBound, IsTheLeastSum) {
+TEST(CoveringBound, EqualsTheLeastSumOfABruteForce) {
   std::mt19937 random(5);
   for (int round = 0; round < 1500; ++round) {
     const int agents = 3 + static_cast<int>(random() % 4);
@@ -51,7 +52,7 @@ TEST(CoveringBound, IsTheLeastSum) {
   }
 }
 
-TEST(CoveringBound, StaysABoundWhenItsStepsRunOut) {
+TEST(CoveringBound, StaysALowerBoundAtItsStepLimit) {
   std::mt19937 random(6);
   int below = 0;
   for (int round = 0; round < 1500; ++round) {
@@ -64,13 +65,14 @@ TEST(CoveringBound, StaysABoundWhenItsStepsRunOut) {
   EXPECT_GT(below, 0);
 }
 
-TEST(CoveringBound, SaysNothingWithoutStatements) {
+TEST(CoveringBound, IsZeroWithoutStatements) {
   EXPECT_EQ(covering_bound({}), 0);
 }
 
-// A pair that has no paths at all, found out before there is any plan to compare with: the search
-// must not be as deep as that is much, nor may two of them add up to less than one.
-TEST(CoveringBound, TakesStatementsOfInfiniteCost) {
+// Excess of a pair without any pair of paths, found before there is a plan to compare with. The
+// search must not be as deep as this number, and two such statements must not add up to less than
+// one.
+TEST(CoveringBound, HandlesStatementsOfInfiniteCost) {
   std::vector<GroupExcess> statements;
   for (AgentIndex a = 0; a < 20; a += 2) {
     statements.push_back({{a, a + 1}, kInfiniteCost - 100});
@@ -79,7 +81,7 @@ TEST(CoveringBound, TakesStatementsOfInfiniteCost) {
   }
 }
 
-TEST(CoveringBound, StaysABoundWhereTheSumIsLarge) {
+TEST(CoveringBound, StaysALowerBoundForLargeSums) {
   const std::vector<GroupExcess> triangle{{{0, 1}, 30'000}, {{1, 2}, 30'000}, {{0, 2}, 30'000}};
   EXPECT_GE(covering_bound(triangle), 30'000);
   EXPECT_LE(covering_bound(triangle), 45'000);

@@ -47,8 +47,8 @@ TEST(Expander, TurnsAConflictFreeNodeIntoItsPlan) {
   EXPECT_EQ(expansion.plan->agents[0].sequence, std::vector<TaskIndex>({0}));
 }
 
-TEST(Expander, MakesOneChildPerAgentUnderTheChildsConstraints) {
-  // Head on in a corridor with a bay: both agents have to give way somewhere.
+TEST(Expander, MakesOneChildPerAgentWithOneConstraintEach) {
+  // Head-on conflict in a corridor with a bay: each agent has to give way in one child.
   Search s({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
   const Expansion expansion = s.expander.expand(s.root, kInfiniteCost, s.limits);
   ASSERT_EQ(expansion.children.size(), 2u);
@@ -69,7 +69,8 @@ TEST(Expander, MakesOneChildPerAgentUnderTheChildsConstraints) {
   }
 }
 
-// What nodes take must not depend on who expanded which last: memory limits go by it.
+// The memory of nodes must not depend on which expander last expanded which node, because memory
+// limits count it.
 TEST(Expander, HoldsNoNodeBetweenExpansions) {
   Search s({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
   const std::size_t before = s.pool.bytes();
@@ -83,16 +84,16 @@ TEST(Expander, HoldsNoNodeBetweenExpansions) {
   EXPECT_EQ(s.pool.bytes(), before);
 }
 
-TEST(Expander, LeavesOutChildrenWithoutAPath) {
-  // The second agent rests on cell 2 for ever; barring it there at the time of the conflict sends
-  // it away and back, but the first has no other way: its child waits.
+TEST(Expander, BoundsOfChildrenAreAtLeastTheParents) {
+  // The second agent rests on cell 2. A constraint there at the time of the conflict sends it away
+  // and back. The first agent has no other path, so in its child it waits.
   Search s({"...."}, {{{0, 0}, Position{1, 0}}, {{3, 0}, Position{2, 0}, {{1, 0}}}});
   const Expansion expansion = s.expander.expand(s.root, kInfiniteCost, s.limits);
   ASSERT_FALSE(expansion.children.empty());
   for (const NodePtr& child : expansion.children) EXPECT_GE(child->bound(), s.root->bound());
 }
 
-TEST(Expander, StopsWithoutATraceWhenALimitStrikes) {
+TEST(Expander, StopsWithoutChildrenAtALimit) {
   Search s({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
   s.limits.set_deadline(testing::kPast);
   const Expansion expansion = s.expander.expand(s.root, kInfiniteCost, s.limits);
@@ -101,8 +102,8 @@ TEST(Expander, StopsWithoutATraceWhenALimitStrikes) {
   EXPECT_FALSE(expansion.plan);
 }
 
-// The root of a crowd whose pairs are more work than is done at one go.
-TEST(Expander, BoundsAHardNodeInTurnsAsAtOneGo) {
+// The root of a dense instance whose pairs take more work than one call of expand() may do.
+TEST(Expander, BoundsAHardNodeAlikeInOneOrSeveralCalls) {
   const Instance instance =
       testing::random_crowd({.size = 20, .obstacles = 30, .agents = 60, .tasks = 120}, 3);
   const Limits limits;
@@ -112,24 +113,24 @@ TEST(Expander, BoundsAHardNodeInTurnsAsAtOneGo) {
   SingleTree forest(problem, stops, pool, limits);
   const NodePtr root = forest.next_root();
 
-  int turns = 0;
-  Expansion in_turns;
+  int calls = 0;
+  Expansion in_parts;
   Expander expander(problem, stops, {Techniques::defaults(), 0});
   do {
-    in_turns = expander.expand(root, kInfiniteCost, limits);
+    in_parts = expander.expand(root, kInfiniteCost, limits);
     expander.publish();
-    ++turns;
-  } while (in_turns.unfinished);
-  EXPECT_GT(turns, 2);
+    ++calls;
+  } while (in_parts.unfinished);
+  EXPECT_GT(calls, 2);
 
-  // Who once had to forget leaves nothing for later.
+  // An expander whose shared cache follows another one leaves no work for a later call.
   Expander other(problem, stops, {Techniques::defaults(), 0});
   other.turn_to(std::make_shared<SharedCache>(SharedCache::Successor{}));
   const Expansion at_once = other.expand(root, kInfiniteCost, limits);
   ASSERT_FALSE(at_once.unfinished);
-  ASSERT_EQ(in_turns.children.size(), at_once.children.size());
+  ASSERT_EQ(in_parts.children.size(), at_once.children.size());
   for (std::size_t i = 0; i < at_once.children.size(); ++i)
-    EXPECT_EQ(in_turns.children[i]->bound(), at_once.children[i]->bound());
+    EXPECT_EQ(in_parts.children[i]->bound(), at_once.children[i]->bound());
 }
 
 TEST(Expander, IsAPureFunctionOfTheNode) {
@@ -147,8 +148,8 @@ TEST(Expander, IsAPureFunctionOfTheNode) {
   }
 }
 
-// Two workers, each with a memory, who expand the nodes of a crowd's tree in turn.
-TEST(Expander, ServesTwoWorkersAsIfEachHadItsOwn) {
+// Two workers, each with a cache, that expand the nodes of one tree alternately.
+TEST(Expander, OneExpanderServesTwoWorkersLikeTwoExpanders) {
   const Instance instance =
       testing::random_crowd({.size = 10, .obstacles = 25, .agents = 12, .tasks = 14}, 1);
   const Limits limits;
@@ -161,8 +162,9 @@ TEST(Expander, ServesTwoWorkersAsIfEachHadItsOwn) {
     std::shared_ptr<SharedCache> memory = std::make_shared<SharedCache>();
     Expander::Kept kept;
   };
-  // The expander and what is kept there of worker 0 or 1.
-  const auto situations_asked = [&](auto expander_of, bool exchanges) {
+  // Expands with `expander_of` (worker 0 or 1); with `exchanges` the agent caches of the workers
+  // are swapped in and out. Returns the number of nodes and of subproblems.
+  const auto subproblems_queried = [&](auto expander_of, bool exchanges) {
     std::array<Worker, 2> workers;
     std::vector<NodePtr> nodes{root};
     for (std::size_t i = 0; i < nodes.size() && i < 40; ++i) {
@@ -180,18 +182,19 @@ TEST(Expander, ServesTwoWorkersAsIfEachHadItsOwn) {
     }
     return std::pair(
         nodes.size(),
-        expander_of(0).counts().situations +
-            (&expander_of(0) == &expander_of(1) ? 0 : expander_of(1).counts().situations));
+        expander_of(0).counts().subproblems +
+            (&expander_of(0) == &expander_of(1) ? 0 : expander_of(1).counts().subproblems));
   };
   const SearchOptions options{Techniques::defaults(), 0};
   std::deque<Expander> own;
   for (int i = 0; i < 2; ++i) own.emplace_back(problem, stops, options);
-  const auto with_own = situations_asked([&](std::size_t i) -> Expander& { return own[i]; }, false);
+  const auto with_own =
+      subproblems_queried([&](std::size_t i) -> Expander& { return own[i]; }, false);
   EXPECT_GT(with_own.first, 50u) << "too few nodes to be a test";
   for (const bool exchanges : {true, false}) {
     Expander one(problem, stops, options);
     const auto with_one =
-        situations_asked([&](std::size_t) -> Expander& { return one; }, exchanges);
+        subproblems_queried([&](std::size_t) -> Expander& { return one; }, exchanges);
     EXPECT_EQ(with_one.first, with_own.first);
     if (exchanges)
       EXPECT_EQ(with_one.second, with_own.second);

@@ -10,7 +10,7 @@
 namespace grove::detail {
 namespace frontier_test {
 
-// Roots whose bound is the length of one agent's walk.
+// Roots whose bound is the length of the path of one agent.
 class FrontierTest : public ::testing::Test {
  protected:
   FrontierTest()
@@ -51,11 +51,11 @@ TEST_F(FrontierTest, CountsTakenNodesAsLive) {
   frontier_.push(node(4));
   const NodePtr taken = frontier_.take();
   EXPECT_EQ(frontier_.bound(), 1);
-  frontier_.settle(taken);
+  frontier_.complete(taken);
   EXPECT_EQ(frontier_.bound(), 4);
 }
 
-TEST_F(FrontierTest, SpareNodesCountUntilTheyAreSettled) {
+TEST_F(FrontierTest, TransferredNodesCountUntilTheyAreSettled) {
   for (const Time bound : {3, 3, 3, 3, 5, 8}) frontier_.push(node(bound));
   EXPECT_EQ(frontier_.levels(2), (std::vector<Frontier::Level>{{3, 4}, {5, 1}}));
   const auto spare = frontier_.take_for_transfer(3, true);
@@ -65,14 +65,14 @@ TEST_F(FrontierTest, SpareNodesCountUntilTheyAreSettled) {
   EXPECT_EQ(frontier_.open(), 3);
   EXPECT_EQ(frontier_.live(), 6);
   EXPECT_EQ(frontier_.levels(9), (std::vector<Frontier::Level>{{3, 2}, {8, 1}}));
-  frontier_.settle(frontier_.take());
-  frontier_.settle(frontier_.take());
+  frontier_.complete(frontier_.take());
+  frontier_.complete(frontier_.take());
   EXPECT_EQ(frontier_.bound(), 3);
-  for (const NodePtr& given : spare) frontier_.settle(given);
+  for (const NodePtr& given : spare) frontier_.complete(given);
   EXPECT_EQ(frontier_.bound(), 8);
 }
 
-TEST_F(FrontierTest, TheNodeThatIsNextIsNotSpare) {
+TEST_F(FrontierTest, NextNodeIsNotTransferredWithKeepsNext) {
   frontier_.push(node(2));
   EXPECT_TRUE(frontier_.take_for_transfer(5, true).empty());
   frontier_.push(node(7));
@@ -81,7 +81,7 @@ TEST_F(FrontierTest, TheNodeThatIsNextIsNotSpare) {
   EXPECT_EQ(frontier_.take(), nullptr);
 }
 
-TEST_F(FrontierTest, WhoIsAtANodeCanSpareTheNext) {
+TEST_F(FrontierTest, NextNodeIsTransferredWithoutKeepsNext) {
   frontier_.push(node(2));
   const NodePtr taken = frontier_.take();
   frontier_.push(node(3));
@@ -90,16 +90,16 @@ TEST_F(FrontierTest, WhoIsAtANodeCanSpareTheNext) {
   ASSERT_EQ(spare.size(), 1);
   EXPECT_EQ(spare.front()->bound(), 3);
   EXPECT_EQ(frontier_.bound(), 2);
-  frontier_.settle(taken);
+  frontier_.complete(taken);
   EXPECT_EQ(frontier_.bound(), 3);
 }
 
-TEST_F(FrontierTest, TwoTakenNodesOfOneBoundAreTwo) {
+TEST_F(FrontierTest, TakenNodesOfEqualBoundAreCountedSeparately) {
   frontier_.push(node(1));
   frontier_.push(node(1));
   const NodePtr first = frontier_.take();
   const NodePtr second = frontier_.take();
-  frontier_.settle(first);
+  frontier_.complete(first);
   EXPECT_EQ(frontier_.bound(), 1);
   frontier_.reinsert(second);
   EXPECT_EQ(frontier_.bound(), 1);
@@ -110,30 +110,31 @@ TEST_F(FrontierTest, PrunesOnlyFromTheGivenBoundOn) {
   for (Time bound : {1, 2, 3, 3, 5}) frontier_.push(node(bound));
   EXPECT_EQ(frontier_.prune(3), 3u);
   EXPECT_EQ(frontier_.open(), 2u);
-  frontier_.settle(frontier_.take());
-  frontier_.settle(frontier_.take());
+  frontier_.complete(frontier_.take());
+  frontier_.complete(frontier_.take());
   EXPECT_TRUE(frontier_.empty());
 }
 
-TEST_F(FrontierTest, TakesThePromisingWithinOmegaOnly) {
+TEST_F(FrontierTest, TakeByEstimateStaysWithinOmega) {
   const auto with_conflicts = [&](Time bound, std::uint32_t conflicts) {
     NodeDelta change;
     change.cost = bound;
     change.conflicts = conflicts;
     return Node::child(node(bound), change);
   };
-  const NodePtr crowded = with_conflicts(4, 6);
+  const NodePtr with_six_conflicts = with_conflicts(4, 6);
   const NodePtr promising = with_conflicts(5, 1);
-  const NodePtr too_dear = with_conflicts(7, 0);
-  for (const NodePtr& pushed : {crowded, promising, too_dear}) frontier_.push(pushed);
+  const NodePtr too_expensive = with_conflicts(7, 0);
+  for (const NodePtr& pushed : {with_six_conflicts, promising, too_expensive})
+    frontier_.push(pushed);
   const Omega half = Omega::parse("0.5");
   const NodePtr taken = frontier_.take_by_estimate(half, 4, 1);
   EXPECT_EQ(taken, promising);
   EXPECT_EQ(frontier_.bound(), 4);
-  frontier_.settle(taken);
-  EXPECT_EQ(frontier_.take_by_estimate(half, 4, 1), crowded);
+  frontier_.complete(taken);
+  EXPECT_EQ(frontier_.take_by_estimate(half, 4, 1), with_six_conflicts);
   EXPECT_EQ(frontier_.take_by_estimate(half, 4, 1), nullptr);
-  EXPECT_EQ(frontier_.take_by_estimate(Omega::infinite(), 4, 1), too_dear);
+  EXPECT_EQ(frontier_.take_by_estimate(Omega::infinite(), 4, 1), too_expensive);
 }
 
 TEST_F(FrontierTest, EvictsTheWorstAndKeepsTheirLeastBound) {
@@ -145,15 +146,15 @@ TEST_F(FrontierTest, EvictsTheWorstAndKeepsTheirLeastBound) {
   EXPECT_EQ(frontier_.evicted_bound(), 4);
   EXPECT_EQ(frontier_.open(), 2u);
   EXPECT_EQ(frontier_.bound(), 2);
-  frontier_.settle(frontier_.take());
-  frontier_.settle(frontier_.take());
+  frontier_.complete(frontier_.take());
+  frontier_.complete(frontier_.take());
   EXPECT_EQ(frontier_.take(), nullptr);
-  // Nothing is live, but nothing is proven beyond what was given up.
+  // No node is live, but nothing is proven above the bound of the evicted nodes.
   EXPECT_EQ(frontier_.bound(), 4);
   EXPECT_FALSE(frontier_.empty());
 }
 
-TEST_F(FrontierTest, EvictsWithinABoundTheOldest) {
+TEST_F(FrontierTest, EvictsTheOldestAmongEqualBounds) {
   const NodePtr newest = node(2);
   for (int i = 0; i < 4; ++i) frontier_.push(node(2));
   frontier_.push(newest);
@@ -162,7 +163,7 @@ TEST_F(FrontierTest, EvictsWithinABoundTheOldest) {
   EXPECT_EQ(frontier_.bound(), 2);
 }
 
-TEST_F(FrontierTest, EvictsNoMoreThanThereIs) {
+TEST_F(FrontierTest, EvictsAtMostTheOpenNodes) {
   EXPECT_TRUE(frontier_.evict(3).empty());
   EXPECT_TRUE(frontier_.empty());
   frontier_.push(node(2));
@@ -170,7 +171,7 @@ TEST_F(FrontierTest, EvictsNoMoreThanThereIs) {
   EXPECT_EQ(frontier_.open(), 0u);
 }
 
-TEST_F(FrontierTest, WhatWasGivenUpIsPrunedOnlyByAnIncumbentAsCheap) {
+TEST_F(FrontierTest, EvictedBoundIsPrunedOnlyAtItsCostOrBelow) {
   frontier_.push(node(4));
   frontier_.evict(1);
   frontier_.prune(5);
@@ -179,7 +180,7 @@ TEST_F(FrontierTest, WhatWasGivenUpIsPrunedOnlyByAnIncumbentAsCheap) {
   EXPECT_TRUE(frontier_.empty());
 }
 
-TEST_F(FrontierTest, BeginsAnewWithTheProvenBoundNewestFirst) {
+TEST_F(FrontierTest, RestartKeepsTheProvenBoundAndTakesNewestFirst) {
   frontier_.push(node(4));
   frontier_.evict(1);
   const NodePtr newest = node(3);
@@ -190,10 +191,10 @@ TEST_F(FrontierTest, BeginsAnewWithTheProvenBoundNewestFirst) {
   const NodePtr first = frontier_.take();
   EXPECT_EQ(first, newest);
   EXPECT_EQ(frontier_.bound(), 4);
-  frontier_.settle(first);
+  frontier_.complete(first);
   const NodePtr second = frontier_.take();
   EXPECT_EQ(second->bound(), 1);
-  frontier_.settle(second);
+  frontier_.complete(second);
   EXPECT_EQ(frontier_.bound(), 5);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is told about nodes is what was found out, and whoever is told expands them alike with less
+// Group bounds that travel with nodes: a receiver expands the nodes to the same children with less
 // work.
 #include "search/group_bounds.h"
 
@@ -13,11 +13,11 @@
 #include "tests/primal/crowd.h"
 
 namespace grove::detail {
-namespace findings_test {
+namespace group_bounds_test {
 
 constexpr Cost kSlack = 20;
 
-// A search that one expander has made some way into.
+// A search of which one expander has expanded the first nodes.
 struct Begun {
   explicit Begun(std::uint64_t seed)
       : instance(testing::random_crowd(
@@ -66,66 +66,67 @@ Outcome outcome(const Expansion& expansion) {
   return all;
 }
 
-TEST(Findings, WhoeverIsToldExpandsTheSameWithLessWork) {
-  int told = 0;
-  std::int64_t pair_expansions_of_told = 0;
-  std::int64_t pair_expansions_of_ignorant = 0;
+TEST(GroupBound, ReceiverExpandsTheSameWithLessWork) {
+  int received = 0;
+  std::int64_t pair_expansions_informed = 0;
+  std::int64_t pair_expansions_uninformed = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     Begun s(seed);
-    const auto findings = group_bounds_of(s.nodes, *s.expander.memory());
-    told += static_cast<int>(findings.size());
+    const auto group_bounds = group_bounds_of(s.nodes, *s.expander.memory());
+    received += static_cast<int>(group_bounds.size());
     for (const NodePtr& node : s.nodes) {
       AgentStopsCache stops = s.stops;
-      Expander of_told(s.problem, stops, {Techniques::defaults(), 0});
-      merge(findings, s.nodes, *of_told.memory());
-      Expander ignorant(s.problem, stops, {Techniques::defaults(), 0});
-      const Outcome there = outcome(s.expand(of_told, node));
+      Expander informed(s.problem, stops, {Techniques::defaults(), 0});
+      merge(group_bounds, s.nodes, *informed.memory());
+      Expander uninformed(s.problem, stops, {Techniques::defaults(), 0});
+      const Outcome there = outcome(s.expand(informed, node));
       EXPECT_EQ(there, outcome(s.expand(s.expander, node))) << "seed " << seed;
-      s.expand(ignorant, node);
-      pair_expansions_of_told += of_told.counts().pair_expansions;
-      pair_expansions_of_ignorant += ignorant.counts().pair_expansions;
+      s.expand(uninformed, node);
+      pair_expansions_informed += informed.counts().pair_expansions;
+      pair_expansions_uninformed += uninformed.counts().pair_expansions;
     }
   }
-  EXPECT_GT(told, 300) << "too little was found out to be a test";
-  EXPECT_LT(2 * pair_expansions_of_told, pair_expansions_of_ignorant);
+  EXPECT_GT(received, 300) << "too few group bounds for a test";
+  EXPECT_LT(2 * pair_expansions_informed, pair_expansions_uninformed);
 }
 
-TEST(Findings, SayWhatTheMemoryKnowsAndNothingElse) {
+TEST(GroupBound, HoldsExactlyTheEntriesOfTheCache) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const Begun s(seed);
-    const auto findings = group_bounds_of(s.nodes, *s.expander.memory());
+    const auto group_bounds = group_bounds_of(s.nodes, *s.expander.memory());
     SharedCache other;
-    merge(findings, s.nodes, other);
-    // Both number situations as they come up, so only what is said of the nodes can be compared.
+    merge(group_bounds, s.nodes, other);
+    // Both caches number subproblems in the order in which they first occur, so only the bounds per
+    // node can be compared.
     const auto again = group_bounds_of(s.nodes, other);
-    ASSERT_EQ(again.size(), findings.size());
-    for (std::size_t i = 0; i < findings.size(); ++i) {
-      EXPECT_EQ(again[i].node, findings[i].node);
-      EXPECT_EQ(again[i].agents, findings[i].agents);
-      EXPECT_EQ(again[i].known.excess, findings[i].known.excess);
-      EXPECT_EQ(again[i].known.exact, findings[i].known.exact);
+    ASSERT_EQ(again.size(), group_bounds.size());
+    for (std::size_t i = 0; i < group_bounds.size(); ++i) {
+      EXPECT_EQ(again[i].node, group_bounds[i].node);
+      EXPECT_EQ(again[i].agents, group_bounds[i].agents);
+      EXPECT_EQ(again[i].known.excess, group_bounds[i].known.excess);
+      EXPECT_EQ(again[i].known.exact, group_bounds[i].known.exact);
     }
     SharedCache empty;
     EXPECT_TRUE(group_bounds_of(s.nodes, empty).empty());
   }
 }
 
-TEST(Findings, AboutANodeThatIsNotTakenOverAreIgnored) {
+TEST(GroupBound, IsIgnoredForNodesThatWereNotTransferred) {
   const Begun s(1);
   std::vector<NodePtr> nodes = s.nodes;
-  const auto findings = group_bounds_of(s.nodes, *s.expander.memory());
-  ASSERT_FALSE(findings.empty());
+  const auto group_bounds = group_bounds_of(s.nodes, *s.expander.memory());
+  ASSERT_FALSE(group_bounds.empty());
   std::ranges::fill(nodes, NodePtr());
   SharedCache other;
-  merge(findings, nodes, other);
+  merge(group_bounds, nodes, other);
   EXPECT_EQ(other.excesses.bytes(), 0);
 }
 
-TEST(Findings, RefusesWhatCannotBe) {
+TEST(GroupBound, RefusesInvalidBounds) {
   const Begun s(1);
-  const auto refuses = [&](const GroupBound& finding) {
+  const auto refuses = [&](const GroupBound& group_bound) {
     SharedCache memory;
-    EXPECT_THROW(merge(std::vector{finding}, s.nodes, memory), std::invalid_argument);
+    EXPECT_THROW(merge(std::vector{group_bound}, s.nodes, memory), std::invalid_argument);
   };
   const auto place = static_cast<std::int32_t>(s.nodes.size());
   refuses({place, {0, 1}, {1, false, 1}});
@@ -139,5 +140,5 @@ TEST(Findings, RefusesWhatCannotBe) {
   refuses({0, {0, 1}, {-1, false, 1}});
 }
 
-}  // namespace findings_test
+}  // namespace group_bounds_test
 }  // namespace grove::detail

@@ -8,7 +8,7 @@
 namespace grove::detail {
 namespace hash_index_test {
 
-// Entries are numbers; `bits` says how few hashes there are for them.
+// Adds `entries` numbers whose hashes differ in `bits` bits only, and finds each of them.
 void add_and_find(int entries, std::uint32_t bits) {
   HashIndex index;
   std::vector<int> values;
@@ -33,11 +33,11 @@ void add_and_find(int entries, std::uint32_t bits) {
 TEST(HashIndex, FindsEachEntryWhateverItsHash) {
   add_and_find(0, 8);
   add_and_find(1000, 31);
-  add_and_find(300, 3);  // most share theirs
-  add_and_find(50, 0);   // all do, the last place of the table
+  add_and_find(300, 3);  // most share their hash
+  add_and_find(50, 0);   // all share one hash: the last slot of the table
 }
 
-TEST(HashIndex, TakesFewBytes) {
+TEST(HashIndex, TakesAtMost22BytesPerEntry) {
   HashIndex index;
   EXPECT_EQ(index.bytes(), 0u);
   for (std::uint32_t entry = 0; entry < 10'000; ++entry) {

@@ -10,14 +10,14 @@
 #include "search/feasibility.h"
 #include "tests/fuzz/random_instance.h"
 #include "tests/oracle/group_oracle.h"
-#include "tests/search/node_at_hand.h"
+#include "tests/search/root_fixture.h"
 #include "tests/support/fuzz_factor.h"
 
 namespace grove::detail {
 namespace joint_groups_test {
 
 using Known = JointGroups::Known;
-constexpr std::size_t kMostWays = 1500;
+constexpr std::size_t kMaxPaths = 1500;
 
 SearchOptions options_of(std::uint64_t seed) {
   SearchOptions options{Techniques::defaults(), seed, true};
@@ -25,11 +25,11 @@ SearchOptions options_of(std::uint64_t seed) {
   return options;
 }
 
-// A node some splits below the root of a tiny instance of any kind.
-struct Below : testing::NodeAtHand {
+// A node up to five splits below the root of a tiny instance of any kind.
+struct Below : testing::RootFixture {
   Below(const fuzz::TinyInstance& tiny, std::uint64_t seed)
-      : NodeAtHand(seed % 5 == 0 ? tiny.build().without_following() : tiny.build(),
-                   options_of(seed)),
+      : RootFixture(seed % 5 == 0 ? tiny.build().without_following() : tiny.build(),
+                    options_of(seed)),
         random(seed) {
     Brancher brancher(problem, options, planner, memory);
     for (int depth = below(6); depth > 0 && !view.conflict_free(); --depth) {
@@ -44,25 +44,26 @@ struct Below : testing::NodeAtHand {
   std::mt19937_64 random;
 };
 
-// What the group costs more together, if that is at most `most`; else `most` + 1. None: there is
-// too much to try.
-std::optional<Cost> true_excess(Below& s, const std::vector<AgentIndex>& group, Time most) {
-  std::vector<std::vector<oracle::Way>> ways;
+// Excess of the group if it is at most `max_excess`, else `max_excess` + 1. Returns nullopt if
+// there are too many combinations of paths.
+std::optional<Cost> true_excess(Below& s, const std::vector<AgentIndex>& group, Time max_excess) {
+  std::vector<std::vector<oracle::Way>> paths;
   Cost apart = 0;
   for (const AgentIndex agent : group) {
-    const auto demands = s.view.constraints(agent);
-    auto all =
-        oracle::ways_within(s.instance, agent, demands, s.view.cost_of(agent) + most, kMostWays);
+    const auto constraints = s.view.constraints(agent);
+    auto all = oracle::ways_within(s.instance, agent, constraints,
+                                   s.view.cost_of(agent) + max_excess, kMaxPaths);
     if (!all) return std::nullopt;
     apart += s.view.cost_of(agent);
-    ways.push_back(std::move(*all));
+    paths.push_back(std::move(*all));
   }
-  const auto least = oracle::least_together(s.instance, ways);
-  return least ? std::min<Cost>(*least - apart, most + 1) : most + 1;
+  const auto least = oracle::least_together(s.instance, paths);
+  return least ? std::min<Cost>(*least - apart, max_excess + 1) : max_excess + 1;
 }
 
-// With work enough exactly what trying all ways finds; with little never more.
-TEST(JointGroups, SayWhatTryingAllWaysSays) {
+// With sufficient work the excess equals that of an exhaustive search; with little work it is never
+// above it.
+TEST(JointGroups, ExcessEqualsThatOfAnExhaustiveSearch) {
   int exact = 0, above = 0, interrupted = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::fuzz_rounds(600));
        ++seed) {
@@ -84,13 +85,13 @@ TEST(JointGroups, SayWhatTryingAllWaysSays) {
     Tuning tuning;
     JointGroups groups(s.instance, tuning, s.planner);
     Known known;
-    ASSERT_TRUE(groups.settle(s.view, group, slack, s.limits, known));
+    ASSERT_TRUE(groups.solve(s.view, group, slack, s.limits, known));
     ASSERT_EQ(known.excess, *truth);
     ASSERT_EQ(known.exact, *truth <= slack);
     ++(known.exact ? exact : above);
     tuning.joint_group_work = s.below(40);
     Known less;
-    ASSERT_TRUE(groups.settle(s.view, group, slack, s.limits, less));
+    ASSERT_TRUE(groups.solve(s.view, group, slack, s.limits, less));
     ASSERT_LE(less.excess, *truth);
     if (less.exact) {
       ASSERT_EQ(less.excess, *truth);

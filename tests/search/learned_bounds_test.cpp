@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What one process found out is told as values, and another knows as much as if it had found it.
+// Learned bounds are sent as values, and the receiver's cache then holds as much as if it had
+// computed them.
 #include "search/learned_bounds.h"
 
 #include <gtest/gtest.h>
@@ -12,9 +13,9 @@
 #include "tests/primal/crowd.h"
 
 namespace grove::detail {
-namespace facts_test {
+namespace learned_bounds_test {
 
-// A process: all that is found out there has numbers of its own.
+// A process with an expander, which numbers its subproblems independently of other processes.
 struct Process {
   explicit Process(std::uint64_t seed)
       : instance(testing::random_crowd(
@@ -28,10 +29,10 @@ struct Process {
     trees.add(root->tree());
   }
 
-  // Expands so many nodes; the costs and bounds of all that came out.
-  std::vector<std::pair<Cost, Cost>> expand(std::size_t most) {
+  // Expands at most `max_nodes` nodes. Returns cost and bound of every node generated.
+  std::vector<std::pair<Cost, Cost>> expand(std::size_t max_nodes) {
     std::vector<NodePtr> nodes{root};
-    for (std::size_t i = 0; i < nodes.size() && i < most; ++i) {
+    for (std::size_t i = 0; i < nodes.size() && i < max_nodes; ++i) {
       Expansion expansion;
       do {
         expansion = expander.expand(nodes[i], root->cost() + 20, limits);
@@ -43,7 +44,7 @@ struct Process {
     for (const NodePtr& node : nodes) all.emplace_back(node->cost(), node->bound());
     return all;
   }
-  std::vector<LearnedBound> facts() {
+  std::vector<LearnedBound> learned_bounds() {
     return facts_of(expander.memory()->take_new_entries(), *expander.memory(), trees);
   }
 
@@ -58,36 +59,38 @@ struct Process {
   TreeIndex trees;
 };
 
-TEST(Facts, ServeWhoeverIsToldAsIfItHadFoundThem) {
-  std::int64_t told = 0;
-  ExpansionCounts of_finder;
-  ExpansionCounts of_told;
+TEST(LearnedBound, ReceiverExpandsAsIfItHadComputedThem) {
+  std::int64_t received = 0;
+  ExpansionCounts of_sender;
+  ExpansionCounts of_receiver;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
-    Process finder(seed);
-    const auto found = finder.expand(8);
-    const auto facts = finder.facts();
-    told += std::ssize(facts);
-    Process other(seed);
-    for (const LearnedBound& fact : facts) merge(fact, other.trees, *other.expander.memory());
-    EXPECT_TRUE(other.facts().empty()) << "what one is told is no news";
-    EXPECT_EQ(other.expand(8), found) << "seed " << seed;
-    of_finder += finder.expander.counts();
-    of_told += other.expander.counts();
+    Process sender(seed);
+    const auto found = sender.expand(8);
+    const auto bounds = sender.learned_bounds();
+    received += std::ssize(bounds);
+    Process receiver(seed);
+    for (const LearnedBound& bound : bounds)
+      merge(bound, receiver.trees, *receiver.expander.memory());
+    EXPECT_TRUE(receiver.learned_bounds().empty()) << "a received bound is not new";
+    EXPECT_EQ(receiver.expand(8), found) << "seed " << seed;
+    of_sender += sender.expander.counts();
+    of_receiver += receiver.expander.counts();
   }
-  EXPECT_GT(told, 300) << "too little was found out to be a test";
-  EXPECT_GT(of_finder.pair_expansions, 100);
-  EXPECT_EQ(of_told.pair_expansions, 0);
-  EXPECT_LT(2 * of_told.low_level_calls, of_finder.low_level_calls);
+  EXPECT_GT(received, 300) << "too few learned bounds for a test";
+  EXPECT_GT(of_sender.pair_expansions, 100);
+  EXPECT_EQ(of_receiver.pair_expansions, 0);
+  EXPECT_LT(2 * of_receiver.low_level_calls, of_sender.low_level_calls);
 }
 
-TEST(Facts, AreNewsOnce) {
-  Process finder(1);
-  finder.expand(4);
-  EXPECT_FALSE(finder.facts().empty());
-  EXPECT_TRUE(finder.facts().empty());
+TEST(LearnedBound, IsNewOnce) {
+  Process sender(1);
+  sender.expand(4);
+  EXPECT_FALSE(sender.learned_bounds().empty());
+  EXPECT_TRUE(sender.learned_bounds().empty());
 }
 
-// Two trees in which the first agent has one order, and the second agent another in each.
+// Two trees in which the first agent has the same order, and the second agent a different order in
+// each.
 struct TwoTrees {
   TwoTrees() {
     for (int i = 0; i < 3; ++i) orders.push_back(std::make_shared<AgentSequencing>());
@@ -98,9 +101,9 @@ struct TwoTrees {
     for (const Tree& tree : trees) known.add(tree);
   }
   DependencyTable::Known of_pair(std::size_t first, std::size_t second,
-                                 const std::vector<Constraint>& demands) {
-    return memory.excesses.of_pair(memory.situations.id(0, *orders[first], {}),
-                                   memory.situations.id(1, *orders[second], demands));
+                                 const std::vector<Constraint>& constraints) {
+    return memory.excesses.of_pair(memory.subproblems.id(0, *orders[first], {}),
+                                   memory.subproblems.id(1, *orders[second], constraints));
   }
 
   std::vector<std::shared_ptr<const AgentSequencing>> orders;
@@ -109,40 +112,41 @@ struct TwoTrees {
   SharedCache memory;
 };
 
-// An order may be one of several trees; what is said must be about the very orders.
-TEST(Facts, AreAboutTheOrdersThatTheyWereFoundFor) {
-  const std::vector<Constraint> demands{{3, kNoCell, 1, 2}};
+// An order may occur in several trees; a learned bound must apply to exactly the orders it was
+// proven for.
+TEST(LearnedBound, AppliesToTheOrdersItWasProvenFor) {
+  const std::vector<Constraint> constraints{{3, kNoCell, 1, 2}};
   TwoTrees here;
   here.memory.take_new_entries();
   CacheDelta found;
-  found.pairs.push_back({here.memory.situations.id(0, *here.orders[0], {}),
-                         here.memory.situations.id(1, *here.orders[2], demands),
+  found.pairs.push_back({here.memory.subproblems.id(0, *here.orders[0], {}),
+                         here.memory.subproblems.id(1, *here.orders[2], constraints),
                          1,
                          {5, true, 9}});
   here.memory.merge(found);
-  const auto facts = facts_of(here.memory.take_new_entries(), here.memory, here.known);
-  ASSERT_EQ(facts.size(), 1u);
+  const auto bounds = facts_of(here.memory.take_new_entries(), here.memory, here.known);
+  ASSERT_EQ(bounds.size(), 1u);
 
   TwoTrees there;
-  there.memory.situations.id(1, *there.orders[1], {});  // numbers differ
-  merge(facts[0], there.known, there.memory);
-  EXPECT_EQ(there.of_pair(0, 2, demands).excess, 5);
-  EXPECT_TRUE(there.of_pair(0, 2, demands).exact);
-  EXPECT_EQ(there.of_pair(0, 1, demands).excess, 0);
+  there.memory.subproblems.id(1, *there.orders[1], {});  // so that numbers differ
+  merge(bounds[0], there.known, there.memory);
+  EXPECT_EQ(there.of_pair(0, 2, constraints).excess, 5);
+  EXPECT_TRUE(there.of_pair(0, 2, constraints).exact);
+  EXPECT_EQ(there.of_pair(0, 1, constraints).excess, 0);
   EXPECT_EQ(there.of_pair(0, 2, {}).excess, 0);
 }
 
-TEST(Facts, OfTreesThatAreNotHereAreIgnored) {
+TEST(LearnedBound, OfUnknownTreesIsIgnored) {
   TwoTrees s;
-  const LearnedBound fact{{{4, 0, {}}, {5, 1, {}}}, {}, {5, true, 9}};
-  merge(fact, s.known, s.memory);
+  const LearnedBound bound{{{4, 0, {}}, {5, 1, {}}}, {}, {5, true, 9}};
+  merge(bound, s.known, s.memory);
   EXPECT_EQ(s.memory.excesses.bytes(), 0);
 }
 
-TEST(Facts, RefuseWhatCannotBe) {
+TEST(LearnedBound, RefusesInvalidBounds) {
   TwoTrees s;
-  const auto refuses = [&](const LearnedBound& fact) {
-    EXPECT_THROW(merge(fact, s.known, s.memory), std::invalid_argument);
+  const auto refuses = [&](const LearnedBound& bound) {
+    EXPECT_THROW(merge(bound, s.known, s.memory), std::invalid_argument);
     EXPECT_EQ(s.memory.excesses.bytes(), 0);
   };
   refuses({});
@@ -154,16 +158,16 @@ TEST(Facts, RefuseWhatCannotBe) {
   refuses({{{4, 0, {}}}, {-3, true}, {}});
 }
 
-TEST(Facts, AreWorthMoreTheLongerTheyTookTheFewerConstraintsTheyHaveAndIfTheyRaiseBounds) {
-  const PackedConstraints demands(std::vector<Constraint>{{3, kNoCell, 1, 2}});
+TEST(LearnedBound, UtilityRisesWithEffortAndExcessFallsWithConstraints) {
+  const PackedConstraints constraints(std::vector<Constraint>{{3, kNoCell, 1, 2}});
   const LearnedBound expensive{{{0, 0, {}}, {0, 1, {}}}, {}, {1, true, 9}};
   const LearnedBound cheap{{{0, 0, {}}, {0, 1, {}}}, {}, {1, true, 2}};
-  const LearnedBound special{{{0, 0, demands}, {0, 1, {}}}, {}, {1, true, 9}};
+  const LearnedBound special{{{0, 0, constraints}, {0, 1, {}}}, {}, {1, true, 9}};
   const LearnedBound harmless{{{0, 0, {}}, {0, 1, {}}}, {}, {0, true, 9}};
   EXPECT_GT(expensive.utility(), cheap.utility());
   EXPECT_GT(expensive.utility(), harmless.utility());
   EXPECT_GT(expensive.utility(), special.utility());
 }
 
-}  // namespace facts_test
+}  // namespace learned_bounds_test
 }  // namespace grove::detail

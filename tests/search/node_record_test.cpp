@@ -13,7 +13,7 @@
 namespace grove::detail {
 namespace node_record_test {
 
-// Nodes of a real search, some levels deep.
+// Nodes of a search, several levels deep.
 class NodeRecords : public ::testing::Test {
  protected:
   NodeRecords() {
@@ -37,37 +37,37 @@ class NodeRecords : public ::testing::Test {
   std::vector<NodePtr> nodes_;
 };
 
-TEST_F(NodeRecords, MakeTheNodeAgain) {
+TEST_F(NodeRecords, RestoreTheNode) {
   ASSERT_GT(nodes_.size(), 50u);
   for (const NodePtr& node : nodes_) {
     const NodeRecord record = record_of(*node);
-    const NodePtr again = node_of(record, root_, instance_);
-    EXPECT_EQ(record_of(*again), record);
-    EXPECT_EQ(again->bound(), node->bound());
-    EXPECT_EQ(again->cost(), node->cost());
-    EXPECT_EQ(again->conflicts(), node->conflicts());
-    EXPECT_EQ(again->is_bounded(), node->is_bounded());
+    const NodePtr restored = node_of(record, root_, instance_);
+    EXPECT_EQ(record_of(*restored), record);
+    EXPECT_EQ(restored->bound(), node->bound());
+    EXPECT_EQ(restored->cost(), node->cost());
+    EXPECT_EQ(restored->conflicts(), node->conflicts());
+    EXPECT_EQ(restored->is_bounded(), node->is_bounded());
     std::vector<Path> paths;
-    std::vector<Path> paths_again;
+    std::vector<Path> restored_paths;
     node->paths(problem_, paths);
-    again->paths(problem_, paths_again);
-    EXPECT_EQ(paths_again, paths);
+    restored->paths(problem_, restored_paths);
+    EXPECT_EQ(restored_paths, paths);
     std::vector<std::vector<Constraint>> constraints;
-    std::vector<std::vector<Constraint>> constraints_again;
+    std::vector<std::vector<Constraint>> restored_constraints;
     node->constraints(constraints);
-    again->constraints(constraints_again);
-    EXPECT_EQ(constraints_again, constraints);
+    restored->constraints(restored_constraints);
+    EXPECT_EQ(restored_constraints, constraints);
   }
 }
 
-TEST_F(NodeRecords, OfAnotherInstanceAreRefused) {
+TEST_F(NodeRecords, AreRefusedIfInvalidForTheInstance) {
   const NodeRecord record = record_of(*nodes_.back());
   ASSERT_FALSE(record.paths.empty());
   ASSERT_FALSE(record.constraints.empty());
-  const auto refused = [&](auto spoil) {
-    NodeRecord spoilt = record;
-    spoil(spoilt);
-    EXPECT_THROW(node_of(spoilt, root_, instance_), std::invalid_argument);
+  const auto refused = [&](auto corrupt) {
+    NodeRecord corrupted = record;
+    corrupt(corrupted);
+    EXPECT_THROW(node_of(corrupted, root_, instance_), std::invalid_argument);
   };
   refused([](NodeRecord& r) { r.constraints[0].agent = 99; });
   refused([](NodeRecord& r) { r.constraints[0].constraint.cell = 10'000; });
@@ -83,8 +83,8 @@ TEST_F(NodeRecords, OfAnotherInstanceAreRefused) {
   refused([](NodeRecord& r) { r.cost = r.bound + 1; });
 }
 
-// Any other walk than the one packed: every move to the left, through whatever is there.
-TEST_F(NodeRecords, OfPathsThroughWallsAreRefused) {
+// A record with another path: every move goes left, through any obstacle.
+TEST_F(NodeRecords, AreRefusedIfPathsCrossObstacles) {
   NodeRecord record = record_of(*nodes_.back());
   record.paths[0].steps = 21;
   record.paths[0].words.assign(1, 0x36DB6DB6DB6DB6DB & 0x7FFFFFFFFFFFFFFF);

@@ -67,7 +67,7 @@ class NodeTest : public ::testing::Test {
   NodePtr root_;
 };
 
-TEST_F(NodeTest, ChildrenTakeOverWhatTheyDoNotChange) {
+TEST_F(NodeTest, ChildrenInheritPathsAndConstraints) {
   const NodePtr first = child(root_, 0, 1, {0, 0, 1, 2}, 6);
   const NodePtr second = child(first, 1, 7, {4, 4, 5, 6, 5}, 7);
   const NodePtr third = child(second, 0, 2, {0, 0, 0, 1, 2}, 8);
@@ -100,7 +100,7 @@ TEST_F(NodeTest, ReleasesVeryDeepChains) {
   EXPECT_LT(pool_.bytes(), full / 1000);
 }
 
-TEST_F(NodeTest, AChangeMayBeOfManyPathsOrNone) {
+TEST_F(NodeTest, DeltaMayHoldSeveralPathsOrNone) {
   const Path first{0, 0, 1, 2};
   const Path second{4, 4, 4, 5, 6, 5};
   const std::array<NewPath, 2> both{{{1, &second}, {0, &first}}};
@@ -132,7 +132,7 @@ TEST_F(NodeTest, AChangeMayBeOfManyPathsOrNone) {
   EXPECT_TRUE(constraints[1].empty());
 }
 
-TEST_F(NodeTest, WhereOneRestsTheOthersAreBarred) {
+TEST_F(NodeTest, RestByConstraintBarsTheOtherAgents) {
   NodeDelta change;
   change.added = {0, {2, kNoCell, 0, 4, ConstraintKind::kRestBy}};
   change.cost = 5;

@@ -17,7 +17,7 @@ std::string packed(std::span<const Constraint> constraints) {
   return PackedConstraints(constraints).bytes;
 }
 
-// Tells the list from its bytes: so no other has the same.
+// Restores the list from its bytes, which shows that no other list has the same bytes.
 class Unpacker {
  public:
   explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}
@@ -55,7 +55,7 @@ class Unpacker {
   std::string_view bytes_;
 };
 
-// Near the last one, or anything at all.
+// `often` with probability 1/8, else a small or an extreme number, or any.
 std::int32_t number(std::mt19937& random, std::int32_t often) {
   constexpr auto kLimits = std::numeric_limits<std::int32_t>();
   switch (random() % 8) {
@@ -72,7 +72,7 @@ std::int32_t number(std::mt19937& random, std::int32_t often) {
   }
 }
 
-TEST(PackedConstraints, AreAnyConstraints) {
+TEST(PackedConstraints, EncodeAnyConstraintsUniquely) {
   std::mt19937 random(5);
   std::map<std::string, std::vector<Constraint>> all;
   for (int round = 0; round < 20'000; ++round) {
@@ -86,14 +86,14 @@ TEST(PackedConstraints, AreAnyConstraints) {
   }
 }
 
-TEST(PackedConstraints, AreAppendedToWhatIsThere) {
+TEST(PackedConstraints, AreAppended) {
   const std::vector<Constraint> constraints(1, Constraint{.cell = 7, .begin = 2, .end = kNever});
   std::string bytes = "x";
   pack(constraints, bytes);
   EXPECT_EQ(bytes, "x" + packed(constraints));
 }
 
-TEST(PackedConstraints, AreShortInCanonicalOrder) {
+TEST(PackedConstraints, TakeAtMostSixBytesEachInCanonicalOrder) {
   std::mt19937 random(6);
   std::vector<Constraint> constraints(20);
   for (Constraint& c : constraints) {

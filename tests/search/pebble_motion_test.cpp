@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Examples; tests/fuzz/crowds.cpp holds it against everything that tiny crowds can come to.
+// Examples; tests/fuzz/crowds.cpp compares with an exhaustive search on tiny dense instances.
 #include "search/pebble_motion.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include "tests/support/instances.h"
 
 namespace grove::detail {
-namespace crowding_test {
+namespace pebble_motion_test {
 
 using testing::AgentSpec;
 using Rows = std::vector<std::string>;
@@ -20,12 +20,12 @@ using Rows = std::vector<std::string>;
 std::string reason(const Instance& instance) {
   return pebble_motion_infeasibility(instance).value_or("");
 }
-bool is_seen(const Instance& instance) {
+bool is_infeasible(const Instance& instance) {
   return pebble_motion_infeasibility(instance).has_value();
 }
 
-// Agents on all cells but `free`, row by row, and at the end so as well; but the first two change
-// places.
+// Agents on all cells except `free`, row by row. Each has its start as goal, but the first two must
+// swap.
 Instance swapped(const Rows& rows, const std::vector<Position>& free) {
   std::vector<Position> cells;
   for (int y = 0; y < static_cast<int>(rows.size()); ++y)
@@ -38,49 +38,49 @@ Instance swapped(const Rows& rows, const std::vector<Position>& free) {
   return testing::instance_of(rows, agents);
 }
 
-TEST(Crowding, KnowsTheFifteenPuzzle) {
+TEST(PebbleMotion, DetectsOddPermutationsOfTheFifteenPuzzle) {
   const Rows board(4, "....");
-  EXPECT_TRUE(is_seen(swapped(board, {{3, 3}}).without_following()));
-  EXPECT_FALSE(is_seen(swapped(board, {{3, 3}, {2, 3}}).without_following()));
-  EXPECT_FALSE(is_seen(swapped(board, {{3, 3}})));
-  EXPECT_FALSE(is_seen(swapped(board, {})));
-  EXPECT_TRUE(is_seen(swapped(board, {}).without_following()));
+  EXPECT_TRUE(is_infeasible(swapped(board, {{3, 3}}).without_following()));
+  EXPECT_FALSE(is_infeasible(swapped(board, {{3, 3}, {2, 3}}).without_following()));
+  EXPECT_FALSE(is_infeasible(swapped(board, {{3, 3}})));
+  EXPECT_FALSE(is_infeasible(swapped(board, {})));
+  EXPECT_TRUE(is_infeasible(swapped(board, {}).without_following()));
 }
 
-TEST(Crowding, KnowsThatRingsKeepTheirOrder) {
+TEST(PebbleMotion, DetectsSwapsOnARing) {
   const Rows ring{"...", ".@.", "..."};
-  EXPECT_TRUE(is_seen(swapped(ring, {})));
-  EXPECT_TRUE(is_seen(swapped(ring, {{2, 2}, {1, 2}})));
-  EXPECT_FALSE(is_seen(swapped({"....", ".@.@", "...@"}, {{3, 0}})));
+  EXPECT_TRUE(is_infeasible(swapped(ring, {})));
+  EXPECT_TRUE(is_infeasible(swapped(ring, {{2, 2}, {1, 2}})));
+  EXPECT_FALSE(is_infeasible(swapped({"....", ".@.@", "...@"}, {{3, 0}})));
 }
 
-TEST(Crowding, KnowsHowFarFromTheNextCrossingAgentsCanSwap) {
+TEST(PebbleMotion, DetectsSwapsTooFarFromACrossing) {
   const Rows dead_end{".....", "@@@.@"};
-  EXPECT_TRUE(is_seen(swapped(dead_end, {{3, 1}, {4, 0}, {3, 0}})));
-  EXPECT_FALSE(is_seen(swapped({"....", "@@.@"}, {{2, 1}, {3, 0}, {2, 0}})));
+  EXPECT_TRUE(is_infeasible(swapped(dead_end, {{3, 1}, {4, 0}, {3, 0}})));
+  EXPECT_FALSE(is_infeasible(swapped({"....", "@@.@"}, {{2, 1}, {3, 0}, {2, 0}})));
 }
 
-TEST(Crowding, SaysWhoCannotGetWhere) {
+TEST(PebbleMotion, NamesTheAgentAndItsUnreachablePlace) {
   const Rows dead_end{"......", "@@@@..", "@@@@.."};
   std::vector<AgentSpec> agents;
   for (int x = 0; x < 6; ++x) agents.push_back({{x, 0}, Position{x, 0}});
   for (int x = 4; x < 6; ++x) agents.push_back({{x, 1}, Position{x, 1}});
   agents[0].tasks = {{4, 2}};
   EXPECT_EQ(reason(testing::instance_of(dead_end, agents)),
-            "agent 'a0' cannot get to [4, 2]: the agents have too little room to let it pass");
+            "agent 'a0' cannot reach [4, 2]: the agents have too little room to let it pass");
   agents[0].tasks = {};
   agents[3].tasks = {{4, 2}};
   EXPECT_EQ(reason(testing::instance_of(dead_end, agents)), "");
 }
 
-// Of agents without a goal it says what none of them can reach.
-TEST(Crowding, LooksAtTasksOfAgentsWithoutGoals) {
+// If agents have no goal, a task that none of its agents can reach is detected.
+TEST(PebbleMotion, ChecksTasksOfAgentsWithoutGoals) {
   std::vector<AgentSpec> agents{
       {{0, 0}, {}, {{3, 1}}}, {{1, 0}, {}}, {{2, 0}, {}}, {{3, 0}, {}}, {{4, 0}, {}}};
-  EXPECT_TRUE(is_seen(testing::instance_of({".....", "@@@.@"}, agents)));
+  EXPECT_TRUE(is_infeasible(testing::instance_of({".....", "@@@.@"}, agents)));
   agents.resize(2);
-  EXPECT_FALSE(is_seen(testing::instance_of({".....", "@@@.@"}, agents)));
+  EXPECT_FALSE(is_infeasible(testing::instance_of({".....", "@@@.@"}, agents)));
 }
 
-}  // namespace crowding_test
+}  // namespace pebble_motion_test
 }  // namespace grove::detail

@@ -5,10 +5,10 @@
 
 #include <array>
 
-#include "tests/search/node_at_hand.h"
+#include "tests/search/root_fixture.h"
 
 namespace grove::detail {
-namespace memory_test {
+namespace result_cache_test {
 
 using Known = DependencyTable::Known;
 
@@ -29,35 +29,35 @@ std::vector<DependencyTable::Group> groups_at(const auto& memory,
   return groups;
 }
 
-TEST(DependencyTable, KeepTheStrongerStatement) {
-  const SubproblemTable situations;
-  DependencyTable excesses(situations);
-  EXPECT_TRUE(same(excesses.of_pair(3, 5), Known()));
-  excesses.merge_pair(3, 5, 1, {2, false, 16});
-  excesses.merge_pair(3, 5, 1, {1, true, 4});
-  EXPECT_TRUE(same(excesses.of_pair(3, 5), {2, true, 16}));
-  EXPECT_TRUE(same(excesses.of_pair(5, 3), Known()));
-  EXPECT_TRUE(same(excesses.of_pair(3, 6), Known()));
+TEST(DependencyTable, KeepsTheStrongerBound) {
+  const SubproblemTable subproblems;
+  DependencyTable table(subproblems);
+  EXPECT_TRUE(same(table.of_pair(3, 5), Known()));
+  table.merge_pair(3, 5, 1, {2, false, 16});
+  table.merge_pair(3, 5, 1, {1, true, 4});
+  EXPECT_TRUE(same(table.of_pair(3, 5), {2, true, 16}));
+  EXPECT_TRUE(same(table.of_pair(5, 3), Known()));
+  EXPECT_TRUE(same(table.of_pair(3, 6), Known()));
 }
 
-TEST(DependencyTable, ListPartnersThatCostMoreOnce) {
-  const SubproblemTable situations;
-  DependencyTable excesses(situations);
-  excesses.merge_pair(3, 5, 1, {0, true, 1});
-  EXPECT_TRUE(partners_of(excesses, 3).empty());
-  excesses.merge_pair(3, 6, 2, {1, false, 1});
-  excesses.merge_pair(3, 6, 2, {4, false, 1});
-  excesses.merge_pair(3, 6, 2, {2, false, 1});
-  const auto partners = partners_of(excesses, 3);
+TEST(DependencyTable, ListsPartnersWithExcessOnce) {
+  const SubproblemTable subproblems;
+  DependencyTable table(subproblems);
+  table.merge_pair(3, 5, 1, {0, true, 1});
+  EXPECT_TRUE(partners_of(table, 3).empty());
+  table.merge_pair(3, 6, 2, {1, false, 1});
+  table.merge_pair(3, 6, 2, {4, false, 1});
+  table.merge_pair(3, 6, 2, {2, false, 1});
+  const auto partners = partners_of(table, 3);
   ASSERT_EQ(partners.size(), 1u);
   EXPECT_EQ(partners[0].agent, 2);
-  EXPECT_EQ(partners[0].situation, 6);
+  EXPECT_EQ(partners[0].subproblem, 6);
   EXPECT_EQ(partners[0].excess, 4);
-  EXPECT_TRUE(partners_of(excesses, 6).empty());
+  EXPECT_TRUE(partners_of(table, 6).empty());
 }
 
-// Situations of agents under so many constraints, of which there are several kinds.
-class Groups : public ::testing::Test {
+// Subproblems of agents under `constraints` constraints of several kinds.
+class DependencyTableGroups : public ::testing::Test {
  protected:
   using Id = SubproblemTable::Id;
 
@@ -65,51 +65,51 @@ class Groups : public ::testing::Test {
     std::vector<Constraint> list;
     for (int i = 0; i < constraints; ++i) list.push_back({kind, kNoCell, i, i});
     canonical(list);
-    return situations_.id(agent, order_, list);
+    return subproblems_.id(agent, order_, list);
   }
 
   const AgentSequencing order_;
-  SubproblemTable situations_;
-  DependencyTable excesses_{situations_};
+  SubproblemTable subproblems_;
+  DependencyTable table_{subproblems_};
 };
 
-TEST_F(Groups, AreKnownBySituations) {
+TEST_F(DependencyTableGroups, AreIdentifiedByTheirSubproblems) {
   const std::vector<Id> some{id(0, 1), id(2, 0), id(4, 2)};
   const std::vector<Id> others{id(0, 1), id(2, 0), id(4, 3)};
-  EXPECT_TRUE(excesses_.merge_group({0, 2, 4}, some, {1, false, 8}));
-  const std::size_t bytes = excesses_.bytes();
-  EXPECT_TRUE(excesses_.merge_group({0, 2, 4}, some, {3, false, 2}));
-  EXPECT_FALSE(excesses_.merge_group({0, 2, 4}, some, {2, false, 2}));
-  EXPECT_EQ(excesses_.bytes(), bytes);
-  EXPECT_TRUE(same(excesses_.of_group(some), {3, false, 8}));
-  EXPECT_TRUE(same(excesses_.of_group(others), Known()));
-  excesses_.merge_group({0, 2, 4}, others, {1, true, 1});
-  EXPECT_GT(excesses_.bytes(), bytes);
-  EXPECT_TRUE(same(excesses_.of_group(some), {3, false, 8}));
-  EXPECT_TRUE(same(excesses_.of_group(others), {1, true, 1}));
+  EXPECT_TRUE(table_.merge_group({0, 2, 4}, some, {1, false, 8}));
+  const std::size_t bytes = table_.bytes();
+  EXPECT_TRUE(table_.merge_group({0, 2, 4}, some, {3, false, 2}));
+  EXPECT_FALSE(table_.merge_group({0, 2, 4}, some, {2, false, 2}));
+  EXPECT_EQ(table_.bytes(), bytes);
+  EXPECT_TRUE(same(table_.of_group(some), {3, false, 8}));
+  EXPECT_TRUE(same(table_.of_group(others), Known()));
+  table_.merge_group({0, 2, 4}, others, {1, true, 1});
+  EXPECT_GT(table_.bytes(), bytes);
+  EXPECT_TRUE(same(table_.of_group(some), {3, false, 8}));
+  EXPECT_TRUE(same(table_.of_group(others), {1, true, 1}));
 }
 
-TEST_F(Groups, AreFoundWhereAllAreInTheirSituationsOnce) {
+TEST_F(DependencyTableGroups, AreFoundOnceIfAllSubproblemsMatch) {
   const Id constrained = id(2, 2);
-  excesses_.merge_group({0, 2, 3}, {id(0, 0), constrained, id(3, 1)}, {1, false, 8});
-  excesses_.merge_group({1, 2, 3}, {id(1, 0), constrained, id(3, 0)}, {2, false, 8});
-  excesses_.merge_group({0, 1, 2}, {id(0, 0), id(1, 0), id(2, 0)}, {3, false, 8});
+  table_.merge_group({0, 2, 3}, {id(0, 0), constrained, id(3, 1)}, {1, false, 8});
+  table_.merge_group({1, 2, 3}, {id(1, 0), constrained, id(3, 0)}, {2, false, 8});
+  table_.merge_group({0, 1, 2}, {id(0, 0), id(1, 0), id(2, 0)}, {3, false, 8});
   const auto now = [&](int of_1, int of_3) {
     return std::vector<Id>{id(0, 0), id(1, of_1), constrained, id(3, of_3)};
   };
-  EXPECT_EQ(groups_at(excesses_, now(1, 2)).size(), 0u);
-  EXPECT_EQ(groups_at(excesses_, now(1, 0)).size(), 0u);
-  const auto one = groups_at(excesses_, now(1, 1));
+  EXPECT_EQ(groups_at(table_, now(1, 2)).size(), 0u);
+  EXPECT_EQ(groups_at(table_, now(1, 0)).size(), 0u);
+  const auto one = groups_at(table_, now(1, 1));
   ASSERT_EQ(one.size(), 1u);
   EXPECT_EQ(one[0].agents, (std::vector<AgentIndex>{0, 2, 3}));
-  const auto other = groups_at(excesses_, now(0, 0));
+  const auto other = groups_at(table_, now(0, 0));
   ASSERT_EQ(other.size(), 1u);
   EXPECT_EQ(other[0].agents, (std::vector<AgentIndex>{1, 2, 3}));
   EXPECT_EQ(other[0].known.excess, 2);
 }
 
-// The rarest two, of which lists know, are those of agents 1 and 3.
-TEST_F(Groups, ThatDifferInAnotherAgentOnlyAreKeptApart) {
+// Groups are listed under their two rarest subproblems, here those of agents 1 and 3.
+TEST_F(DependencyTableGroups, AreDistinctIfOneSubproblemDiffers) {
   for (AgentIndex differs : {0, 2, 4}) {
     const auto at = [&](Cell kind) {
       std::vector<Id> ids;
@@ -117,74 +117,74 @@ TEST_F(Groups, ThatDifferInAnotherAgentOnlyAreKeptApart) {
         ids.push_back(id(agent, agent % 2 == 1 ? 3 : 1, agent == differs ? kind : 0));
       return ids;
     };
-    DependencyTable excesses(situations_);
-    excesses.merge_group({0, 1, 2, 3, 4}, at(1), {1, false, 8});
-    excesses.merge_group({0, 1, 2, 3, 4}, at(2), {2, false, 8});
+    DependencyTable table(subproblems_);
+    table.merge_group({0, 1, 2, 3, 4}, at(1), {1, false, 8});
+    table.merge_group({0, 1, 2, 3, 4}, at(2), {2, false, 8});
     for (int kind : {1, 2}) {
-      EXPECT_EQ(excesses.of_group(at(kind)).excess, kind);
-      const auto found = groups_at(excesses, at(kind));
+      EXPECT_EQ(table.of_group(at(kind)).excess, kind);
+      const auto found = groups_at(table, at(kind));
       ASSERT_EQ(found.size(), 1u);
       EXPECT_EQ(found[0].known.excess, kind);
     }
-    EXPECT_EQ(excesses.of_group(at(3)).excess, 0);
-    EXPECT_TRUE(groups_at(excesses, at(3)).empty());
+    EXPECT_EQ(table.of_group(at(3)).excess, 0);
+    EXPECT_TRUE(groups_at(table, at(3)).empty());
   }
 }
 
-// However many there are of an agent in a situation that all nodes have, who asks looks at those
-// whose rarest two are there.
-TEST_F(Groups, AreListedUnderTheRarest) {
+// A query examines only groups whose two rarest subproblems match, however many groups contain a
+// subproblem that all nodes have.
+TEST_F(DependencyTableGroups, AreListedUnderTheirRarestSubproblems) {
   for (int kind = 0; kind < 50; ++kind)
-    excesses_.merge_group({0, 1, 2}, {id(0, 0), id(1, 1, kind), id(2, 2, kind)}, {kind, false, 1});
-  const auto looked_at = [&](const std::vector<Id>& now) {
-    return excesses_.groups_at(now, [](const auto&) {});
+    table_.merge_group({0, 1, 2}, {id(0, 0), id(1, 1, kind), id(2, 2, kind)}, {kind, false, 1});
+  const auto examined = [&](const std::vector<Id>& now) {
+    return table_.groups_at(now, [](const auto&) {});
   };
-  EXPECT_EQ(looked_at({id(0, 0), id(1, 0), id(2, 0)}), 0);
-  EXPECT_EQ(looked_at({id(0, 0), id(1, 1, 7), id(2, 2, 8)}), 0);
-  EXPECT_EQ(looked_at({id(0, 0), id(1, 1, 7), id(2, 2, 7)}), 1);
-  EXPECT_EQ(looked_at({id(0, 5), id(1, 1, 7), id(2, 2, 7)}), 1);
-  const auto found = groups_at(excesses_, {id(0, 0), id(1, 1, 7), id(2, 2, 7)});
+  EXPECT_EQ(examined({id(0, 0), id(1, 0), id(2, 0)}), 0);
+  EXPECT_EQ(examined({id(0, 0), id(1, 1, 7), id(2, 2, 8)}), 0);
+  EXPECT_EQ(examined({id(0, 0), id(1, 1, 7), id(2, 2, 7)}), 1);
+  EXPECT_EQ(examined({id(0, 5), id(1, 1, 7), id(2, 2, 7)}), 1);
+  const auto found = groups_at(table_, {id(0, 0), id(1, 1, 7), id(2, 2, 7)});
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].known.excess, 7);
 }
 
-// What is told by others comes in another order.
-TEST_F(Groups, AreTheSameWhateverTheOrderInWhichTheyWereNumbered) {
-  const std::vector<int> demands{3, 0, 2, 1};
+// Entries that are received from others arrive in another order.
+TEST_F(DependencyTableGroups, DoNotDependOnTheNumberingOfSubproblems) {
+  const std::vector<int> constraint_counts{3, 0, 2, 1};
   const std::vector<Constraint> elsewhere{{7, kNoCell, 0, 0}};
   for (int last = 0; last < 4; ++last) {
-    SubproblemTable situations;
-    DependencyTable excesses(situations);
+    SubproblemTable subproblems;
+    DependencyTable table(subproblems);
     std::vector<Id> now(4);
     for (int i = 0; i < 4; ++i) {
       const AgentIndex agent = (last + 1 + i) % 4;
       std::vector<Constraint> list;
-      for (int c = 0; c < demands[static_cast<std::size_t>(agent)]; ++c)
+      for (int c = 0; c < constraint_counts[static_cast<std::size_t>(agent)]; ++c)
         list.push_back({0, kNoCell, c, c});
-      now[static_cast<std::size_t>(agent)] = situations.id(agent, order_, list);
+      now[static_cast<std::size_t>(agent)] = subproblems.id(agent, order_, list);
     }
-    excesses.merge_group({0, 1, 2, 3}, now, {1, false, 1});
+    table.merge_group({0, 1, 2, 3}, now, {1, false, 1});
     for (std::size_t other = 0; other < 4; ++other) {
       std::vector<Id> differing = now;
-      differing[other] = situations.id(static_cast<AgentIndex>(other), order_, elsewhere);
+      differing[other] = subproblems.id(static_cast<AgentIndex>(other), order_, elsewhere);
       const bool is_of_the_rarest_two = other == 0 || other == 2;
-      EXPECT_EQ(excesses.groups_at(differing, [](const auto&) {}), is_of_the_rarest_two ? 0 : 1);
+      EXPECT_EQ(table.groups_at(differing, [](const auto&) {}), is_of_the_rarest_two ? 0 : 1);
     }
   }
 }
 
-struct TwoWorkers : testing::NodeAtHand {
+struct TwoWorkers : testing::RootFixture {
   TwoWorkers()
-      : NodeAtHand({"..."}, {{{0, 0}, Position{2, 0}}}),
-        other(planner, memory.common(), options.tuning.path_set_nodes) {}
+      : RootFixture({"..."}, {{{0, 0}, Position{2, 0}}}),
+        other(planner, memory.common(), options.tuning.mdd_nodes) {}
 
   WorkerCache other;
 };
 
-// What one finds out it knows at once, the others when it is handed over.
-TEST(WorkerCache, IsTheWorkersOwnUntilItIsCommon) {
+// A worker reads its own new entries at once, the others only after they are published.
+TEST(WorkerCache, IsPrivateUntilPublished) {
   TwoWorkers s;
-  const SubproblemTable::Id id = s.view.situation(0);
+  const SubproblemTable::Id id = s.view.subproblem(0);
   std::vector<SubproblemTable::Id> trio;
   for (AgentIndex agent = 0; agent < 3; ++agent)
     trio.push_back(s.memory.id(agent, s.view.order(0), {}));
@@ -218,10 +218,10 @@ TEST(WorkerCache, IsTheWorkersOwnUntilItIsCommon) {
   }
 }
 
-TEST(WorkerCache, ForgetsWhatWasNotHandedOverWhenItTurnsToAnother) {
+TEST(WorkerCache, DropsUnpublishedEntriesWhenItSwitchesCaches) {
   TwoWorkers s;
   s.memory.merge_pair(1, 2, 1, {3, true, 1});
-  s.memory.turn_to(s.memory.common());  // the same: nothing happens
+  s.memory.turn_to(s.memory.common());  // the same cache: no effect
   EXPECT_EQ(s.memory.of_pair(1, 2).excess, 3);
   s.memory.turn_to(std::make_shared<SharedCache>(SharedCache::Successor()));
   EXPECT_EQ(s.memory.of_pair(1, 2).excess, 0);
@@ -229,9 +229,9 @@ TEST(WorkerCache, ForgetsWhatWasNotHandedOverWhenItTurnsToAnother) {
   EXPECT_TRUE(s.memory.common()->follows_another);
 }
 
-TEST(WorkerCache, MakesASetOfPathsOnce) {
+TEST(WorkerCache, BuildsAnMddOnce) {
   TwoWorkers s;
-  const SubproblemTable::Id id = s.view.situation(0);
+  const SubproblemTable::Id id = s.view.subproblem(0);
   const auto ask = [&](WorkerCache& memory) {
     return memory.paths(id, 0, s.view.order(0), s.view.constraints(0), 2, s.limits);
   };
@@ -245,7 +245,7 @@ TEST(WorkerCache, MakesASetOfPathsOnce) {
   EXPECT_EQ(s.planner.optimal_nodes(), nodes);
 }
 
-TEST(MddCache, ForgetWhatWasNotAskedForLately) {
+TEST(MddCache, DropsMddsThatWereNotUsedRecently) {
   TwoWorkers s;
   const auto set =
       MddCache::make(s.planner, 0, s.view.order(0), s.view.constraints(0), 2, 1000, s.limits);
@@ -259,7 +259,7 @@ TEST(MddCache, ForgetWhatWasNotAskedForLately) {
     sets.trim();
   };
   add(0, kYoung);
-  for (SubproblemTable::Id id = 0; id < kYoung; ++id) EXPECT_EQ(sets.find(id), set);  // old
+  for (SubproblemTable::Id id = 0; id < kYoung; ++id) EXPECT_EQ(sets.find(id), set);  // now old
   add(0, 10);                                                                         // young again
   add(0, 10);
   EXPECT_EQ(sets.bytes(), kYoung * one.bytes());
@@ -271,5 +271,5 @@ TEST(MddCache, ForgetWhatWasNotAskedForLately) {
   EXPECT_EQ(sets.bytes(), 2 * kYoung * one.bytes());
 }
 
-}  // namespace memory_test
+}  // namespace result_cache_test
 }  // namespace grove::detail

@@ -45,7 +45,7 @@ TEST_F(ForestTest, InstantiatesEveryTreeOnceInOrderOfCost) {
   EXPECT_EQ(forest.next_bound(), kInfiniteCost);
 }
 
-TEST_F(ForestTest, NextBoundNeverExceedsTheNextTree) {
+TEST_F(ForestTest, NextBoundNeverExceedsTheCostOfTheNextTree) {
   SequenceForest forest(problem_, pool_, RtspBackend::kAuto, limits_);
   while (true) {
     const Cost bound = forest.next_bound();
@@ -55,7 +55,7 @@ TEST_F(ForestTest, NextBoundNeverExceedsTheNextTree) {
   }
 }
 
-TEST_F(ForestTest, TreesShareTheOrdersTheyHaveInCommon) {
+TEST_F(ForestTest, TreesShareCommonOrders) {
   SequenceForest forest(problem_, pool_, RtspBackend::kAuto, limits_);
   std::set<const AgentSequencing*> orders;
   while (const NodePtr root = forest.next_root())
@@ -63,7 +63,7 @@ TEST_F(ForestTest, TreesShareTheOrdersTheyHaveInCommon) {
   EXPECT_EQ(orders.size(), 6u + 2u);
 }
 
-TEST_F(ForestTest, ALimitLosesNoTree) {
+TEST_F(ForestTest, KeepsItsBoundAtALimit) {
   SequenceForest forest(problem_, pool_, RtspBackend::kAuto, limits_);
   ASSERT_TRUE(forest.next_root());
   limits_.set_deadline(testing::kPast);

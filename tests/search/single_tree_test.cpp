@@ -26,7 +26,7 @@ class SingleTreeTest : public ::testing::Test {
   NodePool pool_;
 };
 
-TEST_F(SingleTreeTest, HasOneRootThatCostsWhatTheBestSequencesDo) {
+TEST_F(SingleTreeTest, HasOneRootOfTheCostOfTheBestSequences) {
   SingleTree forest(problem_, stops_, pool_, limits_);
   const Cost bound = forest.next_bound();
   const NodePtr root = forest.next_root();
@@ -38,14 +38,14 @@ TEST_F(SingleTreeTest, HasOneRootThatCostsWhatTheBestSequencesDo) {
   EXPECT_FALSE(forest.next_root());
 }
 
-TEST_F(SingleTreeTest, ALimitLeavesTheTreeWithItsBound) {
+TEST_F(SingleTreeTest, KeepsItsBoundAtALimit) {
   SingleTree forest(problem_, stops_, pool_, limits_);
   limits_.set_deadline(testing::kPast);
   EXPECT_FALSE(forest.next_root());
   EXPECT_LT(forest.next_bound(), kInfiniteCost);
 }
 
-TEST_F(SingleTreeTest, ItsPlansNameTheSequencesThatWereChosen) {
+TEST_F(SingleTreeTest, PlansNameTheChosenSequences) {
   SingleTree forest(problem_, stops_, pool_, limits_);
   Expander expander(problem_, stops_, {Techniques(), 0});
   const Expansion expansion = expander.expand(forest.next_root(), kInfiniteCost, limits_);

@@ -10,7 +10,7 @@
 #include <tuple>
 
 namespace grove::detail {
-namespace situations_test {
+namespace subproblem_table_test {
 
 std::vector<Constraint> random_constraints(std::mt19937& random) {
   std::vector<Constraint> constraints(random() % 4);
@@ -24,51 +24,51 @@ std::vector<Constraint> random_constraints(std::mt19937& random) {
   return constraints;
 }
 
-TEST(SubproblemTable, AreTheSameIfAgentOrderAndConstraintsAre) {
+TEST(SubproblemTable, IdIsUniquePerAgentOrderAndConstraints) {
   std::mt19937 random(3);
   const std::vector<AgentSequencing> orders(2);
-  SubproblemTable situations;
+  SubproblemTable subproblems;
   using Key = std::tuple<AgentIndex, const AgentSequencing*, std::vector<Constraint>>;
   std::map<SubproblemTable::Id, Key> keys;
   for (int round = 0; round < 3000; ++round) {
     const auto agent = static_cast<AgentIndex>(random() % 3);
     const AgentSequencing& order = orders[random() % 2];
     const auto constraints = random_constraints(random);
-    const SubproblemTable::Id id = situations.id(agent, order, constraints);
+    const SubproblemTable::Id id = subproblems.id(agent, order, constraints);
     const Key key{agent, &order, constraints};
     if (!keys.contains(id)) {
       EXPECT_TRUE(std::ranges::none_of(keys, [&](const auto& k) { return k.second == key; }));
-      EXPECT_EQ(situations.known(id), SubproblemTable::Known());
+      EXPECT_EQ(subproblems.known(id), SubproblemTable::Known());
       keys.emplace(id, key);
-      situations.merge(id, {id, true});
+      subproblems.merge(id, {id, true});
     }
     EXPECT_EQ(keys.at(id), key);
-    const AgentSubproblem situation = situations.situation(id);
-    EXPECT_EQ(situation.agent, agent);
-    EXPECT_EQ(situation.order, &order);
-    EXPECT_EQ(situation.constraints, PackedConstraints(constraints));
-    EXPECT_EQ(situations.id(situation), id);
-    EXPECT_EQ(situations.known(id).at_least, id);
+    const AgentSubproblem subproblem = subproblems.subproblem(id);
+    EXPECT_EQ(subproblem.agent, agent);
+    EXPECT_EQ(subproblem.order, &order);
+    EXPECT_EQ(subproblem.constraints, PackedConstraints(constraints));
+    EXPECT_EQ(subproblems.id(subproblem), id);
+    EXPECT_EQ(subproblems.known(id).at_least, id);
   }
   EXPECT_GT(keys.size(), 500u);
-  EXPECT_GT(situations.bytes(), keys.size() * (sizeof(AgentIndex) + sizeof(AgentSequencing*)));
+  EXPECT_GT(subproblems.bytes(), keys.size() * (sizeof(AgentIndex) + sizeof(AgentSequencing*)));
 }
 
-TEST(SubproblemTable, KeepTheStrongerStatement) {
-  SubproblemTable situations;
+TEST(SubproblemTable, KeepsTheStrongerBound) {
+  SubproblemTable subproblems;
   const AgentSequencing order;
-  const SubproblemTable::Id id = situations.id(0, order, {});
-  situations.merge(id, {5, false});
-  situations.merge(id, {3, false});
-  EXPECT_EQ(situations.known(id), (SubproblemTable::Known{5, false}));
-  situations.merge(id, {7, true});
-  situations.merge(id, {6, false});
-  EXPECT_EQ(situations.known(id), (SubproblemTable::Known{7, true}));
+  const SubproblemTable::Id id = subproblems.id(0, order, {});
+  subproblems.merge(id, {5, false});
+  subproblems.merge(id, {3, false});
+  EXPECT_EQ(subproblems.known(id), (SubproblemTable::Known{5, false}));
+  subproblems.merge(id, {7, true});
+  subproblems.merge(id, {6, false});
+  EXPECT_EQ(subproblems.known(id), (SubproblemTable::Known{7, true}));
 }
 
-TEST(SubproblemTable, AreNumberedAlikeForAllThreads) {
+TEST(SubproblemTable, IdsAreTheSameForAllThreads) {
   const std::vector<AgentSequencing> orders(1);
-  SubproblemTable situations;
+  SubproblemTable subproblems;
   constexpr int kThreads = 4;
   std::vector<std::vector<SubproblemTable::Id>> ids(kThreads);
   std::vector<std::jthread> threads;
@@ -76,19 +76,19 @@ TEST(SubproblemTable, AreNumberedAlikeForAllThreads) {
     threads.emplace_back([&, thread] {
       std::mt19937 random(9);
       for (int round = 0; round < 2000; ++round) {
-        const auto id = situations.id(static_cast<AgentIndex>(random() % 3), orders[0],
-                                      random_constraints(random));
-        situations.merge(id, {id, true});
+        const auto id = subproblems.id(static_cast<AgentIndex>(random() % 3), orders[0],
+                                       random_constraints(random));
+        subproblems.merge(id, {id, true});
         ids[static_cast<std::size_t>(thread)].push_back(id);
       }
     });
   threads.clear();
   for (int thread = 1; thread < kThreads; ++thread)
     EXPECT_EQ(ids[static_cast<std::size_t>(thread)], ids[0]);
-  for (const SubproblemTable::Id id : ids[0]) EXPECT_EQ(situations.known(id).at_least, id);
+  for (const SubproblemTable::Id id : ids[0]) EXPECT_EQ(subproblems.known(id).at_least, id);
 }
 
-TEST(SubproblemTable, CanonicalListsHaveOneOrderAndNoRepeats) {
+TEST(SubproblemTable, CanonicalListsAreSortedAndUnique) {
   std::vector<Constraint> a{{1, kNoCell, 2, 3}, {0, kNoCell, 1, 1}, {1, kNoCell, 2, 3}};
   std::vector<Constraint> b{{0, kNoCell, 1, 1}, {1, kNoCell, 2, 3}};
   canonical(a);
@@ -97,7 +97,7 @@ TEST(SubproblemTable, CanonicalListsHaveOneOrderAndNoRepeats) {
   EXPECT_EQ(a.size(), 2u);
 }
 
-TEST(CanonicalConstraints, AreTheSameWhenOneComesAfterTheOther) {
+TEST(CanonicalConstraints, AreTheSameWhenAddedOneByOne) {
   std::mt19937 random(5);
   for (int round = 0; round < 300; ++round) {
     std::vector<Constraint> all;
@@ -112,5 +112,5 @@ TEST(CanonicalConstraints, AreTheSameWhenOneComesAfterTheOther) {
   }
 }
 
-}  // namespace situations_test
+}  // namespace subproblem_table_test
 }  // namespace grove::detail

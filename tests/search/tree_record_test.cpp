@@ -18,7 +18,7 @@
 namespace grove::detail {
 namespace tree_record_test {
 
-// What add() says of a record.
+// Result of add(): "accepted" or the error message.
 std::string answer(Trees& trees, const TreeRecord& record) {
   try {
     trees.add(record, 0);
@@ -35,25 +35,25 @@ class TreeRecords : public ::testing::Test {
           {.size = 10, .obstacles = 20, .agents = 8, .tasks = 14, .no_destination = 30}, 3))
       : instance_(std::move(instance)) {}
 
-  // The first trees of the paper's forest.
+  // The first `count` trees of the paper's forest.
   std::vector<NodePtr> fixed_roots(int count) {
     std::vector<NodePtr> roots;
     while (static_cast<int>(roots.size()) < count) roots.push_back(forest_.next_root());
     return roots;
   }
 
-  // The same tree as far as anybody can see.
-  void expect_same(const NodePtr& root, const NodePtr& again) {
-    EXPECT_EQ(record_of(again->tree()), record_of(root->tree()));
-    EXPECT_EQ(again->bound(), root->bound());
-    EXPECT_EQ(again->cost(), root->cost());
+  // Expects two trees with equal records, bounds, costs, paths and children.
+  void expect_same(const NodePtr& root, const NodePtr& restored) {
+    EXPECT_EQ(record_of(restored->tree()), record_of(root->tree()));
+    EXPECT_EQ(restored->bound(), root->bound());
+    EXPECT_EQ(restored->cost(), root->cost());
     std::vector<Path> paths;
-    std::vector<Path> paths_again;
+    std::vector<Path> restored_paths;
     root->paths(problem_, paths);
-    again->paths(problem_, paths_again);
-    EXPECT_EQ(paths_again, paths);
+    restored->paths(problem_, restored_paths);
+    EXPECT_EQ(restored_paths, paths);
     const Expansion expected = expand(root);
-    const Expansion found = expand(again);
+    const Expansion found = expand(restored);
     ASSERT_EQ(found.children.size(), expected.children.size());
     for (std::size_t i = 0; i < found.children.size(); ++i)
       EXPECT_EQ(record_of(*found.children[i]), record_of(*expected.children[i]));
@@ -74,34 +74,35 @@ class TreeRecords : public ::testing::Test {
   Trees trees_{problem_, stops_, pool_};
 };
 
-TEST_F(TreeRecords, MakeTreesOfAFixedOrderAgain) {
+TEST_F(TreeRecords, RestoreTreesOfFixedOrders) {
   std::set<const AgentSequencing*> orders;
-  std::set<const AgentSequencing*> orders_again;
+  std::set<const AgentSequencing*> restored_orders;
   std::vector<NodePtr> kept;
   for (const NodePtr& root : fixed_roots(20)) {
-    const NodePtr again =
+    const NodePtr restored =
         kept.emplace_back(trees_.add(record_of(root->tree()), root->tree().number));
-    expect_same(root, again);
-    EXPECT_EQ(again->tree().number, kept.size() - 1);
+    expect_same(root, restored);
+    EXPECT_EQ(restored->tree().number, kept.size() - 1);
     for (std::size_t agent = 0; agent < root->tree().orders.size(); ++agent) {
-      EXPECT_TRUE(again->tree().orders[agent]->goals);
+      EXPECT_TRUE(restored->tree().orders[agent]->goals);
       orders.insert(root->tree().orders[agent].get());
-      orders_again.insert(again->tree().orders[agent].get());
+      restored_orders.insert(restored->tree().orders[agent].get());
     }
   }
   EXPECT_EQ(trees_.size(), 20u);
-  EXPECT_EQ(orders_again.size(), orders.size());  // shared as they were
+  EXPECT_EQ(restored_orders.size(), orders.size());  // orders are shared between trees as before
 }
 
-TEST_F(TreeRecords, MakeTheTreeOfAllOrdersAgain) {
+TEST_F(TreeRecords, RestoreTheTreeOfAllOrders) {
   const NodePtr root = single_tree_.next_root();
-  const NodePtr again = trees_.add(record_of(root->tree()), 0);
-  expect_same(root, again);
-  for (const auto& order : again->tree().orders) EXPECT_FALSE(order->goals);
+  const NodePtr restored = trees_.add(record_of(root->tree()), 0);
+  expect_same(root, restored);
+  for (const auto& order : restored->tree().orders) EXPECT_FALSE(order->goals);
 }
 
-// A class between those two: every order that begins as the tree's path does, or does not.
-TEST_F(TreeRecords, MakeTreesOfClassesAgain) {
+// A class between these two: every order that begins as the tree's path does, or every order that
+// does not.
+TEST_F(TreeRecords, RestoreTreesOfSequenceClasses) {
   TreeRecord record = record_of(fixed_roots(1)[0]->tree());
   const auto of_two = std::ranges::find_if(
       record.orders, [](const auto& order) { return order.sequences.prefix.size() >= 2; });
@@ -109,23 +110,23 @@ TEST_F(TreeRecords, MakeTreesOfClassesAgain) {
   of_two->fixed = false;
   const Stop second = of_two->sequences.prefix[1];
   of_two->sequences.prefix.resize(1);
-  const NodePtr again = trees_.add(record, 0);
-  EXPECT_EQ(record_of(again->tree()), record);
+  const NodePtr restored = trees_.add(record, 0);
+  EXPECT_EQ(record_of(restored->tree()), record);
 
   of_two->sequences.forbidden_next = StopSet{1} << second;
   EXPECT_EQ(answer(trees_, record), "a path that realizes no sequence of the class");
 }
 
-TEST_F(TreeRecords, HoldNodesMadeAgain) {
+TEST_F(TreeRecords, RestoreNodesBelowARestoredRoot) {
   const NodePtr root = fixed_roots(1)[0];
-  const NodePtr again = trees_.add(record_of(root->tree()), 0);
+  const NodePtr restored = trees_.add(record_of(root->tree()), 0);
   const Expansion expansion = expand(root);
   ASSERT_FALSE(expansion.children.empty());
   for (const NodePtr& child : expansion.children)
-    EXPECT_EQ(record_of(*node_of(record_of(*child), again, instance_)), record_of(*child));
+    EXPECT_EQ(record_of(*node_of(record_of(*child), restored, instance_)), record_of(*child));
 }
 
-// An agent whose corner the tasks lie around, one without a destination, and one that only waits.
+// One agent with its tasks in two corners, one without a destination, and one that only waits.
 class SmallTreeRecords : public TreeRecords {
  protected:
   SmallTreeRecords()
@@ -134,18 +135,19 @@ class SmallTreeRecords : public TreeRecords {
                                           {{0, 2}, {}, {{2, 2}, {1, 2}}},
                                           {{0, 1}, Position{0, 1}}})) {}
 
-  // What add() says after spoiling a record of the fixed policy, or of the free one.
-  template <class Spoil>
-  void expect(const char* said, Spoil spoil) {
+  // Expects this result of add() after `corrupt` has changed a record of the fixed policy;
+  // expect_free: of the free policy.
+  template <class Corrupt>
+  void expect(const char* message, Corrupt corrupt) {
     TreeRecord record = record_of(fixed_->tree());
-    spoil(record);
-    EXPECT_EQ(answer(trees_, record), said);
+    corrupt(record);
+    EXPECT_EQ(answer(trees_, record), message);
   }
-  template <class Spoil>
-  void expect_free(const char* said, Spoil spoil) {
+  template <class Corrupt>
+  void expect_free(const char* message, Corrupt corrupt) {
     TreeRecord record = record_of(free_->tree());
-    spoil(record);
-    EXPECT_EQ(answer(trees_, record), said);
+    corrupt(record);
+    EXPECT_EQ(answer(trees_, record), message);
   }
   void take_path(TreeRecord::Order& order, const std::vector<Position>& positions) {
     Path path;
@@ -159,39 +161,39 @@ class SmallTreeRecords : public TreeRecords {
   NodePtr free_ = single_tree_.next_root();
 };
 
-TEST_F(SmallTreeRecords, AreAcceptedUnspoilt) {
+TEST_F(SmallTreeRecords, AreAcceptedUnchanged) {
   expect("accepted", [](TreeRecord&) {});
   expect_free("accepted", [](TreeRecord&) {});
-  // Without stops, a fixed order and an open one are the same class and yet not the same order.
+  // Without stops, a fixed and an open order are the same class but different orders.
   EXPECT_TRUE(trees_.add(record_of(fixed_->tree()), 0)->tree().orders[2]->goals);
   EXPECT_FALSE(trees_.add(record_of(free_->tree()), 0)->tree().orders[2]->goals);
 }
 
-TEST_F(SmallTreeRecords, OfOtherAgentsAreRefused) {
-  const char* said = "a tree must fix as many agents' orders as the instance has agents";
-  expect(said, [](TreeRecord& r) { r.orders.pop_back(); });
-  expect(said, [](TreeRecord& r) { r.orders.emplace_back(); });
-  expect(said, [](TreeRecord& r) { r.orders.clear(); });
+TEST_F(SmallTreeRecords, AreRefusedWithAWrongNumberOfAgents) {
+  const char* message = "a tree must fix as many agents' orders as the instance has agents";
+  expect(message, [](TreeRecord& r) { r.orders.pop_back(); });
+  expect(message, [](TreeRecord& r) { r.orders.emplace_back(); });
+  expect(message, [](TreeRecord& r) { r.orders.clear(); });
   EXPECT_EQ(trees_.size(), 0u);
 }
 
-TEST_F(SmallTreeRecords, OfOtherStopsAreRefused) {
-  const char* said = "a fixed order must hold every stop of its agent once";
-  expect(said, [](TreeRecord& r) { r.orders[0].sequences.prefix.pop_back(); });
-  expect(said, [](TreeRecord& r) { r.orders[0].sequences.prefix.push_back(2); });
-  expect(said, [](TreeRecord& r) { r.orders[0].sequences.prefix = {1, 1}; });
-  expect(said, [](TreeRecord& r) { r.orders[0].sequences.prefix = {0, 200}; });
-  expect(said, [](TreeRecord& r) { r.orders[0].sequences.forbidden_next = 1; });
+TEST_F(SmallTreeRecords, AreRefusedWithWrongStops) {
+  const char* message = "a fixed order must hold every stop of its agent once";
+  expect(message, [](TreeRecord& r) { r.orders[0].sequences.prefix.pop_back(); });
+  expect(message, [](TreeRecord& r) { r.orders[0].sequences.prefix.push_back(2); });
+  expect(message, [](TreeRecord& r) { r.orders[0].sequences.prefix = {1, 1}; });
+  expect(message, [](TreeRecord& r) { r.orders[0].sequences.prefix = {0, 200}; });
+  expect(message, [](TreeRecord& r) { r.orders[0].sequences.forbidden_next = 1; });
   expect_free("a prefix must hold stops of its agent, each at most once", [](TreeRecord& r) {
     r.orders[0].sequences.prefix = {0, 200};
   });
 }
 
-TEST_F(SmallTreeRecords, OfPathsThatAreNoneAreRefused) {
-  const char* said = "a tree's path must have the length it claims";
-  expect(said, [](TreeRecord& r) { r.orders[0].steps += 100; });
-  expect(said, [](TreeRecord& r) { r.orders[0].words.clear(); });
-  expect(said, [](TreeRecord& r) {
+TEST_F(SmallTreeRecords, AreRefusedIfAPathIsNoWalkOnTheMap) {
+  const char* message = "a tree's path must have the length it claims";
+  expect(message, [](TreeRecord& r) { r.orders[0].steps += 100; });
+  expect(message, [](TreeRecord& r) { r.orders[0].words.clear(); });
+  expect(message, [](TreeRecord& r) {
     r.orders[0].steps = ~std::uint32_t{0};
     r.orders[0].words.clear();
   });
@@ -201,35 +203,36 @@ TEST_F(SmallTreeRecords, OfPathsThatAreNoneAreRefused) {
          [](TreeRecord& r) { r.orders[0].words[0] = 0b010'001; });  // into the wall
 }
 
-TEST_F(SmallTreeRecords, OfPathsElsewhereAreRefused) {
-  const char* said = "a tree's path must visit its agent's stops in order";
-  // Past its tasks; not up to its destination; its tasks the other way round; not to its last task.
-  expect(said, [&](TreeRecord& r) {
+TEST_F(SmallTreeRecords, AreRefusedIfAPathMissesItsStops) {
+  const char* message = "a tree's path must visit its agent's stops in order";
+  // These paths miss the tasks, end before the destination, visit the tasks in reverse order, or
+  // miss the last task.
+  expect(message, [&](TreeRecord& r) {
     take_path(r.orders[0], {{0, 0}, {0, 1}, {0, 2}, {1, 2}, {2, 2}, {3, 2}});
   });
-  expect(said, [&](TreeRecord& r) {
+  expect(message, [&](TreeRecord& r) {
     take_path(r.orders[0], {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}});
   });
-  expect(said, [](TreeRecord& r) { std::ranges::reverse(r.orders[0].sequences.prefix); });
-  expect(said, [&](TreeRecord& r) { take_path(r.orders[1], {{0, 2}, {1, 2}, {2, 2}, {3, 2}}); });
-  const char* said_free = "a path that realizes no sequence of the class";
-  expect_free(said_free, [&](TreeRecord& r) { take_path(r.orders[1], {{0, 2}, {1, 2}}); });
-  expect_free(said_free, [&](TreeRecord& r) {
+  expect(message, [](TreeRecord& r) { std::ranges::reverse(r.orders[0].sequences.prefix); });
+  expect(message, [&](TreeRecord& r) { take_path(r.orders[1], {{0, 2}, {1, 2}, {2, 2}, {3, 2}}); });
+  const char* free_message = "a path that realizes no sequence of the class";
+  expect_free(free_message, [&](TreeRecord& r) { take_path(r.orders[1], {{0, 2}, {1, 2}}); });
+  expect_free(free_message, [&](TreeRecord& r) {
     take_path(r.orders[0], {{0, 0}, {1, 0}, {2, 0}, {3, 0}});
   });
 }
 
-// A longer path would be a bound that nobody proved.
-TEST_F(SmallTreeRecords, OfDetoursAreRefused) {
-  const char* said = "a tree's path must be shortest in its order of stops";
+// A longer path would claim a bound that is not proven.
+TEST_F(SmallTreeRecords, AreRefusedIfAPathIsNotShortest) {
+  const char* message = "a tree's path must be shortest in its order of stops";
   const auto wait = [&](TreeRecord& r) { take_path(r.orders[2], {{0, 1}, {0, 1}}); };
-  expect(said, wait);
-  expect_free(said, wait);
+  expect(message, wait);
+  expect_free(message, wait);
   const auto detour = [&](TreeRecord& r) {
     take_path(r.orders[1], {{0, 2}, {0, 1}, {0, 2}, {1, 2}, {2, 2}});
   };
-  expect(said, detour);
-  expect_free(said, detour);
+  expect(message, detour);
+  expect_free(message, detour);
   EXPECT_EQ(trees_.size(), 0u);
 }
 

@@ -13,7 +13,7 @@ namespace assignment_test {
 
 using Costs = std::vector<std::vector<std::int64_t>>;
 
-std::optional<std::int64_t> best_by_trying_all(const Costs& cost) {
+std::optional<std::int64_t> best_by_enumeration(const Costs& cost) {
   std::vector<int> columns(cost.empty() ? 0 : cost.front().size());
   std::iota(columns.begin(), columns.end(), 0);
   std::optional<std::int64_t> best;
@@ -26,9 +26,9 @@ std::optional<std::int64_t> best_by_trying_all(const Costs& cost) {
   return best;
 }
 
-TEST(Assignment, IsTheBestOfAll) {
+TEST(Assignment, AgreesWithEnumeration) {
   std::mt19937 random(3);
-  int impossible = 0;
+  int infeasible = 0;
   for (int round = 0; round < 3000; ++round) {
     const std::size_t rows = random() % 5;
     const std::size_t columns = rows + random() % 3;
@@ -36,10 +36,10 @@ TEST(Assignment, IsTheBestOfAll) {
     for (auto& row : cost)
       for (auto& entry : row) entry = random() % 3 == 0 ? kForbidden : random() % 8;
     const auto assignment = least_cost_assignment(cost);
-    const auto best = best_by_trying_all(cost);
+    const auto best = best_by_enumeration(cost);
     ASSERT_EQ(assignment.has_value(), best.has_value());
     if (!best) {
-      ++impossible;
+      ++infeasible;
       continue;
     }
     std::int64_t total = 0;
@@ -47,7 +47,7 @@ TEST(Assignment, IsTheBestOfAll) {
     EXPECT_EQ(total, *best);
     EXPECT_EQ(std::set(assignment->begin(), assignment->end()).size(), rows);
   }
-  EXPECT_GT(impossible, 200);
+  EXPECT_GT(infeasible, 200);
 }
 
 }  // namespace assignment_test

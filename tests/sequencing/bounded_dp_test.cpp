@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The sequence graph: what it holds is exact, what it says about the rest is proven. Brute force
-// covers small n (rtsp_test.cpp); here are the relaxation state by state, the graph against
-// Held-Karp, and sizes that no table reaches.
+// The sequence graph: the costs that it holds are exact, and its bound on all other sequences is
+// proven. rtsp_test.cpp compares small n with brute force. This file tests the relaxation state by
+// state, compares the graph with Held-Karp, and covers sizes that no table reaches.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::vector<CostMatrix> matrices_of(int n, Variant variant, Random& random) {
           wild_port_matrix(n, variant, random)};
 }
 
-// Calls visit(port) for every port of every stop of a set.
+// Calls visit(port) for every port of every stop in `set`.
 template <class Visit>
 void for_each_port(const CostMatrix& matrix, StopSet set, Visit visit) {
   for_each_stop(set, [&](int stop) {
@@ -37,7 +37,7 @@ StopSet stop_of(const CostMatrix& matrix, int port) {
   return bit(port / matrix.ports);
 }
 
-// The least cost from a row, `at`, through `left` to the end, by trying everything.
+// The least cost from row `at` through all stops of `left` to the end, by enumeration.
 Time cheapest_rest(const CostMatrix& matrix, StopSet left, int at) {
   if (left == 0) return matrix.to_end(at);
   Time best = kNever;
@@ -65,8 +65,8 @@ TEST(OneTreeRelaxation, BoundsEveryState) {
         }
 }
 
-// Every way through all of `left` and, where a stop has several ports, one of each: calls
-// visit(cost) for each of cost <= reach whose states `may_pass`.
+// Enumerates all orders of the stops in `left` and all choices of one port for each stop. Calls
+// visit(cost) for each with cost <= reach whose states all satisfy `may_pass`.
 template <class MayPass, class Visit>
 void walk(const CostMatrix& matrix, StopSet left, int at, Time cost, Time reach,
           const MayPass& may_pass, const Visit& visit) {
@@ -121,8 +121,8 @@ TEST(SequenceDag, HoldsExactlyTheSequencesBelowItsBound) {
         }
 }
 
-// Of every set: from each of its stops through the others, against every order.
-TEST(OneTreeRelaxation, TheTreeOfASetBoundsTheWaysThatBeginInIt) {
+// For every set: the bound from each of its stops through the others, compared with all orders.
+TEST(OneTreeRelaxation, TreeOfSetBoundsPathsThatBeginInIt) {
   Random random(34);
   int above_zero = 0;
   for (int round = 0; round < fuzz_rounds(10); ++round)
@@ -143,7 +143,7 @@ TEST(OneTreeRelaxation, TheTreeOfASetBoundsTheWaysThatBeginInIt) {
   EXPECT_GT(above_zero, 1000);
 }
 
-TEST(SequenceDag, KnowsItsCostsToGoExactly) {
+TEST(SequenceDag, HasExactCostsToGo) {
   Random random(33);
   const Limits limits;
   for (const CostMatrix& matrix :
@@ -159,11 +159,11 @@ TEST(SequenceDag, KnowsItsCostsToGoExactly) {
   }
 }
 
-// What a turn between two legs costs is seen by the shifts at ports: what no spanning tree over
-// least legs can know.
-TEST(OneTreeRelaxation, SeesMostTurns) {
+// The shifts at ports account for the cost of turns between two legs, which a spanning tree over
+// the least legs cannot.
+TEST(OneTreeRelaxation, AccountsForMostTurnCosts) {
   Random random(35);
-  Time blind = 0;
+  Time without_turns = 0;
   Time bound = 0;
   Time exact = 0;
   for (int round = 0; round < 20; ++round) {
@@ -177,12 +177,12 @@ TEST(OneTreeRelaxation, SeesMostTurns) {
                                 table.cost_to_go(matrix.all() & ~stop_of(matrix, first), first)));
     });
     if (best >= kNever) continue;
-    blind += OneTreeRelaxation(least_matrix(matrix)).root_bound();
+    without_turns += OneTreeRelaxation(least_matrix(matrix)).root_bound();
     bound += OneTreeRelaxation(matrix).root_bound();
     exact += best;
   }
   EXPECT_LE(bound, exact);
-  EXPECT_LT(2 * (exact - bound), exact - blind);
+  EXPECT_LT(2 * (exact - bound), exact - without_turns);
 }
 
 class OnMaps : public ::testing::Test {
@@ -202,7 +202,7 @@ class OnMaps : public ::testing::Test {
   Limits limits_;
 };
 
-// A good sequence by moving stops about until that no longer helps: an upper bound.
+// Upper bound: the cost of a local optimum, found by moving single stops while the cost decreases.
 Time improved_cost(const CostMatrix& matrix, Sequence sequence) {
   Time cost = sequence_cost(matrix, sequence);
   for (bool better = true; better;) {
@@ -223,7 +223,7 @@ Time improved_cost(const CostMatrix& matrix, Sequence sequence) {
   return cost;
 }
 
-TEST_F(OnMaps, AgreesWithTheTable) {
+TEST_F(OnMaps, AgreesWithHeldKarp) {
   for (int n : {16, 19})
     for_maps(n, 41, [&](const CostMatrix& matrix) {
       const auto table = make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits_);
@@ -240,9 +240,10 @@ TEST_F(OnMaps, AgreesWithTheTable) {
     });
 }
 
-// Between bound and heuristic; the list that follows is in order and its sequences are real; and a
-// graph with two more steps of reach tells the same story.
-TEST_F(OnMaps, ServesThirtySixStops) {
+// The optimum is between the lower bound and the heuristic. The first 100 sequences of the list
+// visit all stops and have the listed costs. A graph whose cost limit is higher by 2 holds the same
+// costs.
+TEST_F(OnMaps, SolvesThirtySixStops) {
   for (int n : {24, 30, 36})
     for_maps(n, 42, [&](const CostMatrix& matrix) {
       KBestSequences list(make_rtsp_solver(RtspBackend::kBoundedDp, matrix, limits_), matrix,
@@ -269,8 +270,8 @@ TEST_F(OnMaps, ServesThirtySixStops) {
     });
 }
 
-// A planted optimum: stops along a line, in any order, are visited along the line.
-TEST(BoundedDp, FindsThePlantedOptimumOfSixtyFourStops) {
+// Planted optimum: stops on a line, in shuffled order, are visited along the line.
+TEST(BoundedDp, FindsPlantedOptimumOfSixtyFourStops) {
   constexpr int kStops = 64;
   Random random(43);
   std::vector<Time> at(kStops);
@@ -286,7 +287,7 @@ TEST(BoundedDp, FindsThePlantedOptimumOfSixtyFourStops) {
   const Limits limits;
   KBestSequences list(make_rtsp_solver(RtspBackend::kBoundedDp, matrix, limits), matrix, limits);
   EXPECT_EQ(list.resolve(0, kNever), 200);
-  EXPECT_EQ(list.resolve(1, kNever), 206);  // 63 ways to swap two neighbors
+  EXPECT_EQ(list.resolve(1, kNever), 206);  // 63 swaps of two neighbours
   EXPECT_EQ(list.resolve(63, kNever), 206);
   EXPECT_EQ(list.resolve(64, 206), list.cost_bound(64));
   EXPECT_GT(list.cost_bound(64), 206);

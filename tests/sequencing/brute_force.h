@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Every sequence, one by one: what the back ends are measured against.
+// Enumeration of all sequences, the reference for the rTSP back ends.
 #pragma once
 
 #include "sequencing/rtsp.h"
 
 namespace grove::detail::testing {
 
-// The finite costs of all members of a class, cheapest first. Shares no text with the back ends.
+// The finite costs of all members of a class, in ascending order. Shares no code with the back
+// ends.
 std::vector<Time> all_costs(const CostMatrix& matrix, const SequenceClass& work);
 
-// Does it visit each stop once?
+// Does `sequence` visit each stop exactly once?
 bool is_complete(const CostMatrix& matrix, const Sequence& sequence);
-// Is it a member of the class?
+// Is `sequence` a member of the class?
 bool belongs(const Sequence& sequence, const SequenceClass& work);
 
 }  // namespace grove::detail::testing

@@ -24,7 +24,7 @@ CostMatrix matrix_of(const Instance& instance) {
   return cost_matrix(instance, 0, DistanceFields(instance));
 }
 
-TEST(CostMatrix, HoldsDistancesFromTheStartBetweenStopsAndToTheDestination) {
+TEST(CostMatrix, HoldsDistancesBetweenStartStopsAndDestination) {
   const CostMatrix matrix = matrix_of(corridor(Position{3, 0}, {{0, 0}, {2, 0}}));
   EXPECT_EQ(matrix.stops(), 2);
   EXPECT_EQ(matrix.all(), StopSet{3});
@@ -38,20 +38,20 @@ TEST(CostMatrix, HoldsDistancesFromTheStartBetweenStopsAndToTheDestination) {
   EXPECT_EQ(sequence_cost(matrix, {1, 0}), 6);
 }
 
-TEST(CostMatrix, EndsAnywhereWithoutADestination) {
+TEST(CostMatrix, EndsAnywhereWithoutDestination) {
   const CostMatrix matrix = matrix_of(corridor(std::nullopt, {{0, 0}, {2, 0}}));
   EXPECT_EQ(matrix.to_end(0), 0);
   EXPECT_EQ(matrix.to_end(1), 0);
   EXPECT_EQ(sequence_cost(matrix, {1, 0}), 3);
 }
 
-TEST(CostMatrix, WithoutTasksIsTheWayToTheDestination) {
+TEST(CostMatrix, WithoutTasksHoldsDistanceToTheDestination) {
   const CostMatrix matrix = matrix_of(corridor(Position{3, 0}, {}));
   EXPECT_EQ(matrix.stops(), 0);
   EXPECT_EQ(sequence_cost(matrix, {}), 2);
 }
 
-TEST(CostMatrix, SaysNeverWhereThereIsNoWay) {
+TEST(CostMatrix, HoldsNeverForUnreachablePlaces) {
   const CostMatrix matrix = matrix_of(corridor(Position{3, 0}, {{0, 0}, {5, 0}}));
   EXPECT_EQ(matrix.from_start(1), kNever);
   EXPECT_EQ(matrix.between(0, 1), kNever);

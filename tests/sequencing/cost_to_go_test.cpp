@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Costs to go against every order, and, where there are too many, against the Held-Karp table.
+// Costs to go compared with all orders, or with the Held-Karp table if there are too many orders.
 #include "sequencing/cost_to_go.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 #include "tests/support/fuzz_factor.h"
 
 namespace grove::detail {
-namespace completions_test {
+namespace cost_to_go_test {
 
 using testing::fuzz_rounds;
 using testing::kVariants;
@@ -52,7 +52,7 @@ void expect_exact(const CostMatrix& matrix) {
       ASSERT_EQ(cost_to_go.cost_to_go(left, stop), brute_force(matrix, left, stop));
 }
 
-TEST(CostToGo, TheRelaxedBoundIsThatOfTheMatrix) {
+TEST(CostToGo, RelaxedBoundEqualsThatOfTheMatrix) {
   Random random(5);
   for (const int n : {1, 6, 14, 15, 20}) {
     const CostMatrix matrix = testing::grid_matrix(n, Variant::kCts, random);
@@ -65,7 +65,7 @@ TEST(CostToGo, TheRelaxedBoundIsThatOfTheMatrix) {
   }
 }
 
-TEST(CostToGo, SmallOnesAreExactAndComplete) {
+TEST(CostToGo, IsExactAndCompleteForFewStops) {
   Random random(1);
   for (int round = fuzz_rounds(20); round > 0; --round)
     for (const Variant variant : kVariants)
@@ -82,7 +82,7 @@ TEST(CostToGo, LargeCostsDoNotOverflow) {
   expect_exact(matrix);
 }
 
-TEST(CostToGo, NothingIsKnownAtFirst) {
+TEST(CostToGo, IsEmptyBeforeWidening) {
   Random random(3);
   for (const int n : {4, 16}) {
     const CostMatrix matrix = testing::metric_matrix(n, Variant::kCts, random);
@@ -92,10 +92,10 @@ TEST(CostToGo, NothingIsKnownAtFirst) {
   }
 }
 
-// With 15 and 16 stops: from the graph here, from the table there.
+// 15 and 16 stops: CostToGo uses the sequence graph; the reference is the Held-Karp table.
 class GraphTest : public ::testing::Test {
  protected:
-  // Every sequence below beyond() has its exact cost to go at every state: walks down all of them.
+  // Expects the exact cost-to-go at every state of each sequence that costs less than beyond().
   void expect_exact_below_beyond(const CostMatrix& matrix, const CostToGo& cost_to_go) {
     const Limits limits;
     const auto table = make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits);
@@ -125,7 +125,7 @@ class GraphTest : public ::testing::Test {
   int visited_ = 0;
 };
 
-TEST_F(GraphTest, EverySequenceBelowBeyondIsExact) {
+TEST_F(GraphTest, EverySequenceBelowTheBoundIsExact) {
   Random random(4);
   for (const Variant variant : kVariants) {
     const CostMatrix matrix = testing::grid_matrix(15, variant, random);
@@ -139,7 +139,7 @@ TEST_F(GraphTest, EverySequenceBelowBeyondIsExact) {
   }
 }
 
-TEST_F(GraphTest, WideningToLessChangesNothing) {
+TEST_F(GraphTest, WideningBelowTheBoundChangesNothing) {
   Random random(5);
   CostToGo cost_to_go(testing::metric_matrix(16, Variant::kCts, random));
   ASSERT_TRUE(cost_to_go.widen(cost_to_go.beyond(), Limits()));
@@ -148,7 +148,7 @@ TEST_F(GraphTest, WideningToLessChangesNothing) {
   EXPECT_EQ(cost_to_go.beyond(), beyond);
 }
 
-TEST(CostToGo, ALimitChangesNothing) {
+TEST(CostToGo, ReachedLimitChangesNothing) {
   Random random(6);
   for (const int n : {4, 16}) {
     CostToGo cost_to_go(testing::metric_matrix(n, Variant::kCts, random));
@@ -160,5 +160,5 @@ TEST(CostToGo, ALimitChangesNothing) {
   }
 }
 
-}  // namespace completions_test
+}  // namespace cost_to_go_test
 }  // namespace grove::detail

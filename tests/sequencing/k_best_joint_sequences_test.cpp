@@ -15,7 +15,7 @@
 namespace grove::detail::testing {
 namespace k_best_joint_sequences_test {
 
-// Matrices stay where they are: solvers keep references to them.
+// A deque, because solvers keep references to the matrices.
 struct Agents {
   std::deque<CostMatrix> matrices;
   Limits limits;
@@ -27,7 +27,7 @@ struct Agents {
     return {std::move(lists), limits};
   }
 
-  // The costs of all combinations, cheapest first, at most `count`.
+  // The least `count` costs of all combinations, in ascending order.
   std::vector<Cost> product(std::size_t count) const {
     std::vector<Cost> sums{0};
     for (const CostMatrix& matrix : matrices) {
@@ -35,14 +35,14 @@ struct Agents {
       for (Time cost : all_costs(matrix, {}))
         for (Cost sum : sums) next.push_back(sum + cost);
       std::sort(next.begin(), next.end());
-      if (next.size() > count) next.resize(count);  // the first `count` need no others
+      if (next.size() > count) next.resize(count);  // the least `count` sums need no others
       sums = next;
     }
     return sums;
   }
 };
 
-// At most `count` joint sequences, every promise about them kept.
+// The costs of at most `count` joint sequences. Checks all guarantees of KBestJointSequences.
 std::vector<Cost> first_costs(Agents& agents, RtspBackend backend, std::size_t count) {
   KBestJointSequences joint = agents.joint(backend);
   std::vector<Cost> costs;
@@ -70,8 +70,8 @@ std::vector<Cost> first_costs(Agents& agents, RtspBackend backend, std::size_t c
   return costs;
 }
 
-// Lists of 1 to 120 sequences, enumerated to the end where that is within `count`.
-TEST(KBestJointSequences, ListsWhatTheProductOfTheListsHolds) {
+// Lists of 1 to 120 sequences, enumerated completely if there are at most `count` combinations.
+TEST(KBestJointSequences, EqualsTheProductOfTheLists) {
   Random random(21);
   for (int round = 0; round < fuzz_rounds(12); ++round)
     for (RtspBackend backend : {RtspBackend::kHeldKarp, RtspBackend::kBoundedDp}) {
@@ -91,15 +91,15 @@ TEST(KBestJointSequences, AgreesThroughCbc) {
   ASSERT_EQ(first_costs(agents, RtspBackend::kCbc, 100), agents.product(100));
 }
 
-// The list of the agent in the middle ends first; all 2 * 6 combinations of the others must come.
-TEST(KBestJointSequences, LosesNothingWhenAListEnds) {
+// The list of the second agent ends first. All 2 * 6 combinations of the others must follow.
+TEST(KBestJointSequences, ListsAllCombinationsWhenAListEnds) {
   Random random(23);
   Agents agents;
   for (int n : {2, 1, 3}) agents.matrices.push_back(metric_matrix(n, Variant::kCts, random));
   EXPECT_EQ(first_costs(agents, RtspBackend::kHeldKarp, 100).size(), 12u);
 }
 
-TEST(KBestJointSequences, EndsAfterOneWhenNobodyHasATask) {
+TEST(KBestJointSequences, EndsAfterOneWhenNoAgentHasTasks) {
   Random random(24);
   Agents agents;
   for (int i = 0; i < 250; ++i) agents.matrices.push_back(metric_matrix(0, Variant::kCts, random));

@@ -17,12 +17,12 @@ KBestSequences list_of(const CostMatrix& matrix, RtspBackend backend, const Limi
   return {make_rtsp_solver(backend, matrix, limits), matrix, limits};
 }
 
-// The costs of the first `count` sequences, every promise about them kept.
+// The costs of the first `count` sequences. Checks all guarantees of KBestSequences.
 std::vector<Time> first_costs(const CostMatrix& matrix, RtspBackend backend, std::size_t count) {
   const Limits limits;
   KBestSequences list = list_of(matrix, backend, limits);
   std::vector<Time> costs;
-  std::set<std::vector<int>> seen;  // of int: GCC 12 sees overlong comparisons of bytes
+  std::set<std::vector<int>> seen;  // as int: GCC 12 warns of overlong comparisons of bytes
   for (std::size_t rank = 0; rank < count; ++rank) {
     const Time bound = list.cost_bound(rank);
     const Time cost = list.resolve(rank, kNever);
@@ -56,8 +56,8 @@ std::string name_of(const ::testing::TestParamInfo<RtspBackend>& info) {
   return names[static_cast<int>(info.param)];
 }
 
-// Up to 5 stops the lists are enumerated to their ends.
-TEST_P(KBestTest, ListsTheFirst200AsAllPermutationsDo) {
+// With up to 5 stops the lists are enumerated completely.
+TEST_P(KBestTest, FirstTwoHundredAgreeWithPermutations) {
   Random random(11);
   for (int round = 0; round < fuzz_rounds(GetParam() == RtspBackend::kCbc ? 1 : 4); ++round)
     for (Variant variant : kVariants)
@@ -83,7 +83,7 @@ TEST_P(KBestTest, ListsTheFirst200OfEightStops) {
   }
 }
 
-TEST_P(KBestTest, DoesNoMoreThanTheCutoffAsks) {
+TEST_P(KBestTest, ResolvesOnlyUpToTheCutoff) {
   Random random(13);
   const Limits limits;
   for (Variant variant : kVariants) {
@@ -100,7 +100,7 @@ TEST_P(KBestTest, DoesNoMoreThanTheCutoffAsks) {
   }
 }
 
-TEST_P(KBestTest, KnowsThatAnUnreachableStopLeavesNoSequence) {
+TEST_P(KBestTest, UnreachableStopLeavesNoSequence) {
   Random random(14);
   CostMatrix matrix = grid_matrix(4, Variant::kCts, random);
   fill_column(matrix, 2, kNever);
@@ -114,7 +114,8 @@ INSTANTIATE_TEST_SUITE_P(, KBestTest, ::testing::ValuesIn(rtsp_backends()), name
 
 class BackendsAgree : public ::testing::Test {
  protected:
-  // The costs of the first `count` sequences of n stops on every map, CTS and MG.
+  // Compares the costs of the first `count` sequences of n stops with Held-Karp, on every map, for
+  // CTS and MG.
   void compare(RtspBackend backend, int n, std::size_t count) {
     Random random(static_cast<unsigned>(n));
     for (const char* map : kMaps)
@@ -132,13 +133,13 @@ TEST_F(BackendsAgree, BoundedDpAndTableOnTheFirst200) {
   for (int n : {9, 12, 15, 18}) compare(RtspBackend::kBoundedDp, n, 200);
 }
 
-TEST_F(BackendsAgree, CbcAndTableOnAFew) {
+TEST_F(BackendsAgree, CbcAndTableOnAFewSequences) {
   if (!is_built(RtspBackend::kCbc)) GTEST_SKIP() << "built without CBC";
   compare(RtspBackend::kCbc, 10, 10);
   compare(RtspBackend::kCbc, 14, 3);
 }
 
-// Minutes: only when GROVE_LONG_TESTS is set.
+// Takes minutes: runs only if GROVE_LONG_TESTS is set.
 TEST_F(BackendsAgree, AllThreeOnTheFirst200UpTo22Stops) {
   if (!is_built(RtspBackend::kCbc)) GTEST_SKIP() << "built without CBC";
   if (std::getenv("GROVE_LONG_TESTS") == nullptr) GTEST_SKIP() << "set GROVE_LONG_TESTS to run";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Limits: "stopped" is never a verdict, what is claimed meanwhile is proven, and nothing hangs.
+// Limits in sequencing: a stopped call proves neither optimality nor infeasibility, its bounds are
+// valid, and no call hangs.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -32,7 +33,7 @@ std::string name_of(const ::testing::TestParamInfo<RtspBackend>& info) {
   return names[static_cast<int>(info.param)];
 }
 
-TEST_P(LimitsInSequencing, AnExpiredDeadlineStops) {
+TEST_P(LimitsInSequencing, ExpiredDeadlineStops) {
   Random random(51);
   Limits limits;
   limits.set_deadline(testing::kPast);
@@ -46,7 +47,7 @@ TEST_P(LimitsInSequencing, LittleMemoryStops) {
   expect_stopped(metric_matrix(8, Variant::kCts, random), limits);
 }
 
-TEST_P(LimitsInSequencing, AnInterruptStops) {
+TEST_P(LimitsInSequencing, InterruptStops) {
   Random random(53);
   const std::atomic<bool> interrupted{true};
   Limits limits;
@@ -54,7 +55,8 @@ TEST_P(LimitsInSequencing, AnInterruptStops) {
   expect_stopped(metric_matrix(8, Variant::kCts, random), limits);
 }
 
-// Far too much for the time given: 64 points in the plane, with costs so fine that few are equal.
+// Random points in the plane, with costs so fine that few are equal. 64 of them are far too many
+// for the time limit.
 CostMatrix points_in_the_plane(int n, Random& random) {
   std::vector<std::pair<Time, Time>> at;
   for (int i = 0; i <= n; ++i)
@@ -78,7 +80,7 @@ TEST_P(LimitsInSequencing, StopsInTime) {
   EXPECT_GE(answer.cost, solver->root_bound());
 }
 
-TEST_P(LimitsInSequencing, AListKeepsWhatItHasAndBoundsTheRest) {
+TEST_P(LimitsInSequencing, ListKeepsItsEntriesAndBoundsTheOthers) {
   Random random(55);
   const CostMatrix matrix = metric_matrix(7, Variant::kMg, random);
   const std::vector<Time> costs = all_costs(matrix, {});
@@ -94,7 +96,7 @@ TEST_P(LimitsInSequencing, AListKeepsWhatItHasAndBoundsTheRest) {
   EXPECT_EQ(sequence_cost(matrix, list.sequence(1)), costs[1]);
 }
 
-TEST_P(LimitsInSequencing, AJointListNeitherHangsNorClaimsTheEnd) {
+TEST_P(LimitsInSequencing, JointListEndsWithoutClaimingCompleteness) {
   Random random(56);
   const CostMatrix one = metric_matrix(6, Variant::kCts, random);
   const CostMatrix two = metric_matrix(5, Variant::kMg, random);
@@ -111,8 +113,8 @@ TEST_P(LimitsInSequencing, AJointListNeitherHangsNorClaimsTheEnd) {
 
 INSTANTIATE_TEST_SUITE_P(, LimitsInSequencing, ::testing::ValuesIn(rtsp_backends()), name_of);
 
-// A table beyond any memory is refused, not attempted.
-TEST(HeldKarp, RefusesATableOfFortyStops) {
+// A table that exceeds any memory is refused before it is allocated.
+TEST(HeldKarp, RefusesTableOfFortyStops) {
   const CostMatrix matrix{CostMatrix::Matrix(41, 3)};
   const Limits limits;
   const auto solver = make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits);
@@ -124,7 +126,7 @@ RtspAnswer::Kind answer_of_held_karp(const CostMatrix& matrix, const Limits& lim
   return make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits)->best({}, kNever).kind;
 }
 
-TEST(HeldKarp, StopsInTheMiddleOfATable) {
+TEST(HeldKarp, StopsInTheMiddleOfTheTable) {
   Random random(58);
   const CostMatrix matrix = points_in_the_plane(20, random);
   const LimitOfLooks whole(kNoEnd);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The three back ends against all permutations, on random classes with random cutoffs.
+// The three back ends compared with all permutations, on random classes with random cutoffs.
 #include "sequencing/rtsp.h"
 
 #include <gtest/gtest.h>
@@ -10,13 +10,13 @@
 #include "brute_force.h"
 #include "matrices.h"
 #include "sequencing/good_sequence.h"
-#include "sequencing/rtsp_backends.h"
 #include "tests/support/fuzz_factor.h"
 
 namespace grove::detail::testing {
 namespace rtsp_test {
 
-// A back end, or the graph of canonical sequences however small one of all sequences were.
+// A back end; `canonical`: the bounded DP with a graph of canonical sequences, even where a graph
+// of all sequences would be small enough.
 struct Solver {
   RtspBackend backend;
   bool canonical = false;
@@ -107,8 +107,8 @@ TEST_P(RtspBackendTest, AgreesWithAllPermutationsOnMetrics) {
       for (int n = 1; n <= 7; ++n) expect_true_answers(metric_matrix(n, variant, random), random);
 }
 
-// Nothing but the meaning of kNever is assumed of a matrix.
-TEST_P(RtspBackendTest, AgreesWithAllPermutationsOnMatricesWithoutAnyOrder) {
+// The back ends assume nothing about a matrix except the meaning of kNever.
+TEST_P(RtspBackendTest, AgreesWithAllPermutationsOnArbitraryMatrices) {
   Random random(3);
   for (int round = 0; round < rounds(); ++round)
     for (Variant variant : kVariants)
@@ -123,8 +123,8 @@ TEST_P(RtspBackendTest, AgreesWithAllPermutationsOfEightStops) {
   }
 }
 
-// On a line nearly all orders have the same cost as others. Some stops share a place, some take
-// time.
+// Stops on a line, where nearly every order has the same cost as some other. Some stops share a
+// place, and some take time.
 CostMatrix line_matrix(int n, Variant variant, Random& random) {
   std::vector<int> places;
   std::vector<Time> durations(static_cast<std::size_t>(n) + 1, 0);
@@ -143,14 +143,14 @@ CostMatrix line_matrix(int n, Variant variant, Random& random) {
   return matrix;
 }
 
-TEST_P(RtspBackendTest, AgreesWithAllPermutationsInARow) {
+TEST_P(RtspBackendTest, AgreesWithAllPermutationsOnALine) {
   Random random(7);
   for (int round = 0; round < rounds(); ++round)
     for (Variant variant : kVariants)
       for (int n = 1; n <= 7; ++n) expect_true_answers(line_matrix(n, variant, random), random);
 }
 
-TEST_P(RtspBackendTest, TellsASequenceOfAnEarlierQuestion) {
+TEST_P(RtspBackendTest, ReturnsSequenceOfAnEarlierCall) {
   Random random(8);
   for (int round = 0; round < rounds(); ++round) {
     const CostMatrix matrix = line_matrix(6, Variant::kCts, random);
@@ -166,8 +166,8 @@ TEST_P(RtspBackendTest, TellsASequenceOfAnEarlierQuestion) {
   }
 }
 
-// Rows of stops have 2^n cheapest sequences. These took seconds with 24 stops, and with 30
-// gigabytes.
+// A row of n stops has 2^n optimal sequences. Earlier versions took seconds for 24 stops and
+// gigabytes for 30.
 TEST(RowsOfStops, AreSequencedInOrder) {
   const Limits limits;
   for (const int n : {24, 40, 64})
@@ -188,7 +188,7 @@ TEST(RowsOfStops, AreSequencedInOrder) {
     }
 }
 
-TEST(GoodSequence, IsCompleteAndHardlyEverFarFromTheBest) {
+TEST(GoodSequence, IsCompleteAndUsuallyOptimal) {
   Random random(9);
   int best = 0;
   int all = 0;
@@ -219,7 +219,7 @@ TEST_P(RtspBackendTest, AnswersWithoutStops) {
   EXPECT_EQ(make(matrix)->best({}, kNever).kind, RtspAnswer::Kind::kInfeasible);
 }
 
-TEST_P(RtspBackendTest, CallsAnUnreachableStopInfeasible) {
+TEST_P(RtspBackendTest, UnreachableStopIsInfeasible) {
   Random random(5);
   CostMatrix matrix = grid_matrix(6, Variant::kCts, random);
   for (int to = 0; to < matrix.cost.size(); ++to) matrix.cost(3, to) = kNever;
@@ -230,7 +230,7 @@ TEST_P(RtspBackendTest, CallsAnUnreachableStopInfeasible) {
 }
 
 // Costs that do not fit 16 bits.
-TEST_P(RtspBackendTest, TakesLongWays) {
+TEST_P(RtspBackendTest, SolvesCostsAboveSixteenBits) {
   Random random(6);
   for (Variant variant : kVariants) {
     CostMatrix matrix = metric_matrix(7, variant, random);
@@ -243,7 +243,7 @@ TEST_P(RtspBackendTest, TakesLongWays) {
 
 INSTANTIATE_TEST_SUITE_P(, RtspBackendTest, ::testing::ValuesIn(solvers()), name_of);
 
-// Bounds from relaxation alone, where the optimum is known.
+// Bounds from the relaxation only, on matrices whose optimum is known.
 TEST(RelaxationBound, IsNeverAboveTheOptimum) {
   Random random(7);
   for (int round = 0; round < fuzz_rounds(40); ++round)

@@ -17,7 +17,7 @@ Time distance(const Instance& instance, Cell from, Cell to) {
   return distance_field(instance.grid(), to)[from];
 }
 
-// Over all orders of visits.
+// The least cost of all orders of visits.
 Time best_by_brute_force(const Instance& instance, const Agent& agent) {
   std::vector<std::size_t> order(agent.tasks.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -38,7 +38,7 @@ Time best_by_brute_force(const Instance& instance, const Agent& agent) {
 
 const std::vector<std::string> kRooms{"........", "@.@@.@@.", "........", "...@....", "...@...."};
 
-TEST(SumOfBestSequences, IsTheBestOfAllOrders) {
+TEST(SumOfBestSequences, AgreesWithBruteForce) {
   const Instance instance =
       instance_of(kRooms, {{{0, 0}, Position{7, 4}, {{5, 0}, {0, 4}, {4, 3}, {2, 2}}},
                            {{7, 0}, std::nullopt, {{0, 4}, {6, 4}, {3, 0}}},
@@ -48,7 +48,7 @@ TEST(SumOfBestSequences, IsTheBestOfAllOrders) {
   EXPECT_EQ(sum_of_best_sequences(instance, Limits()), expected);
 }
 
-TEST(SumOfBestSequences, IsInfiniteWhereThereIsNoWay) {
+TEST(SumOfBestSequences, IsInfiniteWithUnreachablePlaces) {
   EXPECT_EQ(sum_of_best_sequences(instance_of({"..@."}, {{{0, 0}, Position{3, 0}}}), Limits()),
             kInfiniteCost);
   EXPECT_EQ(sum_of_best_sequences(instance_of({"..@."}, {{{0, 0}, std::nullopt, {{1, 0}, {3, 0}}}}),
@@ -56,7 +56,7 @@ TEST(SumOfBestSequences, IsInfiniteWhereThereIsNoWay) {
             kInfiniteCost);
 }
 
-TEST(SumOfBestSequences, IsNotKnownWhenALimitStrikes) {
+TEST(SumOfBestSequences, ReturnsNulloptWhenALimitIsReached) {
   Limits limits;
   limits.set_deadline(testing::kPast);
   EXPECT_EQ(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Time in unit tests: that of the machine decides nothing.
+// Simulated clocks, so that unit tests do not depend on the time of the machine.
 #pragma once
 
 #include <atomic>
@@ -13,10 +13,10 @@ namespace grove::detail::testing {
 // A deadline that has passed.
 inline constexpr Limits::Clock::time_point kPast{};
 
-// The clock of some limits, which stands still until the test advances it. Thread-safe.
+// A clock for Limits that advances only when the test advances it. Thread-safe.
 class ManualClock {
  public:
-  // This must outlive the last use of `limits`.
+  // This object must outlive the last use of `limits`.
   explicit ManualClock(Limits& limits) {
     limits.set_clock([this] { return Limits::Clock::time_point(time_.load()); });
   }
@@ -26,15 +26,15 @@ class ManualClock {
   std::atomic<Limits::Clock::duration> time_{std::chrono::hours(1)};
 };
 
-// Limits whose deadline passes after `looks` readings of their clock, each of which takes a
-// millisecond. So a run of one thread stops at the same point on every machine.
+// Limits whose deadline passes after `looks` readings of their clock. Each reading advances the
+// clock by one millisecond, so a single-threaded run stops at the same point on every machine.
 class LimitOfLooks : public Limits {
  public:
   explicit LimitOfLooks(std::int64_t looks) {
     set_clock([this] { return at(++looks_); });
     set_deadline(at(looks + 1));
   }
-  // Readings so far.
+  // Number of readings so far.
   std::int64_t looks() const { return looks_; }
 
  private:
@@ -45,7 +45,7 @@ class LimitOfLooks : public Limits {
   mutable std::atomic<std::int64_t> looks_{0};
 };
 
-// Counts readings, and limits nothing: as many as a whole run makes.
+// Number of looks that no run reaches: LimitOfLooks then only counts readings.
 inline constexpr std::int64_t kNoEnd = std::int64_t{1} << 40;
 
 // Limits that end a run only if it hangs.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Allocations that fail when a test wants it. Programs that link failing_new.cpp have it.
+// Fault injection: allocations that fail on request, in programs that link failing_new.cpp.
 #pragma once
 
 namespace grove::detail::testing {
 
-// This thread's allocations before one throws std::bad_alloc; negative: none does.
+// Number of allocations of this thread before one throws std::bad_alloc; negative: none throws.
 extern thread_local int allocations_until_failure;
 
 }  // namespace grove::detail::testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A full disk, for tests.
+// Simulates a full disk by a limit on the size of files.
 #pragma once
 
 #include <signal.h>
@@ -7,7 +7,7 @@
 
 namespace grove::detail {
 
-// Ignores SIGXFSZ and lets no file grow beyond some bytes, while it lives.
+// During its lifetime no file can grow beyond `bytes` bytes, and SIGXFSZ is ignored.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(::signal(SIGXFSZ, SIG_IGN)) {

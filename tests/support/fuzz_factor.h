@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One switch for longer fuzzing: the environment variable GROVE_FUZZ_FACTOR.
+// Number of fuzzing rounds, scaled by the environment variable GROVE_FUZZ_FACTOR.
 #pragma once
 
 #include <charconv>
@@ -11,8 +11,8 @@
 
 namespace grove::detail::testing {
 
-// `rounds` times GROVE_FUZZ_FACTOR (1 if unset). Throws std::invalid_argument if that is no int of
-// at least 1.
+// `rounds` times GROVE_FUZZ_FACTOR (1 if unset). Throws std::invalid_argument if the variable is
+// not an int of at least 1.
 inline int fuzz_rounds(int rounds) {
   const char* factor = std::getenv("GROVE_FUZZ_FACTOR");
   if (factor == nullptr) return rounds;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small instances written as pictures.
+// Small instances from maps that are written as text.
 #pragma once
 
 #include <optional>

@@ -9,7 +9,7 @@
 
 namespace grove::detail {
 
-// The folder that the environment variable GROVE_MOVINGAI names, or the one beside the project.
+// The directory in the environment variable GROVE_MOVINGAI, or else the one beside the project.
 inline std::filesystem::path movingai_directory() {
   const char* named = std::getenv("GROVE_MOVINGAI");
   return named ? named : GROVE_MOVINGAI_DEFAULT;

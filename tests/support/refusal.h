@@ -8,7 +8,8 @@
 
 namespace grove::detail {
 
-// What the InputError thrown by `act` says, without the folder of its file; "accepted" if none is.
+// The text of the InputError that `act` throws, without the directory of its file; "accepted" if it
+// throws none.
 inline std::string refusal(const std::function<void()>& act) {
   try {
     act();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of results, as good as any.
+// Example rows of a results table.
 #pragma once
 
 #include <string>
@@ -31,7 +31,7 @@ inline Row solved_row(const std::string& instance = "set/a_s3_n2_m4_mg",
                       .nodes = 5,
                       .low_level_calls = 6,
                       .peak_memory_mb = 7.25,
-                      .counts = "bypasses=8 splits_bar=9",
+                      .counts = "bypasses=8 splits_vertex_edge=9",
                       .version = "grove 0.1.0 (git 0123)"},
           .root_cost = 150,
           .wall_s = 1.25,

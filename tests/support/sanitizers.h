@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether a sanitizer is on whose own memory fills the limit of a test: that of addresses or
-// threads.
+// GROVE_SANITIZERS_MEMORY is defined if AddressSanitizer or ThreadSanitizer is on. Their own memory
+// would exceed the memory limits of tests.
 #pragma once
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

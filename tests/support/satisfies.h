@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the constraints mean, said of a path alone.
+// Reference implementation of the constraints on a path.
 #pragma once
 
 #include <string>
@@ -9,17 +9,18 @@
 
 namespace grove::detail::testing {
 
-// Does `path`, its rest for ever included, obey `constraint`?
+// Does `path`, including its rest for ever, satisfy `constraint`? Throws std::invalid_argument for
+// a constraint on the sequence.
 bool satisfies(const World& grid, const Path& path, const Constraint& constraint);
 
-// A way into a chain: from an end to the inner cell next to it.
+// Entrance of a corridor: the move from an end to the inner cell next to it. Default: no entrance.
 struct Mouth {
   Cell end = kNoCell;
   Cell inner = kNoCell;
   friend bool operator==(const Mouth&, const Mouth&) = default;
 };
 
-// Is this a move from an end of a chain into it?
+// Is the move from `end` to `inner` an entrance of a corridor?
 bool is_mouth(const World& grid, Cell end, Cell inner);
 
 }  // namespace grove::detail::testing

@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kCannotStart = 127;
 
-// A file in memory that the child reads or writes: unlike a pipe it is never full.
+// A file in memory that the child reads or writes. Unlike a pipe it is never full.
 class MemoryFile {
  public:
   explicit MemoryFile(const std::string& text = "") : fd_(::memfd_create("file", MFD_CLOEXEC)) {
@@ -40,9 +40,9 @@ class MemoryFile {
   int fd_;
 };
 
-// In the child: becomes the program. Only async-signal-safe calls.
-[[noreturn]] void become(char* const* arguments, const ProcessOptions& options, int in, int out,
-                         int err) {
+// Executes the program in the child process. Only async-signal-safe calls.
+[[noreturn]] void exec_program(char* const* arguments, const ProcessOptions& options, int in,
+                               int out, int err) {
   const rlimit limit{options.largest_file, options.largest_file};
   const bool ready =
       ::dup2(in, STDIN_FILENO) >= 0 && ::dup2(out, STDOUT_FILENO) >= 0 &&
@@ -61,11 +61,11 @@ pid_t start(const std::vector<std::string>& command, const ProcessOptions& optio
   arguments.push_back(nullptr);
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("fork failed");
-  if (child == 0) become(arguments.data(), options, in.fd(), out.fd(), err.fd());
+  if (child == 0) exec_program(arguments.data(), options, in.fd(), out.fd(), err.fd());
   return child;
 }
 
-// Waits, with the signals that `options` asks for. Returns the wait status.
+// Waits for the child and sends it the signal that `options` specifies. Returns the wait status.
 int wait_for(pid_t child, const ProcessOptions& options, bool& timed_out) {
   const Clock::time_point begin = Clock::now();
   bool signalled = options.signal == 0;

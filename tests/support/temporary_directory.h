@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A folder of a test's own.
+// Temporary directory of one test.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace grove::detail {
 
-// Made on construction, removed with all its files on destruction.
+// Created by the constructor, and removed with all its files by the destructor.
 class TemporaryDirectory {
  public:
   TemporaryDirectory();
@@ -22,14 +22,14 @@ class TemporaryDirectory {
 
   // Writes a file and returns its path.
   std::string write(const std::string& name, std::string_view content) const;
-  // The names of all files, hidden ones too, in order.
+  // The names of all files, including hidden ones, in ascending order.
   std::vector<std::string> files() const;
 
  private:
   std::filesystem::path path_;
 };
 
-// The bytes of a file; throws std::runtime_error when there is none.
+// The bytes of a file. Throws std::runtime_error if the file does not exist.
 std::string file_content(const std::filesystem::path& path);
 
 }  // namespace grove::detail

@@ -80,7 +80,7 @@ class GroveSim(unittest.TestCase):
     def test_instances_that_name_files_elsewhere_are_refused_if_asked(self):
         elsewhere = self.folder / "i.cts.json"
         elsewhere.write_text(json.dumps(json.loads(EASY.read_text()) | {"map": str(DATA / "rooms-32x32.map")}))
-        self.refuses(elsewhere, "--confine", because=["/map", "is an absolute name"])
+        self.refuses(elsewhere, "--confine", because=["/map", "is an absolute path"])
 
     def test_refusals(self):
         self.refuses("missing.cts.json", because=["missing.cts.json"])

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove bench: methods x instances, a table of results.
+// grove bench: runs methods on instances and tabulates the results.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -18,9 +18,9 @@
 #include "io/input_error.h"
 #include "tools/bench/bench_methods.h"
 #include "tools/bench/bench_run.h"
-#include "tools/bench/rehearsal.h"
+#include "tools/bench/method_support.h"
 #include "tools/common/commands.h"
-#include "tools/common/companion.h"
+#include "tools/common/helper_program.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/common/machine.h"
 #include "tools/common/options.h"
@@ -32,37 +32,38 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kShareOfMemory = 0.8;
-constexpr double kSmallestRoom_gb = 0.1;
+constexpr double kMemoryShare = 0.8;
+constexpr double kMinMemory_gb = 0.1;
 constexpr const char* kAll = "*";
 
 constexpr const char* kBenchFooter =
-    R"(INSTANCES is a list (a path on each line, relative to the list, or FILE.scen --map M --agents
-K; # begins a comment), as 'grove generate paper' writes it, or a folder, with all *.cts.json below
-it; or Moving AI's scenarios, a folder or one of them, with --agents 10:100:10 or 10,20,50: the
-first so many rows of each.
+    R"(INSTANCES is one of:
+- a list of instances, as 'grove generate paper' writes it: on each line a path relative to the
+  list, or FILE.scen --map M --agents K; # begins a comment
+- a folder: all *.cts.json below it
+- Moving AI scenarios, a folder or one file, with --agents 10:100:10 or 10,20,50: an instance for
+  each number, of that many first rows of each scenario
 
-A run is 'NAME: OPTIONS OF grove solve'; NAME alone is short for 'NAME: --method NAME'. Each is a
-process of its own, on one thread and with omega 0.01 unless its options say otherwise. All methods
-run on one instance before the next, and the first scenario (_s1_ in its name) of every kind comes
-before any second: what is done at any moment is balanced.
+A run is 'NAME: OPTIONS OF grove solve'; NAME alone is short for 'NAME: --method NAME'. Each run is
+a process of its own, with one thread and omega 0.01 unless its options set other values. All
+methods run on one instance before the next one starts, and the first scenario (_s1_ in its name)
+of every kind comes before any second one, so that the results are balanced at any moment.
 
-DIR/results.jsonl gets a row when a run has ended and its plan was re-checked; DIR/results.csv is
-made from it. The same command goes on where an earlier one stopped, however it stopped: Ctrl-C,
-killed, or with more runs, seeds or instances to do. What ended in an error is tried again; rows of
-the same names with other options, limits or instances are refused. A run counts as solved when it
-ended by itself with a plan, before any limit.
+When a run has ended and its plan was re-checked, it gets a row in DIR/results.jsonl, from which
+DIR/results.csv is made. The same command resumes a benchmark that was stopped by Ctrl-C or killed,
+or that now has more runs, seeds or instances. Runs that ended in an error are repeated. Existing
+rows of the same names with other options, limits or instances are an error.
 
-A run that went on until its limit is not solved, even with a plan: so methods that improve their
-plan as long as they may (cts-cbs-c --anytime) fare worse here than they are. Exits with 130 when
-stopped with runs left.
+A run counts as solved if it ended with a plan before any limit. A run that reached its limit is
+not solved, even with a plan. So this rates methods that improve their plan until the limit
+(cts-cbs-c --anytime) below their worth. Exits with 130 if it was stopped before all runs were done.
 
---solver sets a program of someone else beside it, by an adapter: eecbs, cbsh2-rtc, mapf-lns2,
-lacam3, mgcbs, ita-cbs2, or one of your own (docs/benchmarking.md); options after the program come
-to those of the adapter, or replace them. What it writes is re-checked, and its costs are counted
-anew; a plan that is none is "wrong", one that it only speaks of "claimed", and what cannot be, of
-anybody, is "refuted" at the end. One that goes on until its limit, as its adapter says, is solved
-when it has a plan in time.
+--solver adds an external solver, by an adapter: eecbs, cbsh2-rtc, mapf-lns2, lacam3, mgcbs,
+ita-cbs2, or one of your own (docs/benchmarking.md). Options after the program are added to those
+of the adapter, or replace them. Plans are re-checked and their costs recomputed. An invalid plan
+is "wrong", a plan that the solver only reports is "claimed", and a claim of any method that a
+result of another one disproves is "refuted" at the end. A solver that always runs until its limit,
+according to its adapter, has solved an instance if it has a plan in time.
 
 Examples:
   grove bench movingai/ --agents 10:50:10 --scenarios 'random-32-32-20-random-*' \
@@ -96,11 +97,11 @@ int jobs_of(const BenchArguments& a, const std::vector<bench::Method>& methods) 
   return static_cast<int>(std::max<std::int64_t>(1, usable_cores() / threads));
 }
 
-// Runs that say nothing of memory get their share of the machine's. It does not count as a limit of
-// theirs: results do not depend on it as a rule.
+// Runs without a memory limit get an equal part of the machine's memory. It is not recorded as
+// their limit, because results normally do not depend on it.
 void share_memory(std::vector<bench::Method>& methods, int jobs) {
   const double share =
-      std::max(kSmallestRoom_gb, std::floor(10 * kShareOfMemory * usable_memory_gb() / jobs) / 10);
+      std::max(kMinMemory_gb, std::floor(10 * kMemoryShare * usable_memory_gb() / jobs) / 10);
   for (bench::Method& method : methods) {
     if (method.settings.memory_limit_gb) continue;
     if (method.solver)
@@ -113,15 +114,16 @@ void share_memory(std::vector<bench::Method>& methods, int jobs) {
 std::vector<bench::Method> solvers_of(const BenchArguments& a) {
   std::vector<bench::Method> methods;
   for (bench::NamedSolver& solver : bench::read_solver_arguments(a.solvers, a.claims))
-    methods.push_back({.settings = {.method = solver.name,
-                                    .options = solver.options,
-                                    .omega = "",
-                                    .seed = a.defaults.seed,
-                                    .time_limit_s = a.defaults.time_limit_s,
-                                    .memory_limit_gb = a.defaults.memory_limit_gb},
-                       .threads = solver.solver.adapter.threads,
-                       .memory_gb = a.defaults.memory_limit_gb,
-                       .solver = std::make_shared<bench::ForeignSolver>(std::move(solver.solver))});
+    methods.push_back(
+        {.settings = {.method = solver.name,
+                      .options = solver.options,
+                      .omega = "",
+                      .seed = a.defaults.seed,
+                      .time_limit_s = a.defaults.time_limit_s,
+                      .memory_limit_gb = a.defaults.memory_limit_gb},
+         .threads = solver.solver.adapter.threads,
+         .memory_gb = a.defaults.memory_limit_gb,
+         .solver = std::make_shared<bench::ExternalSolver>(std::move(solver.solver))});
   return methods;
 }
 
@@ -129,8 +131,9 @@ void require_distinct_names(const std::vector<bench::Method>& methods) {
   std::set<std::string> names;
   for (const bench::Method& method : methods)
     if (!names.insert(method.settings.method).second)
-      throw CLI::ValidationError("--solver", fmt::format("a second '{}'; expected distinct names",
-                                                         method.settings.method));
+      throw CLI::ValidationError(
+          "--solver",
+          fmt::format("found a second '{}'; expected distinct names", method.settings.method));
 }
 
 // Each method with each seed.
@@ -154,17 +157,17 @@ std::vector<bench::Method> methods_of(BenchArguments& a) {
   require_distinct_names(methods);
   for (const std::string& run : a.runs)
     if (!a.seeds.empty() && run.find("--seed") != std::string::npos)
-      throw CLI::ValidationError("--seeds", "expected no --seed in a run with it");
+      throw CLI::ValidationError("--seeds", "found --seed in a run; expected only one of them");
   return methods;
 }
 
 std::vector<batch::Entry> entries_of(const BenchArguments& a) {
   const InputRules rules = input_rules(a.confined, default_memory_gb());
   if (a.agents.empty()) {
-    if (a.scenarios != kAll) throw CLI::ValidationError("--scenarios", "expected --agents with it");
+    if (a.scenarios != kAll) throw CLI::ValidationError("--scenarios", "requires --agents");
     if (batch::holds_scenarios(a.instances))
       throw CLI::ValidationError("--agents",
-                                 "required with scenarios: how many of their rows, as "
+                                 "required with scenarios; expected numbers of rows, such as "
                                  "10:100:10 or 10,20,50");
     return batch::read_manifest(a.instances, rules);
   }
@@ -173,8 +176,8 @@ std::vector<batch::Entry> entries_of(const BenchArguments& a) {
       batch::read_scenarios(a.instances, {.agents = agents, .scenarios = a.scenarios}, rules);
   if (swept.too_short > 0)
     say_on_stderr(
-        fmt::format("grove: warning: {} scenario{} fewer rows than the most of --agents; "
-                    "what there is not is left out",
+        fmt::format("grove: warning: {} scenario{} fewer rows than the maximum of --agents; "
+                    "instances with more agents than rows are left out",
                     swept.too_short, swept.too_short == 1 ? " has" : "s have"));
   return std::move(swept.entries);
 }
@@ -183,7 +186,7 @@ void warn_of_unreadable(const std::vector<bench::BenchInstance>& instances) {
   for (const bench::BenchInstance& instance : instances)
     if (!instance.error.empty())
       say_on_stderr(
-          fmt::format("grove: warning: {}; its rows are errors", one_line(instance.error)));
+          fmt::format("grove: warning: {}; its rows have an error", one_line(instance.error)));
 }
 
 void run(const CLI::App& app, BenchArguments& a) {
@@ -197,7 +200,7 @@ void run(const CLI::App& app, BenchArguments& a) {
   stop_on_signals();
   batch::ProgressDisplay display(stderr_style());
   bench::BenchOptions options;
-  options.program = "/proc/self/exe";  // this one, though another may stand in its place by now
+  options.program = "/proc/self/exe";  // this program, even if the file was replaced meanwhile
   options.folder = a.output_dir;
   options.jobs = jobs;
   options.keep_plans = a.keep_plans;
@@ -209,15 +212,15 @@ void run(const CLI::App& app, BenchArguments& a) {
     if (!a.quiet && display.is_due(state.elapsed_s))
       display.show(state.elapsed_s, progress_text(state));
   };
-  rehearse(instances, methods, options);
+  check_method_support(instances, methods, options);
   if (!a.seeds.empty()) methods = with_seeds(methods, a.seeds);
   const bench::BenchState state = run_bench(instances, methods, options);
   if (!a.quiet) display.finish(progress_text(state));
   for (const std::string& version : state.other_versions)
     say_on_stderr(
-        fmt::format("grove: warning: {} holds rows of {}; they stay", a.output_dir, version));
+        fmt::format("grove: warning: {} has rows of {}; they are kept", a.output_dir, version));
   if (state.work.left > 0)
-    say_on_stderr(fmt::format("grove: stopped with {} run{} left; the same command goes on",
+    say_on_stderr(fmt::format("grove: stopped with {} run{} left; repeat the command to resume",
                               state.work.left, state.work.left == 1 ? "" : "s"));
   fmt::print("{}table: {}\n", summary_table(state), batch::csv_file(a.output_dir).string());
   if (state.work.left > 0) throw CommandFailed(kExitInterrupted);
@@ -227,54 +230,58 @@ void run(const CLI::App& app, BenchArguments& a) {
 
 void add_bench_command(CLI::App& root) {
   CLI::App* app =
-      root.add_subcommand("bench", "Run methods on many instances, tabulate the results");
+      root.add_subcommand("bench", "Run methods on many instances and tabulate the results");
   app->footer(kBenchFooter);
   const auto a = std::make_shared<BenchArguments>();
   app->add_option("INSTANCES", a->instances,
-                  "a list of instances, a folder of them, or one; or scenarios")
+                  "list or folder of instances, one instance, or scenarios; see below")
       ->required()
       ->type_name("");
   add_repeated(*app, "--run", a->runs, "'NAME: OPTIONS'",
-               "a method: its name and its options of grove solve; once for each");
+               "method: a name and options of grove solve (repeatable)");
   add_repeated(
       *app, "--solver", a->solvers, "'NAME=COMMAND'",
-      "a program of someone else: eecbs=PROGRAM OPTIONS, by the adapter of that name; "
-      "NAME=ADAPTER:PROGRAM OPTIONS; or NAME=COMMAND with places such as {map}, {scenario}, "
+      "external solver (repeatable): eecbs=PROGRAM OPTIONS, with the adapter of that name; "
+      "NAME=ADAPTER:PROGRAM OPTIONS; or NAME=COMMAND with placeholders such as {map}, "
+      "{scenario}, "
       "{agents}, {instance}, {time_limit}, {seed}, {output}");
-  add_repeated(*app, "--claimed-cost", a->claims, "'NAME=REGEX'",
-               "of a solver that shows no plan: group 1 of the last line that it prints in which "
-               "this is found is the cost that it claims");
+  add_repeated(
+      *app, "--claimed-cost", a->claims, "'NAME=REGEX'",
+      "where solver NAME, which writes no plan, prints the cost that it claims: group 1 of "
+      "REGEX in the last line that matches");
   add_confine_option(*app, a->confined);
-  add_counts(*app, "--agents", a->agents,
-             "of scenarios: the first so many rows, 10:100:10 being 10, 20, ..., 100");
-  app->add_option("--scenarios", a->scenarios, "only those, of a folder; * stands for anything")
+  add_counts(
+      *app, "--agents", a->agents,
+      "numbers of agents, for scenarios: that many first rows; 10:100:10 is 10, 20, ..., 100");
+  app->add_option("--scenarios", a->scenarios,
+                  "use only these scenarios of the folder; * matches any characters")
       ->type_name("NAME*");
-  add_ranges(*app, "--seeds", a->seeds, kSeeds, "", "each run with each of these seeds");
-  app->add_option("--output-dir", a->output_dir, "the folder for the table; made if missing")
+  add_ranges(*app, "--seeds", a->seeds, kSeeds, "", "repeat each run with each of these seeds");
+  app->add_option("--output-dir", a->output_dir, "folder for the table; created if missing")
       ->required()
       ->type_name("DIR");
   add_number(*app, "--time-limit", a->defaults.time_limit_s, 0, 1e9,
-             "seconds for each run whose options do not say otherwise")
+             "time limit of a run whose options set none, seconds")
       ->type_name("S");
   add_number(*app, "--memory-limit", a->memory_limit_gb, 0, 1e6,
-             "gigabytes for each run, likewise. By default 80 % of what there is, divided by the "
-             "runs at a time")
+             "memory limit of a run whose options set none, GB; default: 80 % of the memory "
+             "of the machine or job, divided by --jobs")
       ->type_name("GB")
       ->default_str("");
   add_integer(*app, "--jobs", a->jobs, {1, 1024},
-              "so many runs at a time. By default the cores that this process may use, divided by "
+              "number of concurrent runs; default: cores that this process may use, divided by "
               "the threads of a run")
       ->type_name("J")
       ->default_str("");
-  add_integer(*app, "--seed", a->defaults.seed, kSeeds, "the seed of runs that do not name one");
-  app->add_flag(
-      "--keep-plans", a->keep_plans,
-      "keep the plan files, as DIR/plans/NAME/ID.plan.json; NAME+seed7 with another seed than 0");
+  add_integer(*app, "--seed", a->defaults.seed, kSeeds, "seed of runs whose options set none");
+  app->add_flag("--keep-plans", a->keep_plans,
+                "keep the plan files as DIR/plans/NAME/ID.plan.json; with a seed other than 0, for "
+                "instance 7, under NAME+seed7");
   app->add_flag(
       "--certify", a->certify,
-      "have each of Grove's runs write a certificate of its lower bound, and grove-verify "
-      "check it: column certified");
-  app->add_flag("--quiet", a->quiet, "no progress on the screen");
+      "write a certificate of the lower bound of each run of Grove, and check it by grove-verify: "
+      "column certified");
+  app->add_flag("--quiet", a->quiet, "do not show progress");
   app->callback([app, a] { run(*app, *a); });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is benched, and in which order.
+// The instances of a benchmark, read once, in the order in which they are solved.
 #pragma once
 
 #include <string>
@@ -12,13 +12,14 @@ namespace grove::detail::bench {
 struct BenchInstance {
   batch::Entry entry;
   batch::InstanceFacts facts;
-  std::string kind = {};   // instances of one kind suit the same methods, as a rule
-  std::string error = {};  // why it cannot be read; empty: it can
+  std::string kind = {};   // problem class; whether a method supports an instance depends on it
+  std::string error = {};  // why the instance cannot be read; "" if it can
 };
 
-// All of `entries`, each read once: what cannot be read has an error, and no facts. In the order in
-// which to solve them: the first scenario of each map, number of agents and number of tasks before
-// any second, so that the results at any moment are balanced; otherwise as they stand.
+// Reads each of `entries` once. An entry that cannot be read has an error and no facts. Returns
+// them in the order in which to solve them: the first scenario of each combination of map, number
+// of agents and number of tasks comes before any second scenario, so that the results are balanced
+// at any moment. Otherwise the order is kept.
 std::vector<BenchInstance> balanced(const std::vector<batch::Entry>& entries);
 
 }  // namespace grove::detail::bench

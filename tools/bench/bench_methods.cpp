@@ -21,7 +21,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr const char* kInstance = "INSTANCE";  // stands for any
+constexpr const char* kInstance = "INSTANCE";  // placeholder
 
 Words words_of(const std::string& text) {
   std::istringstream stream(text);
@@ -37,7 +37,7 @@ struct NameAndOptions {
   Words words;
 };
 
-// The name is part of file names and of tables.
+// The name becomes part of file names and tables.
 NameAndOptions split(const std::string& text) {
   const std::size_t colon = text.find(':');
   const Words name = words_of(text.substr(0, colon));
@@ -47,15 +47,14 @@ NameAndOptions split(const std::string& text) {
   };
   if (name.size() != 1 || !std::ranges::all_of(name[0], is_plain) ||
       std::isalnum(static_cast<unsigned char>(name[0][0])) == 0)
-    refuse_method(
-        text,
-        "expected 'NAME: OPTIONS OF grove solve', the name of letters, digits and -_.+= without "
-        "blanks");
+    refuse_method(text,
+                  "expected 'NAME: OPTIONS OF grove solve', where NAME consists of letters, digits "
+                  "and -_.+= and begins with a letter or a digit");
   if (colon == std::string::npos) return {name[0], {"--method", name[0]}};
   return {name[0], words_of(text.substr(colon + 1))};
 }
 
-// The options of grove solve that say which files a run reads and writes.
+// The options of grove solve that name input and output files.
 std::set<std::string> file_options() {
   CLI::App app;
   SolveArguments unused;
@@ -71,10 +70,10 @@ std::set<std::string> file_options() {
 void refuse_file_options(const CLI::App& app, const std::string& text) {
   for (const std::string& name : file_options())
     if (app.count(name) > 0)
-      refuse_method(text, name + ": which files a run reads and writes is up to the bench");
+      refuse_method(text, name + " is not allowed here; the benchmark chooses the files of a run");
 }
 
-// What was given, as one would type it, but for the time limit.
+// Returns the options of the user as command-line words, without the time limit.
 Words given_arguments(const CLI::App& app) {
   Words words;
   for (const CLI::Option* option : app.get_options()) {
@@ -105,12 +104,12 @@ bench::Method read_run(const std::string& text, const RunDefaults& defaults) {
   add_solve_options(app, a);
   Words words{kInstance};
   words.insert(words.end(), given.words.begin(), given.words.end());
-  std::ranges::reverse(words);  // as CLI11 wants them
+  std::ranges::reverse(words);  // CLI11 parses from the back
   bench::Method method;
   try {
     app.parse(words);
   } catch (const CLI::Success&) {
-    refuse_method(text, "asks for help; expected options of a search");
+    refuse_method(text, "found a request for help; expected options of a search");
   } catch (const CLI::ParseError& error) {
     refuse_method(text, parse_error_text(app, error));
   }
@@ -122,7 +121,7 @@ bench::Method read_run(const std::string& text, const RunDefaults& defaults) {
                        .seed = a.seed,
                        .time_limit_s = a.time_limit_s,
                        .memory_limit_gb = defaults.memory_limit_gb};
-  } catch (const CLI::ValidationError& error) {  // they do not fit together
+  } catch (const CLI::ValidationError& error) {  // conflicting options
     refuse_method(text, error.what());
   }
   method.threads = a.threads;
@@ -143,7 +142,7 @@ std::vector<bench::Method> read_runs(const std::vector<std::string>& texts,
   for (const std::string& text : texts) {
     methods.push_back(read_run(text, defaults));
     if (!names.insert(methods.back().settings.method).second)
-      refuse_method(text, "a second run of that name; expected distinct ones");
+      refuse_method(text, "found a second run of that name; expected distinct names");
   }
   return methods;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The methods of a bench, as the command line names them.
+// Methods of a benchmark: parses the values of --run.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,20 @@
 
 namespace grove::detail {
 
-// What holds for runs that do not say otherwise.
+// Defaults for runs whose options do not set these values.
 struct RunDefaults {
   double time_limit_s = *kDefaults.time_limit;
-  std::optional<double> memory_limit_gb = {};  // none: by the machine
+  std::optional<double> memory_limit_gb = {};  // nullopt: a share of the machine's memory
   std::int64_t seed = 0;
 };
 
-// Reads "NAME: OPTIONS OF grove solve" as `grove solve` itself would, so that a slip is found
-// before anything runs; "NAME" alone is short for "NAME: --method NAME". Options that name files
-// are the bench's own. Throws CLI::ValidationError, naming the run.
+// Parses "NAME: OPTIONS OF grove solve" with the option parser of `grove solve`, so that a mistake
+// is found before any run starts. "NAME" without a colon is short for "NAME: --method NAME".
+// Options that name files are refused, because the benchmark sets them. Throws
+// CLI::ValidationError, which names the run.
 bench::Method read_run(const std::string& text, const RunDefaults& defaults);
 
-// The same of several, whose names must differ.
+// The same for several runs, whose names must be distinct.
 std::vector<bench::Method> read_runs(const std::vector<std::string>& texts,
                                      const RunDefaults& defaults);
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A worker is a thread that runs one child after the other, judges each and writes its row: as many
-// workers as children may run, so that judging takes no core from them. One mutex guards the table
-// and the counts; children run, and plans are checked, outside of it.
+// A worker thread runs one child process after another, evaluates the outcome and writes its row.
+// There are as many workers as children may run, so evaluation takes no core from them. One mutex
+// guards the table and the counts; it is not held while children run or plans are checked.
 //
-// A row is written only when the run has ended and was judged; a plan that is kept is in its place
-// before. Whatever ends this process therefore leaves no row of what was under way, and its
-// children die with it.
+// A row is written only after the run has ended and was evaluated, and after its plan, if kept, is
+// in place. So if this process ends, for whatever reason, there is no row of a run in progress; its
+// children are killed with it.
 #include "tools/bench/bench_run.h"
 
 #include <fmt/format.h>
@@ -24,8 +24,8 @@
 #include "io/instance_file.h"
 #include "io/plan_file.h"
 #include "tools/bench/child_process.h"
-#include "tools/bench/judge.h"
 #include "tools/bench/root_costs.h"
+#include "tools/bench/run_outcome.h"
 
 namespace grove::detail::bench {
 namespace {
@@ -33,11 +33,11 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kCsvInterval_s = 30;  // the whole file is written each time
-// The disk takes longer than a quick run. What a crash of the machine loses is run again.
+constexpr double kCsvInterval_s = 30;  // each time the whole file is written
+// A flush takes longer than a short run. Rows lost in a crash of the machine are run again.
 constexpr double kFlushInterval_s = 1;
 constexpr auto kWatchInterval = std::chrono::milliseconds(100);
-constexpr double kLongestCheck_s = 3600;
+constexpr double kMaxCheckTime_s = 3600;
 
 class Bench {
  public:
@@ -51,12 +51,12 @@ class Bench {
         todo_(table_.begin(runs_)),
         root_costs_(instances.size(), options.root_cost_s,
                     static_cast<std::size_t>(options.root_cost_gb * 1e9)) {
-    count_rows_that_stand();
+    count_existing_rows();
     under_way_.resize(workers());
   }
 
   BenchState run() {
-    fs::remove_all(scratch());  // of a bench that was killed
+    fs::remove_all(scratch());  // left by a benchmark that was killed
     batch::make_folder(scratch());
     std::vector<std::jthread> threads;
     for (std::size_t worker = 0; worker < workers(); ++worker)
@@ -80,7 +80,7 @@ class Bench {
     Clock::time_point since;
   };
 
-  // --- which runs there are ---
+  // --- runs ---
 
   std::vector<batch::Run> runs() const {
     std::vector<batch::Run> runs;
@@ -92,7 +92,7 @@ class Bench {
   const Method& method_of(std::size_t run) const { return methods_[run % methods_.size()]; }
   std::size_t instance_index(std::size_t run) const { return run / methods_.size(); }
 
-  void count_rows_that_stand() {
+  void count_existing_rows() {
     state_.work.left = static_cast<int>(runs_.size());
     state_.work.workers = static_cast<int>(std::max<std::size_t>(1, workers()));
     for (const Method& method : methods_) {
@@ -120,7 +120,7 @@ class Bench {
     } catch (...) {
       const std::lock_guard lock(mutex_);
       if (!failure_) failure_ = std::current_exception();
-      failed_ = true;  // the others need not go on
+      failed_ = true;  // stops the other workers
     }
     --working_;
   }
@@ -135,14 +135,14 @@ class Bench {
 
   bool must_stop() const { return failed_ || options_.stopped(); }
 
-  // What a run writes, of each worker.
+  // Files of a run, per worker.
   struct Files {
     fs::path plan;
-    fs::path said;
+    fs::path output_file;
     fs::path log;
-    fs::path folder;  // of another solver
+    fs::path folder;  // of an external solver
     fs::path proof;
-    fs::path instance;  // for the checker, where it is a scenario
+    fs::path instance;  // for the certificate checker if the entry is a scenario
   };
   Files files_of(std::size_t worker) const {
     const auto named = [&](const char* end) {
@@ -162,32 +162,32 @@ class Bench {
     try {
       if (const std::string& why = instances_[instance_index(run)].error; !why.empty())
         row.outcome = {.error = why};
-      else if (!(method.solver ? solve_by_other(row, run, files_of(worker))
+      else if (!(method.solver ? solve_externally(row, run, files_of(worker))
                                : solve(row, run, files_of(worker))))
         return;
     } catch (const InputError& error) {
       row.outcome = {.error = error.what()};
     }
-    if (row.outcome.interrupted() && must_stop()) return;  // the signal was for us all
+    if (row.outcome.interrupted() && must_stop()) return;  // the signal went to all processes
     row.ended_at = batch::machine_clock().utc();
     if (row.outcome.version.empty()) row.outcome.version = options_.version;
     record(row);
   }
 
   ChildEnd run_one(const std::vector<std::string>& command, batch::Row& row, const Files& files,
-                   bool knows_the_limit, std::optional<double> memory_gb) const {
+                   bool receives_time_limit, std::optional<double> memory_gb) const {
     const double limit = row.run.settings.time_limit_s;
     const double grace = limit * (options_.grace_factor - 1) + options_.grace_s;
-    const ChildEnd end = run_child(command, files.said,
-                                   {.seconds = knows_the_limit ? limit + grace : limit,
+    const ChildEnd end = run_child(command, files.output_file,
+                                   {.seconds = receives_time_limit ? limit + grace : limit,
                                     .cancelled = [this] { return must_stop(); },
                                     .memory_gb = memory_gb});
     row.wall_s = end.wall_s;
     return end;
   }
 
-  // False: it was cancelled. Reads the instance anew when it has ended: what is re-checked depends
-  // on the files alone.
+  // Returns false if the run was cancelled. Reads the instance again after the run, so that the
+  // check depends only on the files.
   bool solve(batch::Row& row, std::size_t run, const Files& files) {
     const std::size_t index = instance_index(run);
     const double limit = row.run.settings.time_limit_s;
@@ -201,10 +201,11 @@ class Bench {
     const ChildEnd end = run_one(command, row, files, true, std::nullopt);
     if (end.kind == ChildEnd::Kind::kCancelled) return false;
     const LoadedInstance loaded = load(instances_[index].entry);
-    row.outcome = is_refusal(end)
-                      ? batch::Outcome{.status = batch::kUnsuitable,
-                                       .error = refusal(files.said, instances_[index].entry.path)}
-                      : judged(end, limit, loaded.instance, files.plan, files.said);
+    row.outcome =
+        is_refusal(end)
+            ? batch::Outcome{.status = batch::kUnsupported,
+                             .error = refusal(files.output_file, instances_[index].entry.path)}
+            : outcome_of_run(end, limit, loaded.instance, files.plan, files.output_file);
     if (!row.outcome.failed()) row.outcome.trace = trace_of_log(files.log);
     if (!row.outcome.trace.empty()) row.outcome.first_plan_s = row.outcome.trace.front().seconds;
     if (fs::exists(files.proof) && !certify(row.outcome, index, loaded, files)) return false;
@@ -213,7 +214,7 @@ class Bench {
     return true;
   }
 
-  // False: it was cancelled.
+  // Returns false if the check was cancelled.
   bool certify(batch::Outcome& outcome, std::size_t index, const LoadedInstance& loaded,
                const Files& files) const {
     const batch::Entry& entry = instances_[index].entry;
@@ -225,31 +226,31 @@ class Bench {
     }
     std::vector<std::string> command{options_.verify, instance.string(), files.proof.string()};
     if (entry.rules.confined && entry.agents == 0) command.push_back("--confine");
-    const ChildEnd end = run_child(command, files.said,
-                                   {.seconds = kLongestCheck_s,
+    const ChildEnd end = run_child(command, files.output_file,
+                                   {.seconds = kMaxCheckTime_s,
                                     .cancelled = [this] { return must_stop(); },
                                     .memory_gb = std::nullopt});
     if (end.kind == ChildEnd::Kind::kCancelled) return false;
     outcome.verify_s = end.wall_s;
     outcome.proof_bytes = static_cast<std::int64_t>(fs::file_size(files.proof));
-    outcome.certified = is_verified(outcome, end, files.said);
+    outcome.certified = is_verified(outcome, end, files.output_file);
     return true;
   }
 
-  bool solve_by_other(batch::Row& row, std::size_t run, const Files& files) {
+  bool solve_externally(batch::Row& row, std::size_t run, const Files& files) {
     const std::size_t index = instance_index(run);
     const LoadedInstance loaded = load(instances_[index].entry);
     try {
       const Method& method = method_of(run);
-      ForeignRun foreign(*method.solver, instances_[index].entry, loaded, row.run.settings,
-                         files.folder);
+      ExternalRun external(*method.solver, instances_[index].entry, loaded, row.run.settings,
+                           files.folder);
       const ChildEnd end =
-          run_one(foreign.command(), row, files, foreign.knows_the_limit(), method.memory_gb);
+          run_one(external.command(), row, files, external.receives_time_limit(), method.memory_gb);
       if (end.kind == ChildEnd::Kind::kCancelled) return false;
-      row.outcome = foreign.judged(end, files.said);
-      if (options_.keep_plans) keep(foreign, loaded.instance, files, row);
+      row.outcome = external.outcome_of_run(end, files.output_file);
+      if (options_.keep_plans) keep(external, loaded.instance, files, row);
     } catch (const NotRepresentable& error) {
-      row.outcome = {.status = batch::kUnsuitable,
+      row.outcome = {.status = batch::kUnsupported,
                      .error = fmt::format("{}: {}", error.field(), error.what())};
     }
     row.root_cost = root_costs_.of(index, loaded.instance);
@@ -270,14 +271,14 @@ class Bench {
     fs::rename(file, kept);
   }
 
-  // Of another solver: as a plan file of Grove's; what is none as it is.
-  void keep(const ForeignRun& foreign, const Instance& instance, const Files& files,
+  // For external solvers: keeps a valid plan as a plan file of Grove, and an invalid one unchanged.
+  void keep(const ExternalRun& external, const Instance& instance, const Files& files,
             batch::Row& row) const {
-    if (foreign.shown()) {
-      write_solution(files.plan, instance, *foreign.shown());
+    if (external.valid_plan()) {
+      write_solution(files.plan, instance, *external.valid_plan());
       keep(files.plan, plan_name(row), row);
-    } else if (row.outcome.status == batch::kWrongPlan) {
-      keep(foreign.plan(), plan_name(row) + ".wrong", row);
+    } else if (row.outcome.status == batch::kInvalidPlan) {
+      keep(external.plan(), plan_name(row) + ".wrong", row);
     }
   }
 
@@ -294,7 +295,7 @@ class Bench {
     next_csv_s_ = seconds() + kCsvInterval_s;
   }
 
-  // --- what one sees of it ---
+  // --- progress ---
 
   BenchState state() {
     const std::lock_guard lock(mutex_);
@@ -319,7 +320,7 @@ class Bench {
   const std::vector<std::size_t> todo_;  // of runs_
   RootCosts root_costs_;
 
-  std::mutex mutex_;  // guards the table and all below
+  std::mutex mutex_;  // guards table_ and all members below, except for the atomics
   std::size_t next_ = 0;
   BenchState state_;
   std::vector<UnderWay> under_way_;  // by worker

@@ -20,18 +20,18 @@
 namespace grove::detail::bench {
 namespace {
 
-constexpr int kLookInterval_ms = 100;
+constexpr int kPollInterval_ms = 100;
 
 [[noreturn]] void fail(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-// Between fork() and exec(), where only what is safe in a signal handler may be called.
-[[noreturn]] void become(char* const* arguments, pid_t parent, int input, int output,
-                         const rlimit* memory) {
+// Runs between fork() and exec(), so it calls only async-signal-safe functions.
+[[noreturn]] void exec_child(char* const* arguments, pid_t parent, int input, int output,
+                             const rlimit* memory) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   ::setpgid(0, 0);
-  const bool orphaned = ::getppid() != parent;  // before the line above could help
+  const bool orphaned = ::getppid() != parent;  // the parent ended before prctl()
   if (memory != nullptr) ::setrlimit(RLIMIT_DATA, memory);
   if (!orphaned && ::dup2(input, STDIN_FILENO) >= 0 && ::dup2(output, STDOUT_FILENO) >= 0 &&
       ::dup2(output, STDERR_FILENO) >= 0)
@@ -50,7 +50,7 @@ ChildEnd ended(pid_t pid) {
   return end;
 }
 
-// A child that is not waited for yet, and its group, which it may not have made yet.
+// Kills a child that was not waited for yet, and its process group, which may not exist yet.
 void kill_all(pid_t pid) {
   ::kill(-pid, SIGKILL);
   ::kill(pid, SIGKILL);
@@ -62,15 +62,15 @@ double system_seconds() {
 
 }  // namespace
 
-ChildEnd run_child(const std::vector<std::string>& command, const std::filesystem::path& said,
-                   const ChildLimits& limits) {
+ChildEnd run_child(const std::vector<std::string>& command,
+                   const std::filesystem::path& output_file, const ChildLimits& limits) {
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   const FileDescriptor input("/dev/null", O_RDONLY);
   if (!input.is_open()) fail("/dev/null");
-  const FileDescriptor output(said, O_WRONLY | O_CREAT | O_TRUNC);
-  if (!output.is_open()) fail(said.c_str());
+  const FileDescriptor output(output_file, O_WRONLY | O_CREAT | O_TRUNC);
+  if (!output.is_open()) fail(output_file.c_str());
 
   rlimit memory{};
   memory.rlim_cur = memory.rlim_max = static_cast<rlim_t>(limits.memory_gb.value_or(0) * 1e9);
@@ -80,10 +80,10 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
   const pid_t pid = ::fork();
   if (pid < 0) fail("fork");
   if (pid == 0)
-    become(arguments.data(), parent, input.get(), output.get(),
-           limits.memory_gb ? &memory : nullptr);
+    exec_child(arguments.data(), parent, input.get(), output.get(),
+               limits.memory_gb ? &memory : nullptr);
 
-  // glibc 2.36 declares pidfd_open() for C alone.
+  // glibc 2.36 declares pidfd_open() only for C.
   const FileDescriptor process(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
   if (!process.is_open()) {
     const int error = errno;
@@ -92,16 +92,16 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
     errno = error;
     fail("pidfd_open");
   }
-  auto killed = ChildEnd::Kind::kExited;  // that is: not
+  auto killed = ChildEnd::Kind::kExited;  // kExited: not killed
   for (;;) {
     pollfd wait{process.get(), POLLIN, 0};
-    if (::poll(&wait, 1, kLookInterval_ms) > 0) break;
+    if (::poll(&wait, 1, kPollInterval_ms) > 0) break;
     if (killed != ChildEnd::Kind::kExited) continue;
     if (limits.cancelled()) killed = ChildEnd::Kind::kCancelled;
     if (seconds() - start > limits.seconds) killed = ChildEnd::Kind::kTooLong;
     if (killed != ChildEnd::Kind::kExited) kill_all(pid);
   }
-  kill_all(pid);  // what it left behind
+  kill_all(pid);  // remaining processes of its group
   const double wall_s = seconds() - start;
   ChildEnd end = ended(pid);
   end.wall_s = wall_s;

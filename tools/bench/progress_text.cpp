@@ -17,7 +17,7 @@ std::string median_text(std::vector<double> values) {
   return fmt::format("{:.2f}", median);
 }
 
-// The first column to the left, the others to the right.
+// The first column is left-aligned, the others right-aligned.
 std::string table_text(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths(rows.front().size());
   for (const auto& row : rows)
@@ -38,20 +38,20 @@ std::string refuted_text(const std::vector<batch::FalseClaim>& claims) {
     text +=
         fmt::format("refuted: {} on {} {}\n", claims[k].method, claims[k].instance, claims[k].what);
   if (claims.size() > kShown)
-    text += fmt::format("refuted: and {} more; grove report lists all\n", claims.size() - kShown);
+    text += fmt::format("refuted: {} more; grove report lists all\n", claims.size() - kShown);
   return text;
 }
 
 }  // namespace
 
 void MethodCount::count(const batch::Row& row) {
-  if (row.outcome.status == batch::kUnsuitable) {
+  if (row.outcome.status == batch::kUnsupported) {
     ++unsuitable;
     return;
   }
   ++runs;
   errors += row.outcome.failed() ? 1 : 0;
-  wrong += row.outcome.status == batch::kWrongPlan ? 1 : 0;
+  wrong += row.outcome.status == batch::kInvalidPlan ? 1 : 0;
   claimed += row.outcome.status == batch::kClaimed ? 1 : 0;
   solved += row.outcome.solved ? 1 : 0;
   runtimes_s.push_back(row.runtime_s());
@@ -90,8 +90,9 @@ std::string summary_table(const BenchState& state) {
     lines[name] = {name, fmt::format("{}/{}", count.solved, count.runs),
                    median_text(count.runtimes_s), std::to_string(count.errors)};
   }
-  std::string legend = "median s: of all runs; one that is not solved counts as its time limit\n";
-  // Only where there is something to tell.
+  std::string legend =
+      "median s: over all runs; a run that is not solved counts as its time limit\n";
+  // Adds a column if a value is not 0.
   const auto add = [&](const char* title, const char* meaning, const auto& value) {
     const auto has_some = [&](const std::string& name) { return value(name) > 0; };
     if (std::ranges::none_of(state.methods, has_some)) return;
@@ -100,15 +101,15 @@ std::string summary_table(const BenchState& state) {
       lines[name].push_back(std::to_string(value(name)));
     legend += fmt::format("{}: {}\n", title, meaning);
   };
-  add("wrong", "a plan that is none; the table tells why, in its column error",
+  add("invalid", "invalid plans; the column error of the table has the reason",
       [&](const std::string& name) { return state.counts.at(name).wrong; });
-  add("claimed", "the solver says that it has a plan, and shows none",
+  add("claimed", "the solver reports a plan but wrote none",
       [&](const std::string& name) { return state.counts.at(name).claimed; });
-  add("refuted", "a cost or a bound that cannot be; they are listed below",
+  add("refuted", "a claimed cost or bound is impossible; see the list below",
       [&](const std::string& name) {
         return std::ranges::count(state.false_claims, name, &batch::FalseClaim::method);
       });
-  add("unsuitable", "instances that the method is not for, left out",
+  add("unsupported", "instances that the method does not support, excluded",
       [&](const std::string& name) { return state.counts.at(name).unsuitable; });
   std::vector<std::vector<std::string>> rows{header};
   for (const std::string& name : state.methods) rows.push_back(lines[name]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a bench is, in words.
+// Progress and summary of a benchmark as text.
 #pragma once
 
 #include <map>
@@ -13,36 +13,36 @@
 
 namespace grove::detail::bench {
 
-// What has become of a method's runs.
+// Counts over the runs of one method.
 struct MethodCount {
   int runs = 0;
   int solved = 0;
   int errors = 0;
-  int wrong = 0;                        // plans that are none
-  int claimed = 0;                      // without a plan
-  int unsuitable = 0;                   // instances that the method is not for; not among the runs
-  std::vector<double> runtimes_s = {};  // of those not solved the time limit
+  int wrong = 0;                        // runs with an invalid plan
+  int claimed = 0;                      // runs that claim a plan but wrote none
+  int unsuitable = 0;                   // instances outside the method's class; not in `runs`
+  std::vector<double> runtimes_s = {};  // the time limit for runs that are not solved
 
   void count(const batch::Row& row);
 };
 
-// A bench at one moment. Runs of earlier commands count as done.
+// A benchmark at one moment. Runs of earlier commands count as done.
 struct BenchState {
   std::vector<std::string> methods;           // in the order of the command line
-  std::map<std::string, MethodCount> counts;  // of all of them
+  std::map<std::string, MethodCount> counts;  // of all methods
   batch::Workload work = {};
-  double elapsed_s = 0;                              // since this command began
-  std::set<std::string> other_versions = {};         // of the program, that made rows which stand
-  std::vector<batch::FalseClaim> false_claims = {};  // known when it has ended
+  double elapsed_s = 0;                              // since this command started
+  std::set<std::string> other_versions = {};         // other Grove versions among existing rows
+  std::vector<batch::FalseClaim> false_claims = {};  // filled when the benchmark ends
 
   void count(const batch::Row& row);
 };
 
-// "41/135 done; 2:05 gone, about 4:10 left; solved: cts-cbs-a 20/21, auto 20/20; 1 error"
+// "41/135 done; 2:05 elapsed, about 4:10 left; solved: cts-cbs-a 20/21, auto 20/20; 1 error"
 batch::ProgressText progress_text(const BenchState& state);
 
-// A line for each method: solved of those run, the median runtime, errors, and what else there is;
-// then what that means, and the false claims, the first of many.
+// A line per method: solved and total runs, median runtime, errors, and further counts that are not
+// 0. Then a legend, and the false claims (only the first of many).
 std::string summary_table(const BenchState& state);
 
 }  // namespace grove::detail::bench

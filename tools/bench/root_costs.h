@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the first roots of instances cost, worked out once each.
+// Root costs of instances (see sum_of_best_sequences()), computed once each.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,15 @@
 
 namespace grove::detail::bench {
 
-// Of any thread: whoever asks first for an instance does the work, others for the same one wait.
+// Thread-safe. The first caller for an instance computes; others for the same one wait.
 class RootCosts {
  public:
-  // Of so many instances; each may take `seconds` and let the process grow to `bytes`.
+  // For `instances` instances. Each computation takes at most `seconds` and may let the process
+  // grow to `bytes`.
   RootCosts(std::size_t instances, double seconds, std::size_t bytes);
 
-  // sum_of_best_sequences() of `instance`, which is number `index`; none when there is no way for
-  // some agent, or when it took too long.
+  // Returns sum_of_best_sequences() of `instance`, which has number `index`. Returns nullopt if
+  // some agent has no path or a limit was reached.
   std::optional<Cost> of(std::size_t index, const Instance& instance);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// --solver NAME=COMMAND: which adapter and which program it means.
+// Parses --solver NAME=COMMAND: finds the adapter and the program.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "io/input_error.h"
-#include "tools/bench/foreign_solver.h"
+#include "tools/bench/external_solver.h"
 
 namespace grove::detail::bench {
 namespace {
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
   throw CLI::ValidationError(fmt::format("--solver '{}'", one_line(text)), why);
 }
 
-// Beside the program, or where it is installed.
+// The folder of shipped adapters: the installed one, else the one beside the program.
 fs::path adapter_folder() {
   const fs::path own = fs::read_symlink("/proc/self/exe").parent_path();
   const fs::path installed = own.parent_path() / "share/grove/solvers";
@@ -45,7 +45,8 @@ NamedText split(const std::string& argument, const std::string& option) {
   if (equals == std::string::npos || name.empty() || !std::ranges::all_of(name, is_plain) ||
       std::isalnum(static_cast<unsigned char>(name[0])) == 0)
     throw CLI::ValidationError(fmt::format("{} '{}'", option, one_line(argument)),
-                               "expected NAME=..., the name of letters, digits and -_.+");
+                               "expected NAME=..., where NAME consists of letters, digits and -_.+ "
+                               "and begins with a letter or a digit");
   return {name, argument.substr(equals + 1)};
 }
 
@@ -55,12 +56,12 @@ SolverAdapter adapter_called(const std::string& name, const std::string& text) {
   if (!name.ends_with(".json") && !fs::exists(file))
     refuse(text,
            fmt::format("no adapter is called '{}'; expected one of {}, a file FILE.json, or a "
-                       "command with places such as {{instance}} and {{output}}",
+                       "command with placeholders such as {{instance}} and {{output}}",
                        one_line(name), fmt::join(known_adapters(), ", ")));
   return read_solver(file);
 }
 
-// Found as a shell would.
+// Searches PATH as a shell does.
 std::string path_of_program(const std::string& program, const std::string& text) {
   std::error_code error;
   const bool is_path = program.find('/') != std::string::npos;
@@ -69,7 +70,8 @@ std::string path_of_program(const std::string& program, const std::string& text)
        CLI::detail::split(is_path || folders == nullptr ? "" : folders, ':'))
     if (const fs::path path = fs::path(folder) / program; fs::is_regular_file(path, error)) {
       if (::access(path.c_str(), X_OK) == 0) return fs::absolute(path).string();
-      refuse(text, fmt::format("{} may not be run; expected a program", one_line(path.string())));
+      refuse(text,
+             fmt::format("{} is not executable; expected a program", one_line(path.string())));
     }
   refuse(text, fmt::format("there is no program {}{}", one_line(program),
                            is_path ? "" : " in the folders of PATH"));
@@ -79,9 +81,9 @@ bool is_whole_command(const std::vector<std::string>& words) {
   return names(words, "instance") || names(words, "map") || names(words, "scenario");
 }
 
-ForeignSolver solver_of_command(const std::string& name, std::vector<std::string> words,
-                                const std::string& text) {
-  ForeignSolver solver{.adapter = {.name = name}, .program = path_of_program(words[0], text)};
+ExternalSolver solver_of_command(const std::string& name, std::vector<std::string> words,
+                                 const std::string& text) {
+  ExternalSolver solver{.adapter = {.name = name}, .program = path_of_program(words[0], text)};
   words[0] = "{program}";
   SolverAdapter& adapter = solver.adapter;
   adapter.input = names(words, "instance") ? SolverInput::kGrove : SolverInput::kMovingAi;
@@ -92,7 +94,8 @@ ForeignSolver solver_of_command(const std::string& name, std::vector<std::string
   return solver;
 }
 
-// What is given replaces what the adapter says: many programs refuse an option given twice.
+// Options of the user replace those of the adapter, because many programs refuse an option given
+// twice.
 void drop_option(std::vector<std::string>& command, const std::string& option) {
   if (!option.starts_with('-')) return;
   const auto it = std::ranges::find(command, option);
@@ -101,12 +104,12 @@ void drop_option(std::vector<std::string>& command, const std::string& option) {
   command.erase(it, it + (has_value ? 2 : 1));
 }
 
-// "eecbs=/opt/eecbs", or another adapter before the first colon.
-ForeignSolver solver_of_adapter(const std::string& name, const std::vector<std::string>& words,
-                                const std::string& text) {
+// "eecbs=/opt/eecbs", or "NAME=ADAPTER:PROGRAM" with another adapter before the first colon.
+ExternalSolver solver_of_adapter(const std::string& name, const std::vector<std::string>& words,
+                                 const std::string& text) {
   const std::size_t colon = words[0].find(':');
   const bool is_named = colon != std::string::npos;
-  ForeignSolver solver{
+  ExternalSolver solver{
       .adapter = adapter_called(is_named ? words[0].substr(0, colon) : name, text),
       .program = path_of_program(is_named ? words[0].substr(colon + 1) : words[0], text)};
   for (std::size_t i = 1; i < words.size(); ++i) drop_option(solver.adapter.command, words[i]);
@@ -145,10 +148,9 @@ void add_claim(std::vector<NamedSolver>& solvers, const std::string& claim) {
 void require_something_to_read(const NamedSolver& solver) {
   const SolverAdapter& adapter = solver.solver.adapter;
   if (adapter.plan.empty() && !adapter.cost && !adapter.solved)
-    refuse(solver.name,
-           fmt::format("writes no plan to {{output}}, and nothing says what to read instead; "
-                       "expected {{output}}, or --claimed-cost '{}=REGEX'",
-                       solver.name));
+    refuse(solver.name, fmt::format("has no {{output}} for a plan and no pattern for a cost; "
+                                    "expected {{output}}, or --claimed-cost '{}=REGEX'",
+                                    solver.name));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove check INSTANCE PLAN
+// grove check INSTANCE PLAN.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,14 +21,16 @@ constexpr std::size_t kMostViolations = 20;
 
 constexpr const char* kCheckFooter =
     R"(Recomputes every path, visit, conflict and cost with code of its own, and compares status, cost,
-lower bound and omega. It shares the file readers and the model of the world with the search. It
-does not verify the lower bound; grove-verify does, from a certificate.
+lower bound and omega with the claims of the file. It shares the file readers and the model of the
+world with the search. It does not verify the lower bound; grove-verify does, from a certificate.
 
-PLAN may also be what other solvers write: the path lists of EECBS, CBSH2-RTC and MAPF-LNS2
-(--outputPaths) or the text of lacam and pibt. What they do not claim is named, and not checked.
+PLAN may also be the output of another solver: the path lists of EECBS, CBSH2-RTC and MAPF-LNS2
+(--outputPaths) or the text of lacam and pibt. The output then lists what the file does not claim,
+which is not checked.
 
-Prints one line that begins with 'valid:' and exits with 0; or says on stderr what is wrong, one
-line each, and exits with 2. A file without a plan (status unknown or infeasible) is not valid.
+If the plan is valid, prints one line that begins with 'valid:' and exits with 0. Otherwise prints
+each violation on standard error and exits with 2. A file without a plan (status unknown or
+infeasible) is not valid.
 
 Examples:
   grove check benchmarks/data/first.cts.json plan.json
@@ -58,8 +60,8 @@ void print_verdict(const ClaimedPlan& claimed) {
 
 void print_violations(const std::string& file, const std::vector<Violation>& violations) {
   for (const Violation& violation : violations)
-    say_on_stderr(
-        fmt::format("{}: {}: {}", one_line(file), violation.place, one_line(violation.message)));
+    say_on_stderr(fmt::format("{}: {}: {}", one_line(file), violation.json_pointer,
+                              one_line(violation.message)));
   if (violations.size() >= kMostViolations)
     say_on_stderr(fmt::format("{}: stopped after {} violations", one_line(file), kMostViolations));
 }
@@ -69,7 +71,7 @@ LoadedInstance load_before_plan(const InstanceArguments& instance) {
     return instance.load();
   } catch (const WrongFileKind& error) {
     throw InputError(instance.name(), "",
-                     fmt::format("found {}; expected an instance, and its plan after it: 'grove "
+                     fmt::format("found {}; expected an instance before its plan: 'grove "
                                  "check INSTANCE PLAN'",
                                  error.found()));
   }
@@ -89,12 +91,13 @@ void run(const CheckArguments& arguments) {
 
 void add_check_command(CLI::App& app) {
   const auto arguments = std::make_shared<CheckArguments>();
-  CLI::App* command = app.add_subcommand("check", "Re-check a plan from the files alone");
+  CLI::App* command =
+      app.add_subcommand("check", "Check a plan with code independent of the search");
   command->footer(kCheckFooter);
   arguments->instance.add_to(*command);
   command
       ->add_option("PLAN", arguments->plan,
-                   "plan file to check, or another solver's paths; - is standard input")
+                   "plan file, or paths of another solver; -: standard input")
       ->required()
       ->type_name("");
   command->callback([arguments] { run(*arguments); });

@@ -14,7 +14,7 @@ std::string one_line_of(const std::string& text) {
   return line;
 }
 
-// A value's name that lists all that it may be: "auto|fixed|free".
+// Returns the choices that the name of a value lists: "auto|fixed|free"; none for other names.
 std::vector<std::string> choices_of(const std::string& value) {
   const bool is_list = value.find('|') != std::string::npos &&
                        std::ranges::none_of(value, [](char c) { return c >= 'A' && c <= 'Z'; });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a program says of its commands and options, as data: help, manual pages and the completions
-// of shells are made of the one table that the command line is parsed by.
+// Descriptions of a program's commands and options as data. Help, manual pages and shell
+// completions are made from the table by which the command line is parsed.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -10,10 +10,10 @@
 namespace grove::detail {
 
 struct OptionText {
-  std::vector<std::string> names;  // "-o", "--output"; of a positional: "INSTANCE"
-  std::string value;               // "FILE.html"; empty: takes none
+  std::vector<std::string> names;  // "-o", "--output"; of a positional argument: "INSTANCE"
+  std::string value;               // "FILE.html"; "" for a flag
   std::string description;         // in one line
-  std::string preset;              // the default; empty: none
+  std::string preset;              // default value; "" if there is none
   std::vector<std::string> choices;
   bool is_positional = false;
 };
@@ -21,9 +21,9 @@ struct OptionText {
 struct CommandText {
   std::string name;         // "grove generate map"
   std::string word;         // "map"
-  std::string description;  // the first line of a program's: in one sentence
+  std::string description;  // of a program: the first sentence
   std::string footer;
-  std::vector<OptionText> options;  // those in its help
+  std::vector<OptionText> options;  // those that its help shows
   std::vector<CommandText> commands;
 
   // "[OPTIONS] INSTANCE".

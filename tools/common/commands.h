@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The subcommands of grove. Each function adds one to `app`; the command runs as its callback while
-// the command line is parsed. Commands throw: InputError for bad input, CLI::ParseError for bad
-// usage, CommandFailed when they have said themselves what is wrong; anything else is an internal
-// failure. grove.cpp turns that into exit codes.
+// the command line is parsed. Commands throw InputError for bad input, CLI::ParseError for bad
+// usage, and CommandFailed if they have printed the error themselves. Any other exception is an
+// internal failure. program.h turns exceptions into exit codes.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -13,8 +13,8 @@ namespace grove::detail {
 inline constexpr int kExitSuccess = 0;
 inline constexpr int kExitInternalFailure = 1;
 inline constexpr int kExitBadInput = 2;
-inline constexpr int kExitNoPlan = 3;         // where one was required
-inline constexpr int kExitInterrupted = 130;  // before all was done, as shells say of Ctrl-C
+inline constexpr int kExitNoPlan = 3;         // although a plan was required
+inline constexpr int kExitInterrupted = 130;  // by Ctrl-C, as shells report it
 
 class CommandFailed : public std::exception {
  public:
@@ -30,7 +30,7 @@ void add_check_command(CLI::App& app);
 void add_execute_command(CLI::App& app);
 void add_generate_command(CLI::App& app);
 void add_replan_command(CLI::App& app);
-void add_companion_commands(CLI::App& app);
+void add_helper_commands(CLI::App& app);
 void add_convert_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
 void add_proof_command(CLI::App& app);

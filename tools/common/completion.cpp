@@ -43,7 +43,7 @@ std::string bash_words(const CommandText& command) {
                      fmt::join(command_words(command), " "), fmt::join(option_names(command), " "));
 }
 
-// What may follow an option.
+// The values that may follow an option.
 std::string bash_values(const CommandText& command) {
   std::string text;
   for (const OptionText& option : command.options) {
@@ -97,7 +97,7 @@ complete -o bashdefault -o default -F {1} {0}
 
 // --- zsh ---
 
-// Within '...[...]'.
+// Escapes text for use within '...[...]'.
 std::string zsh_quoted(const std::string& text) {
   std::string made;
   for (const char c : text) {
@@ -180,7 +180,7 @@ std::string fish_quoted(const std::string& text) {
   return "'" + made + "'";
 }
 
-// When the words so far are those of this command, and of none below it.
+// The condition that the words so far are those of this command and of no subcommand.
 std::string fish_condition(const CommandText& program, const CommandText& command) {
   std::string condition;
   for (const std::string& word : CLI::detail::split(command.name, ' '))

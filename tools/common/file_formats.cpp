@@ -15,18 +15,18 @@ namespace {
 
 template <typename Format>
 struct Entry {
-  std::string_view name;  // of --from and --to, or a suffix
+  std::string_view name;  // value of --from or --to, or a suffix
   Format format;
 };
 template <typename Format>
-Entry(const char*, Format) -> Entry<Format>;  // clang 14 does not find it out
+Entry(const char*, Format) -> Entry<Format>;  // clang 14 does not deduce it
 
 constexpr std::array kInstanceNames = {
     Entry{"grove", InstanceFormat::kGrove}, Entry{"libmrp", InstanceFormat::kLibmrp},
     Entry{"mgcbs", InstanceFormat::kMgcbs}, Entry{"mapfw", InstanceFormat::kMapfw},
     Entry{"scen", InstanceFormat::kScen},
 };
-// Longer ones first. Plain .json is no format: Grove's, MAPFW's and many others are called that.
+// Longer suffixes first. Plain .json determines no format: Grove, MAPFW and many others use it.
 constexpr std::array kInstanceSuffixes = {
     Entry{".mapfw.json", InstanceFormat::kMapfw}, Entry{".cts.json", InstanceFormat::kGrove},
     Entry{".yaml", InstanceFormat::kLibmrp},      Entry{".yml", InstanceFormat::kLibmrp},
@@ -68,8 +68,10 @@ Format find_format(const std::string& option, const std::string& name, const std
     if (file.ends_with(entry.name)) return entry.format;
   throw CLI::ValidationError(
       option,
-      fmt::format("required, for the name '{}' does not tell the format; expected one of {}", file,
-                  listed(names)));
+      // The program exists, so the missing file is its interpreter.
+      fmt::format(
+          "required, because the suffix of '{}' is not that of a format; expected one of {}", file,
+          listed(names)));
 }
 
 }  // namespace
@@ -77,14 +79,14 @@ Format find_format(const std::string& option, const std::string& name, const std
 InstanceFormat instance_format(const std::string& option, const std::string& name,
                                const std::string& file) {
   if (name.empty() && file.ends_with(".plan.json"))
-    throw CLI::ValidationError(option,
-                               fmt::format("'{}' is called like a plan; plans are converted "
-                                           "by --plan PLAN INSTANCE OUT",
-                                           file));
+    throw CLI::ValidationError(
+        option, fmt::format("'{}' has the suffix of a plan; expected an instance, or "
+                            "--plan PLAN INSTANCE OUT to convert a plan",
+                            file));
   if (std::ranges::count(kPlanNames, name, &Entry<PlanFormat>::name) > 0 &&
       std::ranges::count(kInstanceNames, name, &Entry<InstanceFormat>::name) == 0)
-    throw CLI::ValidationError(
-        option, fmt::format("{} is a format of plans; expected --plan PLAN to go with it", name));
+    throw CLI::ValidationError(option,
+                               fmt::format("{} is a format of plans; requires --plan PLAN", name));
   return find_format<InstanceFormat>(option, name, file, kInstanceNames, kInstanceSuffixes);
 }
 
@@ -101,7 +103,7 @@ bool holds_tasks(InstanceFormat format) {
   return format != InstanceFormat::kLibmrp && format != InstanceFormat::kScen;
 }
 
-bool is_called_like_another_tools_instance(const std::string& file) {
+bool has_suffix_of_other_format(const std::string& file) {
   return std::ranges::any_of(kInstanceSuffixes, [&](const Entry<InstanceFormat>& entry) {
     return !names_a_map(entry.format) && file.ends_with(entry.name);
   });

@@ -20,8 +20,8 @@ constexpr double kFarthest = 1e7;
 double parse_coordinate(const std::string& text, std::string_view number) {
   if (const auto value = parse_number(number, -kFarthest, kFarthest)) return *value;
   throw CLI::ValidationError(
-      "--origin",
-      fmt::format("found '{}'; expected X,Y, two numbers of metres like -10,-5.5", one_line(text)));
+      "--origin", fmt::format("found '{}'; expected X,Y, two numbers in metres, such as -10,-5.5",
+                              one_line(text)));
 }
 
 Point parse_point(const std::string& text) {
@@ -34,19 +34,19 @@ Point parse_point(const std::string& text) {
 
 void FrameArguments::add_to(CLI::App& command) {
   add_number(command, "--cell-size", cell_size_, kLeastCell, kMostCell,
-             "metres from cell to cell; by default 1")
+             "distance between neighbouring cells, metres; default: 1")
       ->default_str("")
       ->type_name("METRES");
   command
       .add_option("--origin", origin_,
-                  "where the lower left corner of the map is, in metres; by default 0,0")
+                  "position of the lower left corner of the map, metres; default: 0,0")
       ->type_name("X,Y");
 }
 
 Frame FrameArguments::frame(const Instance& instance) const {
   if (given() && !instance.is_on_grid())
     throw CLI::ValidationError(cell_size_ > 0 ? "--cell-size" : "--origin",
-                               "expected only on a grid; a roadmap says where its places are");
+                               "allowed only on a grid; found a roadmap, which has coordinates");
   Frame frame;
   if (cell_size_ > 0) frame.cell_size = cell_size_;
   if (!origin_.empty()) frame.origin = parse_point(origin_);

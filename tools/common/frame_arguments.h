@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a grid lies in the world, as one types it.
+// Position and scale of a grid in world coordinates, from the command line.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -10,20 +10,21 @@
 
 namespace grove::detail {
 
-// --cell-size and --origin. Must outlive the parsing.
+// --cell-size and --origin. Must outlive the parsing of the command line.
 class FrameArguments {
  public:
   void add_to(CLI::App& command);
 
   bool given() const { return cell_size_ > 0 || has_origin(); }
   bool has_origin() const { return !origin_.empty(); }
-  // Metres; 0: not given.
+  // Metres; 0 if not given.
   double cell_size() const { return cell_size_; }
-  // Throws CLI::ValidationError: no two numbers; or on a roadmap, which is in metres as it is.
+  // Throws CLI::ValidationError if --origin is not two numbers, or on a roadmap, which has
+  // coordinates in metres.
   Frame frame(const Instance& instance) const;
 
  private:
-  double cell_size_ = 0;  // 0: not given
+  double cell_size_ = 0;  // metres; 0: not given
   std::string origin_;
 };
 

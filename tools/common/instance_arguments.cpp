@@ -25,13 +25,13 @@ constexpr std::string_view kScenario = ".scen";
 }  // namespace
 
 void add_confine_option(CLI::App& command, bool& confined) {
-  command.add_flag("--confine", confined,
-                   "for untrusted instances: refuse those that name files outside of their own "
-                   "folder");
+  command.add_flag(
+      "--confine", confined,
+      "refuse instances that name files outside their own folder, for untrusted input");
 }
 
 InputRules input_rules(bool confined, double memory_gb) {
-  constexpr double kMost = 1e18;  // of a size_t
+  constexpr double kMost = 1e18;  // fits into a size_t
   return {.confined = confined,
           .memory = static_cast<std::size_t>(std::min(memory_gb * 1e9, kMost))};
 }
@@ -39,24 +39,26 @@ InputRules input_rules(bool confined, double memory_gb) {
 void InstanceArguments::add_to(CLI::App& command) {
   command
       .add_option("INSTANCE", path_,
-                  "instance: FILE.cts.json, - for one on standard input (its map is relative to "
+                  "instance: FILE.cts.json, - for standard input (its map is relative to "
                   "this directory), or FILE.scen with --agents")
       ->required()
       ->type_name("");
   command
-      .add_option("--map", map_, "map of a .scen file; by default the one beside it that it names")
+      .add_option("--map", map_,
+                  "map of a .scen file; default: the map that it names, if beside it")
       ->type_name("FILE.map");
-  add_integer(command, "--agents", agents_, kAgentCounts, "the first N rows of a .scen file")
+  add_integer(command, "--agents", agents_, kAgentCounts,
+              "number of agents: the first N rows of a .scen file")
       ->default_str("");
   add_confine_option(command, confined_);
 }
 
 void InstanceArguments::add_rules_to(CLI::App& command) {
-  command.add_flag("--no-following", no_following_,
-                   "nobody enters a place in the step in which another leaves it: robots that hold "
-                   "a place until "
-                   "they have left it drive such a plan as it stands, without rings (see 'grove "
-                   "execute --help')");
+  command.add_flag(
+      "--no-following", no_following_,
+      "forbid that an agent enters a place in the step in which another one leaves it. "
+      "Robots that hold a place until they have left it can execute such a plan "
+      "unchanged, and it has no rings (see 'grove execute --help')");
 }
 
 std::string InstanceArguments::name() const {
@@ -75,25 +77,29 @@ std::string InstanceArguments::stem() const {
 LoadedInstance InstanceArguments::read() const {
   if (path_.ends_with(kScenario)) return read_first_rows();
   if (!map_.empty() || agents_ > 0)
-    throw CLI::ValidationError("--map, --agents", "expected only with a .scen file");
+    throw CLI::ValidationError("--map, --agents", "allowed only with a .scen file");
   if (is_standard_input())
     return parse_instance(standard_input_ ? *standard_input_ : read_standard_input(), name(), ".",
                           rules());
   if (path_.ends_with(".map"))
     throw InputError(
-        path_, "", "a map; expected an instance, FILE.cts.json, which names its map, or FILE.scen");
+        path_, "",
+        "found a map; expected an instance, FILE.cts.json, which names its map, or FILE.scen");
   if (path_.ends_with(".roadmap.json"))
-    throw InputError(path_, "",
-                     "a roadmap; expected an instance, FILE.cts.json, which names its roadmap "
-                     "('grove generate instance' makes one)");
+    throw InputError(
+        path_, "",
+        "found a roadmap; expected an instance, FILE.cts.json, which names its roadmap "
+        "('grove generate instance' makes one)");
   if (path_.ends_with(".graphml") || path_.ends_with(".lif.json"))
-    throw InputError(path_, "",
-                     "a road network of another tool; expected an instance, FILE.cts.json, on the "
-                     "roadmap that 'grove convert' makes of it");
-  if (is_called_like_another_tools_instance(path_))
-    throw InputError(path_, "",
-                     "an instance of another tool; expected FILE.cts.json, which 'grove convert' "
-                     "makes of it");
+    throw InputError(
+        path_, "",
+        "found a road network of another tool; expected an instance, FILE.cts.json, on the "
+        "roadmap that 'grove convert' makes from it");
+  if (has_suffix_of_other_format(path_))
+    throw InputError(
+        path_, "",
+        "found an instance of another tool; expected FILE.cts.json, which 'grove convert' "
+        "makes from it");
   return read_instance(path_, rules());
 }
 
@@ -103,7 +109,7 @@ LoadedInstance InstanceArguments::read_first_rows() const {
       map_.empty() ? map_beside(path_, rules()) : std::filesystem::path(map_);
   if (map.empty())
     throw CLI::ValidationError(
-        "--map", "required with a .scen file that does not lie beside the map that it names");
+        "--map", "required with a .scen file that is not beside the map that it names");
   return read_scenario_instance(path_, map, static_cast<int>(agents_), rules());
 }
 

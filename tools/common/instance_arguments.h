@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The arguments with which every command names an instance.
+// The arguments by which every command names an instance.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -12,31 +12,32 @@
 
 namespace grove::detail {
 
-// INSTANCE.cts.json, - for one on standard input, or FILE.scen with --agents and perhaps --map.
-// Must outlive the parsing.
+// INSTANCE.cts.json, - for standard input, or FILE.scen with --agents and optionally --map. Must
+// outlive the parsing of the command line.
 class InstanceArguments {
  public:
   void add_to(CLI::App& command);
-  // --no-following, of those that search.
+  // Adds --no-following, for commands that search.
   void add_rules_to(CLI::App& command);
 
-  // Reads the files; prints the warnings on stderr if it `speaks`. Throws InputError, or
-  // CLI::ValidationError when the arguments do not fit together.
+  // Reads the files; if `speaks`, prints warnings on standard error. Throws InputError, and
+  // CLI::ValidationError if the arguments contradict each other.
   LoadedInstance load(bool speaks = true) const;
 
-  // As messages and results name it: the path, or "standard input".
+  // Name of the instance in messages and results: the path, or "standard input".
   std::string name() const;
-  // Empty for standard input.
+  // "" for standard input.
   std::filesystem::path path() const { return is_standard_input() ? "" : path_; }
-  // For files named after it: "x" of "maps/x.cts.json", "x-20" of the first 20 rows of "x.scen".
+  // Base of names of output files: "x" of "maps/x.cts.json", "x-20" of the first 20 rows of
+  // "x.scen".
   std::string stem() const;
 
-  // What the maps and states of instances may take, in place of 80 % of what there is.
+  // Sets the limit for maps and states of instances, GB, instead of 80 % of the memory.
   void limit_memory(double gigabytes) { memory_gb_ = gigabytes; }
   InputRules rules() const;
 
   bool is_standard_input() const { return path_ == "-"; }
-  // What load() is to take for standard input, of which all processes of a run have only one.
+  // Sets the content of standard input for load(), because the processes of a run share one.
   void set_standard_input(std::string text) { standard_input_ = std::move(text); }
 
  private:
@@ -56,10 +57,10 @@ class InstanceArguments {
 void add_confine_option(CLI::App& command, bool& confined);
 InputRules input_rules(bool confined, double memory_gb);
 
-// All of it. Throws InputError.
+// Reads standard input to its end. Throws InputError.
 std::string read_standard_input();
 
-// One "grove: warning: ..." line each, on stderr.
+// Prints a line "grove: warning: ..." on standard error for each.
 void print_warnings(const std::vector<std::string>& warnings);
 
 }  // namespace grove::detail

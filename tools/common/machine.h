@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What there is to work with.
+// The cores, the memory and the name of this machine.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace grove::detail {
 
-// See usable_memory().
+// usable_memory() in GB.
 double usable_memory_gb();
-// What a run may use unless told otherwise: default_memory_limit(), in GB.
+// default_memory_limit() in GB: the default of --memory-limit.
 double default_memory_gb();
-// Which cores this process may use; the same text, the same cores.
+// Returns the cores that this process may use, as a text that is equal for equal sets of cores.
 std::string usable_cores_text();
-// "host Linux x86_64, 8 cores, 16.0 GB", and ", 4.0 GB of them granted" where that is less
+// "host Linux x86_64, 8 cores, 16.0 GB", and ", 4.0 GB of them granted" if a job limit is lower.
 std::string machine_text();
-// "Intel(R) Xeon(R) CPU @ 2.20GHz, 8 cores": what results of several machines are told apart by.
+// "Intel(R) Xeon(R) CPU @ 2.20GHz, 8 cores": identifies the machine in results.
 std::string processor_text();
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Manual pages and the completions of shells, from a program's own table of commands.
+// Manual pages and shell completions, made from a program's table of commands.
 #pragma once
 
 #include <filesystem>
@@ -12,14 +12,15 @@ namespace grove::detail {
 
 inline constexpr const char* kShells[] = {"bash", "zsh", "fish"};
 
-// The script that completes this program's words, for one of kShells.
+// Returns the completion script of this program for one of kShells.
 std::string completion_script(const CommandText& program, const std::string& shell);
 
 struct ManualPage {
   std::string name;  // "grove-solve.1"
-  std::string text;  // for man
+  std::string text;  // roff, for man
 };
-// One of the program and one of each of its commands; what a command has below it is in its page.
+// Returns a page of the program and one of each command. The page of a command includes its
+// subcommands.
 std::vector<ManualPage> manual_pages(const CommandText& program, const std::string& version);
 
 }  // namespace grove::detail

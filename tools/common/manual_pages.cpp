@@ -9,7 +9,7 @@
 namespace grove::detail {
 namespace {
 
-// As man takes it for text: no line is a request, no dash a hyphen.
+// Escapes text for man: no line is a request, no dash a hyphen.
 std::string plain(const std::string& text) {
   std::string made;
   bool begins = true;
@@ -52,7 +52,7 @@ std::string option_section(const CommandText& command) {
   return text;
 }
 
-// Paragraphs stay, and what is laid out (it is indented) stays as it is.
+// Keeps paragraphs. Indented lines keep their layout.
 std::string footer_text(const std::string& footer) {
   std::istringstream lines(footer);
   std::string text;
@@ -76,7 +76,7 @@ std::string command_section(const CommandText& command) {
   return text;
 }
 
-// The first sentence, as man lists pages.
+// The first sentence, for man's list of pages.
 std::string summary_of(const CommandText& command) {
   return command.description.substr(0, command.description.find_first_of(".:"));
 }

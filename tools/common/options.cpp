@@ -112,7 +112,7 @@ CLI::Option* add_counts(CLI::App& app, const std::string& name, std::vector<std:
     for (const std::string& part : CLI::detail::split(results.front(), ','))
       for (const std::int64_t value : parse_steps(name, part)) {
         if (!values.empty() && value <= values.back())
-          refuse(name, results.front(), "rising integers");
+          refuse(name, results.front(), "increasing integers");
         values.push_back(value);
       }
     return true;

@@ -19,7 +19,7 @@ void require_own_files(const std::vector<OwnFile>& files, const InstanceArgument
     require_distinct_files(file, loaded.map_path, "the map");
     for (const std::string& plan : plans) require_distinct_files(file, plan, "the plan");
     for (std::size_t k = 0; k < i; ++k)
-      require_distinct_files(file, files[k].file, fmt::format("what {} writes", files[k].option));
+      require_distinct_files(file, files[k].file, fmt::format("the output of {}", files[k].option));
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that a command writes must not be those that it reads, or each other.
+// Checks that a command does not write to a file that it reads, nor twice to one file.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +12,12 @@
 namespace grove::detail {
 
 struct OwnFile {
-  std::string option;  // by which it is named
-  std::string file;    // empty: none
+  std::string option;  // by which the file is named
+  std::string file;    // "" if the option is not given
 };
 
-// Throws CLI::ValidationError for "-", which is no file; InputError where a file is the instance,
-// its map, one of `plans`, or another one of the files.
+// Throws CLI::ValidationError for "-", which is not a file. Throws InputError if a file is the
+// instance, its map, one of `plans`, or another one of the files.
 void require_own_files(const std::vector<OwnFile>& files, const InstanceArguments& instance,
                        const LoadedInstance& loaded, const std::vector<std::string>& plans);
 

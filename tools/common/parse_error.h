@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What was wrong with a command line, in words.
+// Messages about errors in a command line.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -8,19 +8,19 @@
 
 namespace grove::detail {
 
-// `error` came up while `command` was being parsed. CLI11's words, but for a command, an option or
-// an argument that is not known: that is named, and of options and commands the one that resembles
-// it.
+// Returns a message for `error`, which occurred while `command` was parsed. It is CLI11's text,
+// except for unknown commands, options and arguments: then it names the word and, for options and
+// commands, the most similar known one.
 std::string parse_error_text(const CLI::App& command, const CLI::ParseError& error);
 
-// "; did you mean 'KNOWN'?", of the known word that resembles this one; empty if none does.
+// Returns "; did you mean 'KNOWN'?" with the most similar known word; "" if none is similar.
 std::string suggestion(const std::string& word, const std::vector<std::string>& known);
 
-// That the words of a command line name a command, but not first: "my.cts.json solve"; empty if
-// they do not.
+// Returns a message if the words of a command line name a command that is not the first word
+// ("my.cts.json solve"); otherwise "".
 std::string misplaced_command_text(const CLI::App& program, const std::vector<std::string>& words);
 
-// That `command` has no such subcommand, and which one resembles it.
+// Returns a message that `command` has no such subcommand, with the most similar one.
 std::string unknown_command_text(const CLI::App& command, const std::string& word);
 
 }  // namespace grove::detail

@@ -27,7 +27,8 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// The subcommand that was reached last: "grove generate map" of "grove generate map --wrong".
+// Returns the innermost subcommand that was reached: "grove generate map" of "grove generate map
+// --wrong".
 const CLI::App& reached_command(const CLI::App& app) {
   const auto subcommands = app.get_subcommands();
   return subcommands.empty() ? app : reached_command(*subcommands.back());
@@ -45,7 +46,8 @@ std::string usage_text(const CLI::App& app, const CLI::ParseError& error, const 
   return fmt::format("{} (see '{} --help')", parse_error_text(command, error), full_name(command));
 }
 
-// "grove help solve" asks for what "grove solve --help" does, but for a command that there is.
+// Translates "grove help solve" to "grove solve --help". Throws CLI::ValidationError for an unknown
+// command.
 Words words_of(const CLI::App& app, int argc, char** argv) {
   Words words(argv + 1, argv + argc);
   if (words.empty() || words.front() != "help") return words;
@@ -61,9 +63,9 @@ Words words_of(const CLI::App& app, int argc, char** argv) {
   return words;
 }
 
-// "grove help --completion bash", "grove help --manual FOLDER": of the whole program. Whether that
-// is what is asked for.
-bool tell_of_program(const CLI::App& app, const Words& words, bool speaks) {
+// Handles "grove help --completion bash" and "grove help --manual FOLDER", which concern the whole
+// program. Returns whether the command line asks for one of them.
+bool handle_program_help(const CLI::App& app, const Words& words, bool speaks) {
   if (words.size() < 2 || words[0] != "help" || !words[1].starts_with("--")) return false;
   const std::string value = words.size() == 3 ? words[2] : "";
   if (words[1] == "--completion" && std::ranges::count(kShells, value) == 1) {
@@ -80,7 +82,7 @@ bool tell_of_program(const CLI::App& app, const Words& words, bool speaks) {
       "help", "expected a command, '--completion bash', zsh or fish, or '--manual FOLDER'");
 }
 
-// A full disk or a closed pipe must not pass for success.
+// Reports a full disk or a closed pipe as a failure.
 int flush_output(const CLI::App& app) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return kExitSuccess;
   complain(app, "standard output: cannot be written");
@@ -98,7 +100,7 @@ void let_last_option_count(CLI::App& app) {
 }
 
 void prepare_program(CLI::App& app) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error of write()
+  std::signal(SIGXFSZ, SIG_IGN);  // write() then fails at the file size limit
   app.formatter(std::make_shared<HelpFormatter>());
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
@@ -113,16 +115,16 @@ int run_program(CLI::App& app, int argc, char** argv, bool speaks,
     return kExitBadInput;
   };
   try {
-    if (tell_of_program(app, Words(argv + 1, argv + argc), speaks)) {
-      refused("was asked for what it says of itself alone");
+    if (handle_program_help(app, Words(argv + 1, argv + argc), speaks)) {
+      refused("found only 'help' with --completion or --manual");
       return flush_output(app);
     }
     Words words = words_of(app, argc, argv);
-    std::ranges::reverse(words);  // as CLI11 wants them
+    std::ranges::reverse(words);  // CLI11 parses from the back
     app.parse(std::move(words));
     return flush_output(app);
   } catch (const CLI::Success& help_or_version) {
-    refused("was asked for help or its version alone");
+    refused("found only a request for help or the version");
     if (speaks) app.exit(help_or_version);
     return flush_output(app);
   } catch (const CLI::ParseError& error) {

@@ -5,7 +5,7 @@
 
 namespace grove::detail {
 
-// Progress on stderr, as wide as that is now.
+// Returns the style of progress on standard error, with its current width.
 batch::ProgressStyle stderr_style();
 
 }  // namespace grove::detail

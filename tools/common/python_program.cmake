@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Commands that are Python programs. They are run where grove looks for them: beside grove.
+# Commands that are Python programs. They are copied to the folder of grove, where grove searches for them.
 function(grove_python_copies target)
   foreach(file IN LISTS ARGN)
     add_custom_command(OUTPUT ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${file}
@@ -12,14 +12,14 @@ function(grove_python_copies target)
   add_custom_target(${target} ALL DEPENDS ${copies})
 endfunction()
 
-# grove_python_package(PACKAGE PATTERN...): of the package what matches the patterns.
+# grove_python_package(PACKAGE PATTERN...): copies the files of a package that match the patterns.
 function(grove_python_package package)
   list(TRANSFORM ARGN PREPEND ${package}/ OUTPUT_VARIABLE patterns)
   file(GLOB sources RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS ${patterns})
   grove_python_copies(${package} ${sources})
 endfunction()
 
-# grove_python_program(PROGRAM PACKAGE PATTERN...): a program and its package.
+# grove_python_program(PROGRAM PACKAGE PATTERN...): copies a program and its package.
 function(grove_python_program program package)
   grove_python_package(${package} ${ARGN})
   grove_python_copies(${package}_program ${program})

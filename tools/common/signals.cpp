@@ -7,19 +7,19 @@
 namespace grove::detail {
 
 std::atomic<bool> interrupted{false};
-std::atomic<bool> checkpoint_asked{false};
+std::atomic<bool> checkpoint_requested{false};
 
 namespace {
 
 extern "C" void on_signal(int signal) {
-  (signal == SIGUSR1 ? checkpoint_asked : interrupted) = true;
+  (signal == SIGUSR1 ? checkpoint_requested : interrupted) = true;
 }
 
 }  // namespace
 
 namespace {
 
-// One that was blocked when the program was started, and came, comes now.
+// Unblocks signals. A signal that is already pending is delivered now.
 void unblock(std::initializer_list<int> signals) {
   sigset_t set;
   ::sigemptyset(&set);

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT
-// What signals ask of a run.
+// Requests to a run by signals.
 #pragma once
 
 #include <atomic>
 
 namespace grove::detail {
 
-// Set by the first Ctrl-C, SIGTERM or hang-up after stop_on_signals().
+// Set by the first Ctrl-C, SIGTERM or SIGHUP after stop_on_signals().
 extern std::atomic<bool> interrupted;
 
-// Set by SIGUSR1, likewise; whoever writes the checkpoint resets it.
-extern std::atomic<bool> checkpoint_asked;
+// Set by SIGUSR1; the code that writes the checkpoint resets it.
+extern std::atomic<bool> checkpoint_requested;
 
-// From now on SIGUSR1 asks for a checkpoint, also if the program was started with this signal
-// blocked or ignored: without that it ends the process. The first line of main(), so that a job
-// script may send it at any time.
+// From now on SIGUSR1 requests a checkpoint, even if the program was started with this signal
+// blocked or ignored. Without this call SIGUSR1 ends the process. Call it first in main(), so that
+// a job script may send the signal at any time.
 void accept_checkpoint_signal();
 
-// As accept_checkpoint_signal(); and the first Ctrl-C, SIGTERM or hang-up ends the search; a second
-// Ctrl-C has its usual effect (batch systems send SIGTERM twice, so that one has not). A reader of
-// the log that goes away (`| head`) must not take the plan with it.
+// Like accept_checkpoint_signal(). In addition the first Ctrl-C, SIGTERM or SIGHUP ends the search.
+// A second Ctrl-C has its default effect; a second SIGTERM has not, because batch systems send it
+// twice. A closed pipe of the log (`| head`) does not end the process, so the plan is still
+// written.
 void stop_on_signals();
 
 }  // namespace grove::detail

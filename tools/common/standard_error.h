@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The last place to say something: it may be closed, a full disk or a pipe that nobody reads, and
-// there is nothing more to do then.
+// Messages on standard error. It may be closed, a full disk or a pipe without a reader; then the
+// message is lost, since there is no other place for it.
 #pragma once
 
 #include <string_view>
 
 namespace grove::detail {
 
-// Writes a line to stderr, if that can be. Throws nothing. Of any thread.
+// Writes a line to standard error if possible. Throws nothing. Thread-safe.
 void say_on_stderr(std::string_view line);
 
 }  // namespace grove::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove convert INSTANCE OUT, grove convert --plan PLAN INSTANCE OUT, grove convert ROADS OUT: the
-// command line.
+// Command line of grove convert INSTANCE OUT, grove convert --plan PLAN INSTANCE OUT, and grove
+// convert ROADS OUT.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -15,13 +15,13 @@ namespace grove::detail {
 namespace {
 
 constexpr const char* kConvertFooter =
-    R"(Instances (--from, --to; the suffix tells where one is given):
-  grove    *.cts.json             Grove's own
+    R"(Instances (--from, --to; if not given, the suffix determines the format):
+  grove    *.cts.json             Grove
   libmrp   *.yaml, *.yml          libMultiRobotPlanning: agents with a goal, no tasks
-  mgcbs                           MGCBS: agents with goals to visit, and no last one (MG-MAPF).
-                                  Read as libmrp, too: the keys tell
+  mgcbs                           MGCBS: agents with goals to visit, without a final one (MG-MAPF).
+                                  Also read as libmrp; the keys determine which of the two
   mapfw    *.mapfw.json           MAPFW: starts, goals and waypoints, which are tasks; no ids
-  scen     *.scen                 Moving AI: starts and goals only, no ids
+  scen     *.scen                 Moving AI: only starts and goals, no ids
 Roads (--from, in place of INSTANCE; OUT is a *.roadmap.json, or --to roadmap):
   graphml  *.graphml              GraphML of networkx, yEd, ...
   lif      *.lif.json             LIF 1, the VDMA's track layouts for VDA 5050
@@ -38,47 +38,49 @@ Plans (--to, with --plan):
   nav-path                        YAML for ROS: a nav_msgs/Path for each robot
   planviz                         JSON of the League of Robot Runners, for its PlanViz
 
-What OUT cannot hold is an error, unless --drop gives it up:
-  tasks   in libmrp and scen: the agents only go from start to goal
-  ids     in mapfw and scen of agents, in mapfw and mgcbs of tasks: read back they are a0, a1,
-          ... and t0, t1, ... as they appear agent by agent
-Agents without a goal are only for grove and mgcbs, agents with one not for mgcbs.
+If the format of OUT cannot express a part of INSTANCE, that is an error, unless --drop leaves that
+part out:
+  tasks   in libmrp and scen: agents only move from start to goal
+  ids     of agents in mapfw and scen, of tasks in mapfw and mgcbs: when read back they are a0, a1,
+          ... and t0, t1, ..., numbered agent by agent
+Only grove and mgcbs support agents without a goal. mgcbs does not support agents with one.
 
-Cells are x, y = column, row from the top left in all formats but eecbs. libMultiRobotPlanning's
-own viewer draws y upwards: what it shows is upside down but right.
-grove and scen need a map file. OUT names the map file of INSTANCE, or of --map; if neither is
-there, the map is written beside OUT, as '.' and '@'. The length column of a .scen is the shortest
-4-connected distance, where Moving AI's own files give the octile one.
+Cells are x, y = column, row from the top left in all formats except eecbs. libMultiRobotPlanning's
+own viewer draws y upwards, so its picture is mirrored, but correct.
+grove and scen need a map file. OUT names the map file of INSTANCE, or of --map. If there is
+neither, the map is written beside OUT, as '.' and '@'. The length column of a .scen is the shortest
+4-connected distance; Moving AI's own files have the octile distance.
 
-A map of ROS becomes cells of --cell-size metres. A cell is blocked where a robot of --robot-radius
-in its middle would touch what is not known to be free, and where no straight way leads from it to a
-neighbour that is not blocked. The lower left corner of both is the same; what is printed as "where
-it lies" brings plans back into its frame.
+A map of ROS is converted to cells of --cell-size metres. A cell is blocked if a robot of
+--robot-radius at its middle would touch anything that is not known to be free, or if there is no
+straight free path to any neighbour that is not blocked. Both maps have the same lower left corner.
+The line "position" of the output has the options that convert plans back into the frame of the
+map.
 
-A plan is checked before it is converted. Plan formats hold the paths, not the order of visits.
-Agents that are done are padded with waits in mapf-visualizer and planviz, and in no other format.
-waypoints and nav-path are in metres, x to the right and y up: of a grid the middles of cells, of
---cell-size metres each, from --origin on; of a roadmap what it says. A step takes
---seconds-per-step. They are the plan by the clock: robots that may be late need more than that,
-'grove execute --order'.
+A plan is checked before it is converted. Plan formats contain the paths, not the order of visits.
+In mapf-visualizer and planviz, agents that are done are padded with waits; in other formats not.
+waypoints and nav-path are in metres, x to the right and y upwards: on a grid the middles of cells
+of --cell-size metres, relative to --origin; on a roadmap its coordinates. A step takes
+--seconds-per-step. They describe the plan by the clock. Robots that may be late need the passing
+order: 'grove execute --order'.
 
-Roads are counted in steps, all rounded up, to 1 at least:
-  --metres-per-step D   a robot goes D metres in a step: length / D steps
-  --seconds-per-step S  a step lasts S seconds: time / S steps, where an edge's time is the
-                        duration the file gives (graphml) or length / maxSpeed (lif); an edge
-                        that has none is an error
-  both                  the larger of the two: robots go D metres in S seconds, and slower where
-                        the file says so. Of an edge without a time D alone counts
+Lengths and times of roads are converted to steps, rounded up, at least 1:
+  --metres-per-step D   a robot moves D metres per step: length / D steps
+  --seconds-per-step S  a step lasts S seconds: time / S steps. The time of an edge is the duration
+                        in the file (graphml) or length / maxSpeed (lif); an edge without a time
+                        is an error
+  both                  the larger of the two: robots move D metres in S seconds, or slower if
+                        the file says so. For an edge without a time, only D counts
 The largest rounding is printed, in steps and in percent, with its edge.
-graphml: data x and y of nodes (or the middle of yEd's drawing); of edges a length in metres, the
-first there is of length, distance, weight, cost, and a time in seconds, of duration, time. Edges
-are one way if directed; yEd and DiGraph of networkx call all edges directed.
+graphml: x and y of nodes (or the middle of yEd's drawing). The length of an edge in metres is the
+first present of length, distance, weight, cost; its time in seconds the first of duration, time.
+Edges are one way if directed; yEd and DiGraph of networkx declare all edges as directed.
 lif: lengths are those of trajectories, or straight. Edges and nodes that --vehicle-type may not
-use, and edges to other layouts, are left out; stations, actions, loads, orientations, heights
-are not read. A station's interactionNodeIds are the vertices to name as tasks.
-Two opposite one-way edges stay two lanes, on which robots pass one another. If they are one lane
-on the floor, as two straight edges of lif mostly are, --merge-lanes makes each pair of as many
-steps one two-way road; on that, robots may also turn back.
+use, and edges to other layouts, are left out. Stations, actions, loads, orientations and heights
+are not read. The vertices to name as tasks are a station's interactionNodeIds.
+Two opposite one-way edges remain two lanes, on which robots pass one another. If they are one lane
+on the floor, as two straight edges of lif usually are, --merge-lanes makes each pair with the same
+number of steps one two-way road, on which robots may also turn back.
 
 Examples:
   grove convert warehouse.cts.json warehouse.mapfw.json --drop ids
@@ -91,13 +93,13 @@ Examples:
         --seconds-per-step 0.8
   grove convert plant.lif.json plant.roadmap.json --metres-per-step 0.5 --merge-lanes)";
 
-// Metres, and seconds, in a step.
+// Range of metres per step and of seconds per step.
 constexpr double kLeastScale = 1e-6;
 constexpr double kMostScale = 1e6;
 
-// Options that do nothing are mistakes.
+// Refuses options without an effect.
 void require_use(bool given, bool used, const std::string& option, const std::string& when) {
-  if (given && !used) throw CLI::ValidationError(option, "expected only with " + when);
+  if (given && !used) throw CLI::ValidationError(option, "allowed only with " + when);
 }
 
 void require_known_drops(const std::string& drop) {
@@ -118,7 +120,7 @@ void require_no_options_of_roads(const ConvertArguments& arguments, bool has_tim
   require_use(arguments.merges_lanes, false, "--merge-lanes", roads);
 }
 
-// Of maps and roads.
+// For maps and roads.
 void require_no_options_of_instances(const ConvertArguments& arguments) {
   const std::string instances = "instances and plans";
   require_use(!arguments.plan.empty(), false, "--plan", instances);
@@ -132,7 +134,7 @@ void require_no_options_of_instances(const ConvertArguments& arguments) {
 void run_on_maps(const ConvertArguments& arguments) {
   require_no_options_of_instances(arguments);
   require_no_options_of_roads(arguments, false);
-  require_distinct_files(arguments.output, arguments.instance, "the map that is read");
+  require_distinct_files(arguments.output, arguments.instance, "the map to convert");
   convert_map(arguments);
 }
 
@@ -146,8 +148,8 @@ void run_on_roads(const ConvertArguments& arguments) {
 }
 
 void run(const ConvertArguments& arguments) {
-  if (is_about_maps(arguments)) return run_on_maps(arguments);
-  if (is_about_roads(arguments)) return run_on_roads(arguments);
+  if (converts_maps(arguments)) return run_on_maps(arguments);
+  if (converts_roads(arguments)) return run_on_roads(arguments);
   require_use(arguments.robot_radius > 0, false, "--robot-radius", "a map of ROS");
   const bool is_plan = !arguments.plan.empty();
   const bool is_driven = is_plan && (arguments.to == "waypoints" || arguments.to == "nav-path");
@@ -179,61 +181,64 @@ void run(const ConvertArguments& arguments) {
 
 void add_options_of_roads(CLI::App& command, ConvertArguments& arguments) {
   add_number(command, "--metres-per-step", arguments.metres_per_step, kLeastScale, kMostScale,
-             "roads: how far a robot goes in a step")
+             "roads: distance that a robot moves per step, metres")
       ->type_name("D")
       ->default_str("");
   add_number(command, "--seconds-per-step", arguments.seconds_per_step, kLeastScale, kMostScale,
-             "roads: how long a step is; with both, each road takes the larger number of steps. "
-             "Plans: the same; by default 1")
+             "roads: duration of a step, seconds; if both are given, each road takes the larger "
+             "number of steps. Plans: duration of a step, seconds; default: 1")
       ->type_name("S")
       ->default_str("");
-  command.add_option("--layout", arguments.layout, "the layoutId to read, of a LIF with several")
+  command
+      .add_option("--layout", arguments.layout, "layoutId to read, for a LIF with several layouts")
       ->type_name("ID");
   command
       .add_option("--vehicle-type", arguments.vehicle_type,
-                  "the vehicleTypeId to read for, of a LIF with several")
+                  "vehicleTypeId to read for, for a LIF with several vehicle types")
       ->type_name("ID");
-  command.add_flag("--merge-lanes", arguments.merges_lanes,
-                   "two opposite one-way edges of as many steps are one two-way road, a lane that "
-                   "robots share, not two lanes");
+  command.add_flag(
+      "--merge-lanes", arguments.merges_lanes,
+      "merge two opposite one-way edges with the same number of steps into one two-way "
+      "road: a lane that robots share");
 }
 
 void add_options(CLI::App& command, ConvertArguments& arguments) {
-  command.add_option("INSTANCE", arguments.instance, "instance, or roads, to read")
+  command.add_option("INSTANCE", arguments.instance, "instance or roads to read")
       ->required()
       ->type_name("");
-  command.add_option("OUT", arguments.output, "file to write, whole or not at all")
+  command.add_option("OUT", arguments.output, "file to write, completely or not at all")
       ->required()
       ->type_name("");
   command
-      .add_option("--plan", arguments.plan,
-                  "convert this plan file of INSTANCE, not INSTANCE itself")
+      .add_option("--plan", arguments.plan, "plan file of INSTANCE to convert, instead of INSTANCE")
       ->type_name("PLAN");
   command.add_option("--from", arguments.from, "format of INSTANCE")->type_name("FORMAT");
   command.add_option("--to", arguments.to, "format of OUT")->type_name("FORMAT");
   command
-      .add_option(
-          "--map", arguments.map,
-          "map of a .scen INSTANCE; else the map file that OUT is to name, with the same map")
+      .add_option("--map", arguments.map,
+                  "map of a .scen INSTANCE; for other formats, the map file for OUT to name, with "
+                  "equal cells")
       ->type_name("FILE.map");
   add_integer(command, "--agents", arguments.agents, kRowCounts,
-              "the first N rows of a .scen INSTANCE, not all")
+              "number of agents: the first N rows of a .scen INSTANCE; default: all")
       ->default_str("");
   command
-      .add_option("--drop", arguments.drop, "give up what OUT cannot hold: ids, tasks or ids,tasks")
+      .add_option("--drop", arguments.drop,
+                  "leave out what the format of OUT cannot express: ids, tasks or ids,tasks")
       ->type_name("WHAT");
   command
-      .add_option("--scenario", arguments.scenario,
-                  "with --to tracker: the scenario whose first rows are the agents, even-N or "
-                  "random-N (default: what the name of a .scen INSTANCE tells)")
+      .add_option(
+          "--scenario", arguments.scenario,
+          "with --to tracker: scenario whose first rows are the agents, even-N or random-N; "
+          "default: from the name of a .scen INSTANCE")
       ->type_name("TYPE-N");
   command.add_flag("--flip-up-down", arguments.flip_up_down,
-                   "with --to tracker: u for y + 1, as in the tracker's downloads; its documents "
-                   "say y - 1. Send one small plan first");
+                   "with --to tracker: write y + 1 as u, as the tracker's downloads do; its "
+                   "documentation says y - 1, so submit one small plan first");
   add_confine_option(command, arguments.confined);
   arguments.frame.add_to(command);
   add_number(command, "--robot-radius", arguments.robot_radius, 0, 100,
-             "maps of ROS: how far robots keep from walls, in metres")
+             "maps of ROS: minimum distance of the middle of a robot from walls, metres")
       ->type_name("METRES");
   add_options_of_roads(command, arguments);
 }
@@ -243,7 +248,7 @@ void add_options(CLI::App& command, ConvertArguments& arguments) {
 void add_convert_command(CLI::App& app) {
   const auto arguments = std::make_shared<ConvertArguments>();
   CLI::App* command = app.add_subcommand(
-      "convert", "Instances, plans, roads and maps in the formats of other tools");
+      "convert", "Convert instances, plans, roads and maps from and to formats of other tools");
   command->footer(kConvertFooter);
   add_options(*command, *arguments);
   command->callback([arguments] { run(*arguments); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove convert: an instance in another format.
+// grove convert: writes an instance in another format.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,12 +35,12 @@ void require_map_of_instance(const std::string& map, const ConvertArguments& arg
   if (!instance.is_on_grid())
     throw InputError(
         map, "",
-        fmt::format("is a map; expected none, for '{}' is on a roadmap", arguments.instance));
+        fmt::format("is a map; expected none, because '{}' is on a roadmap", arguments.instance));
   if (!same_map(read_map(map), instance.grid()))
     throw InputError(
         map, "",
-        fmt::format("is another map than that of '{}'; expected the same {} x {} "
-                    "cells, passable and blocked alike",
+        fmt::format("is not the map of '{}'; expected the same {} x {} "
+                    "cells",
                     arguments.instance, instance.grid().width(), instance.grid().height()));
 }
 
@@ -59,7 +59,7 @@ OutputMap choose_map(const ConvertArguments& arguments, const LoadedInstance& lo
   const OutputMap beside{without_suffix(arguments.output) + ".map", true};
   std::error_code ignored;
   if (!fs::exists(fs::symlink_status(beside.path, ignored))) return beside;
-  require_map_of_instance(beside.path, arguments, loaded.instance);  // nobody's map is overwritten
+  require_map_of_instance(beside.path, arguments, loaded.instance);  // does not replace another map
   return {beside.path};
 }
 

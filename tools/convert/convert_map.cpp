@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove convert: maps of other tools as maps.
+// grove convert: converts maps of other tools to Moving AI maps.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view kFree = ". _0GSE";
 constexpr std::string_view kWalls = "#@TOWXx1*";
 
-// "ros" or "ascii"; empty where neither --from nor the suffix tells.
+// Returns "ros" or "ascii"; "" if neither --from nor the suffix determines the format.
 std::string map_source_format(const ConvertArguments& arguments) {
   if (!arguments.from.empty()) return arguments.from;
   if (arguments.instance.ends_with(".yaml") || arguments.instance.ends_with(".yml")) return "ros";
@@ -51,7 +51,7 @@ Grid read_ascii(const std::string& file) {
   return Grid(static_cast<int>(lines.front().size()), static_cast<int>(lines.size()), passable);
 }
 
-// A map on which no robot can be is of no use; one of a single cell is a map.
+// Refuses a map without a free cell. A map of a single cell is valid.
 Grid with_free_cells(const std::string& file, Grid grid) {
   if (grid.passable_count() == 0)
     throw InputError(file, "",
@@ -78,7 +78,7 @@ bool has_moves(const Grid& grid) {
   return false;
 }
 
-// Says which option to change where no robot could be on the map, or move on it.
+// If no robot can be on the map, or move on it, throws InputError with the option to change.
 void require_moves(const CellMap& cells, const ConvertArguments& arguments) {
   if (has_moves(cells.grid)) return;
   const int left = cells.grid.passable_count();
@@ -99,23 +99,23 @@ void convert_occupancy(const ConvertArguments& arguments) {
   if (size == 0)
     throw CLI::ValidationError("--cell-size", "required; expected the size of a cell in metres");
   if (arguments.frame.has_origin())
-    throw CLI::ValidationError("--origin", "expected none; a map of ROS says where it lies");
+    throw CLI::ValidationError("--origin", "not allowed with a map of ROS, which has an origin");
   const OccupancyMap map(arguments.instance, arguments.rules());
   const CellMap cells = read_occupancy(map, arguments);
   require_moves(cells, arguments);
   write_map(arguments.output, cells.grid);
   print_map(arguments.output, cells.grid);
   fmt::print(
-      "blocked though free: {} cells whose middle is less than {:.4g} m from a wall, {} from "
-      "which no straight way leads to a neighbour\n",
+      "free but blocked: {} cells whose middle is less than {:.4g} m from a wall, {} without "
+      "a straight free path to a neighbour\n",
       cells.too_near, arguments.robot_radius, cells.narrow);
-  fmt::print("where it lies: --cell-size {:.10g} --origin {:.10g},{:.10g}\n", size, map.origin().x,
+  fmt::print("position: --cell-size {:.10g} --origin {:.10g},{:.10g}\n", size, map.origin().x,
              map.origin().y);
 }
 
 }  // namespace
 
-bool is_about_maps(const ConvertArguments& arguments) {
+bool converts_maps(const ConvertArguments& arguments) {
   return arguments.to == "map" || (arguments.to.empty() && arguments.output.ends_with(".map")) ||
          arguments.from == "ros" || arguments.from == "ascii";
 }
@@ -124,20 +124,22 @@ void convert_map(const ConvertArguments& arguments) {
   if (arguments.to != "map" && !(arguments.to.empty() && arguments.output.ends_with(".map")))
     throw CLI::ValidationError(
         "--to",
-        fmt::format("found '{}'; {} holds a map: expected map, or a "
+        fmt::format("found '{}'; {} contains a map; expected map, or a "
                     "file *.map",
                     arguments.to.empty() ? arguments.output : arguments.to, arguments.from));
   const std::string format = map_source_format(arguments);
   if (format == "ros") return convert_occupancy(arguments);
   if (arguments.frame.given() || arguments.robot_radius > 0)
-    throw CLI::ValidationError("--cell-size, --robot-radius", "expected only with a map of ROS");
+    throw CLI::ValidationError("--cell-size, --robot-radius", "allowed only with a map of ROS");
   if (format != "ascii")
     throw CLI::ValidationError(
-        "--from", fmt::format("{}; expected ros or ascii, for OUT is a map",
-                              format.empty() ? fmt::format("required, for the name '{}' does not "
-                                                           "tell the format",
-                                                           arguments.instance)
-                                             : fmt::format("found '{}'", format)));
+        "--from",
+        fmt::format(
+            "{}; expected ros or ascii, because OUT is a map",
+            format.empty()
+                ? fmt::format("required, because the suffix of '{}' is not that of a format",
+                              arguments.instance)
+                : fmt::format("found '{}'", format)));
   const Grid grid = with_free_cells(arguments.instance, read_ascii(arguments.instance));
   write_map(arguments.output, grid);
   print_map(arguments.output, grid);

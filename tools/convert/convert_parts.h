@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one asks of grove convert, and the four things that it does.
+// Arguments of grove convert, and its four conversions.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace grove::detail {
 
-// Of the first rows of a scenario.
+// Range of --agents.
 inline constexpr IntegerRange kRowCounts{1, 1'000'000};
 
 struct ConvertArguments {
@@ -42,24 +42,25 @@ struct ConvertArguments {
   bool drops(const std::string& what) const;
 };
 
-// Reads INSTANCE. Throws InputError; CLI::ValidationError when an option is missing.
+// Reads INSTANCE. Throws InputError, and CLI::ValidationError if an option is missing.
 LoadedInstance load(const ConvertArguments& arguments, InstanceFormat from);
 
-// INSTANCE, or the plan of it, as OUT; prints what was written. Throw InputError, with the place in
-// INSTANCE of what OUT cannot hold; CLI::ValidationError when options do not fit together.
+// Converts INSTANCE, or a plan of it, to OUT and prints a summary. Throw InputError, with the place
+// in INSTANCE of a part that the format of OUT cannot express, and CLI::ValidationError if options
+// contradict each other.
 void convert_instance(const ConvertArguments& arguments, InstanceFormat from, InstanceFormat to);
 void convert_plan(const ConvertArguments& arguments, InstanceFormat from, PlanFormat to);
 
-// Whether INSTANCE is a file of roads, or OUT a roadmap; and the one as the other. Throws as above.
-bool is_about_roads(const ConvertArguments& arguments);
+// Whether INSTANCE is a file of roads or OUT a roadmap; and the conversion. Throws as above.
+bool converts_roads(const ConvertArguments& arguments);
 void convert_roadmap(const ConvertArguments& arguments);
 
-// Whether OUT is a map, of another tool's map; and the one as the other. Throws as above.
-bool is_about_maps(const ConvertArguments& arguments);
+// Whether INSTANCE is a map of another tool or OUT a map; and the conversion. Throws as above.
+bool converts_maps(const ConvertArguments& arguments);
 void convert_map(const ConvertArguments& arguments);
 
-// Runs `write`; of what OUT cannot hold it says where it is in `instance`, which was read from a
-// file of format `from`.
+// Calls `write`. If the format of OUT cannot express a part of `instance`, throws InputError with
+// the place of that part in the file, which has format `from`.
 void express(const ConvertArguments& arguments, const Instance& instance, InstanceFormat from,
              const std::function<void()>& write);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove convert --plan: a plan in another format.
+// grove convert --plan: writes a plan in another format.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -81,7 +81,7 @@ void convert_plan(const ConvertArguments& arguments, InstanceFormat from, PlanFo
   const Solution solution = read_solution(arguments.plan, loaded.instance);
   const auto violations = check(loaded.instance, solution, 1);
   if (!violations.empty())
-    throw InputError(arguments.plan, violations.front().place, violations.front().message);
+    throw InputError(arguments.plan, violations.front().json_pointer, violations.front().message);
   require_distinct_files(arguments.output, loaded.map_path, "the map");
   express(arguments, loaded.instance, from,
           [&] { write_plan_as(arguments, loaded, solution, to); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove convert: roads of another tool as a roadmap.
+// grove convert: converts roads of another tool to a roadmap.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -18,7 +18,7 @@
 namespace grove::detail {
 namespace {
 
-// "graphml" or "lif"; empty where neither --from nor the suffix tells.
+// Returns "graphml" or "lif"; "" if neither --from nor the suffix determines the format.
 std::string roadmap_source_format(const ConvertArguments& arguments) {
   if (!arguments.from.empty()) return arguments.from;
   if (arguments.instance.ends_with(".graphml")) return "graphml";
@@ -35,17 +35,19 @@ std::string require_roadmap_source_format(const ConvertArguments& arguments) {
   if (format == "graphml" || format == "lif") return format;
   if (!format.empty())
     throw CLI::ValidationError(
-        "--from", fmt::format("found '{}'; expected graphml or lif, for OUT is a roadmap", format));
+        "--from",
+        fmt::format("found '{}'; expected graphml or lif, because OUT is a roadmap", format));
   throw CLI::ValidationError(
-      "--from", fmt::format("required, for the name '{}' does not tell the format; expected "
-                            "graphml or lif, for OUT is a roadmap",
-                            arguments.instance));
+      "--from",
+      fmt::format("required, because the suffix of '{}' is not that of a format; expected "
+                  "graphml or lif, because OUT is a roadmap",
+                  arguments.instance));
 }
 
 void require_roadmap_target(const ConvertArguments& arguments, const std::string& format) {
   if (is_roadmap_target(arguments)) return;
   throw CLI::ValidationError(
-      "--to", fmt::format("found '{}'; {} holds roads: expected roadmap, or a file "
+      "--to", fmt::format("found '{}'; {} contains roads; expected roadmap, or a file "
                           "*.roadmap.json",
                           arguments.to.empty() ? arguments.output : arguments.to, format));
 }
@@ -56,9 +58,8 @@ std::optional<double> given(double value) {
 
 StepScale require_scale(const ConvertArguments& arguments) {
   if (arguments.metres_per_step == 0 && arguments.seconds_per_step == 0)
-    throw CLI::ValidationError(
-        "--metres-per-step",
-        "required; expected how far a robot goes in a step, or --seconds-per-step");
+    throw CLI::ValidationError("--metres-per-step",
+                               "required; expected metres per step, or --seconds-per-step");
   return {given(arguments.metres_per_step), given(arguments.seconds_per_step)};
 }
 
@@ -72,7 +73,7 @@ RoadNetwork read_network(const ConvertArguments& arguments, const std::string& f
   return network;
 }
 
-// Robots that start on a vertex would stay there.
+// Refuses roads without an edge, because robots could not move.
 void require_roads(const SteppedRoads& stepped, const ConvertArguments& arguments) {
   if (!stepped.roads.empty()) return;
   throw InputError(
@@ -88,12 +89,12 @@ void warn_of_unused_times(const RoadNetwork& network, const StepScale& scale) {
       network.links, [](const Link& link) { return link.seconds.has_value(); });
   if (count > 0 && !scale.seconds_per_step)
     print_warnings(
-        {fmt::format("{}: tells the speed or the duration of {} edges, which counts "
-                     "only with --seconds-per-step",
+        {fmt::format("{}: has a speed or a duration for {} edges; expected "
+                     "--seconds-per-step to use them",
                      one_line(network.file), count)});
 }
 
-// Two lanes where there may be one: whoever knows the place must say which it is.
+// Warns about pairs of lanes that may be one lane; only the user knows.
 void warn_of_opposite_roads(const std::vector<Road>& roads, const ConvertArguments& arguments) {
   const OppositeRoads count = opposite_roads(roads);
   std::vector<std::string> warnings;
@@ -101,16 +102,16 @@ void warn_of_opposite_roads(const std::vector<Road>& roads, const ConvertArgumen
   if (!arguments.merges_lanes && pairs > 0)
     warnings.push_back(fmt::format(
         "{}: {} pairs of opposite edges are two lanes each, on which robots pass one another; "
-        "where robots share one lane: --merge-lanes",
+        "use --merge-lanes if robots share one lane",
         one_line(arguments.instance), pairs));
   if (arguments.merges_lanes && count.unlike > 0)
     warnings.push_back(fmt::format(
-        "{}: {} pairs of opposite edges take different numbers of steps and stay two lanes each",
+        "{}: {} pairs of opposite edges take different numbers of steps and remain two lanes each",
         one_line(arguments.instance), count.unlike));
   if (!arguments.merges_lanes && count.of_step > 0)
     warnings.push_back(fmt::format(
-        "{}: on {} of these pairs, of one step, robots cannot pass one another; for that: shorter "
-        "steps",
+        "{}: robots cannot pass one another on {} of these pairs, which take one step; use shorter "
+        "steps to allow it",
         one_line(arguments.instance), count.of_step));
   print_warnings(warnings);
 }
@@ -151,7 +152,7 @@ void print_roadmap(const std::string& file, const Roadmap& roadmap) {
 
 }  // namespace
 
-bool is_about_roads(const ConvertArguments& arguments) {
+bool converts_roads(const ConvertArguments& arguments) {
   const std::string format = roadmap_source_format(arguments);
   return format == "graphml" || format == "lif" || is_roadmap_target(arguments);
 }
@@ -161,7 +162,7 @@ void convert_roadmap(const ConvertArguments& arguments) {
   require_roadmap_target(arguments, format);
   if (format != "lif" && (!arguments.layout.empty() || !arguments.vehicle_type.empty()))
     throw CLI::ValidationError(arguments.layout.empty() ? "--vehicle-type" : "--layout",
-                               "expected only with LIF");
+                               "allowed only with LIF");
   const StepScale scale = require_scale(arguments);
   const RoadNetwork network = read_network(arguments, format);
   const SteppedRoads stepped = in_steps(network, scale, arguments.rules());

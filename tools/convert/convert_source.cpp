@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading the INSTANCE of grove convert, and saying where in it a difficulty lies.
+// Reads the INSTANCE of grove convert, and locates errors in it.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -27,7 +27,7 @@ LoadedInstance read_scen(const ConvertArguments& arguments) {
                                 arguments.rules());
 }
 
-// Where in a file of format `from` the agent or task stands that `error` is about.
+// Returns the place, in a file of format `from`, of the agent or task that `error` names.
 std::string place_of(const InstanceError& error, const Instance& instance, InstanceFormat from) {
   const std::string& field = error.field();
   const std::size_t slash = field.find('/');
@@ -51,8 +51,8 @@ std::string place_of(const InstanceError& error, const Instance& instance, Insta
 }
 
 std::string hint(Loss loss) {
-  if (loss == Loss::kIds) return " (--drop ids gives the ids up)";
-  return loss == Loss::kTasks ? " (--drop tasks gives the tasks up)" : "";
+  if (loss == Loss::kIds) return " (--drop ids leaves the ids out)";
+  return loss == Loss::kTasks ? " (--drop tasks leaves the tasks out)" : "";
 }
 
 }  // namespace

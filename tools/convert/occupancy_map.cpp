@@ -24,11 +24,11 @@ namespace fs = std::filesystem;
 struct Image {
   int width = 0;
   int height = 0;
-  std::vector<double> light;  // 0 black, 1 white; row by row from the top
+  std::vector<double> light;  // 0 black to 1 white, row by row from the top
 };
 
 constexpr std::size_t kLargestYaml = std::size_t{1} << 16;
-// Of an image that is decoded, and of what is made of it.
+// Peak memory per pixel: the decoded image and the maps made from it.
 constexpr std::size_t kBytesPerPixel = 32;
 
 void require_size(const std::string& file, std::int64_t width, std::int64_t height,
@@ -40,7 +40,7 @@ void require_size(const std::string& file, std::int64_t width, std::int64_t heig
   require_memory(rules, file, "", width * height, "pixels", kBytesPerPixel);
 }
 
-// Netpbm's grey maps, binary (P5) or in words (P2).
+// Reader of Netpbm's grey maps, binary (P5) or plain text (P2).
 class PgmReader {
  public:
   PgmReader(const fs::path& path, const InputRules& rules)
@@ -48,7 +48,8 @@ class PgmReader {
 
   Image read() {
     const std::string kind = word();
-    if (kind != "P5" && kind != "P2") fail("does not begin as a PGM image does; expected P5 or P2");
+    if (kind != "P5" && kind != "P2")
+      fail("is not a PGM image; expected P5 or P2 at its beginning");
     Image image;
     image.width = number(1, kMaxMapCells, "a width");
     image.height = number(1, kMaxMapCells, "a height");
@@ -56,7 +57,7 @@ class PgmReader {
     const int most = number(1, 65535, "a greatest value");
     const std::size_t count =
         static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-    if (kind == "P5") ++at_;  // one blank
+    if (kind == "P5") ++at_;  // one blank before the pixels
     for (std::size_t i = 0; i < count; ++i)
       image.light.push_back(
           static_cast<double>(kind == "P5" ? raw(most) : number(0, most, "a value")) / most);
@@ -100,17 +101,17 @@ class PgmReader {
   std::size_t at_ = 0;
 };
 
-// What is transparent counts as black.
+// Transparent pixels count as black.
 Image read_png(const fs::path& path, const InputRules& rules) {
   const std::string bytes = read_text(path);
   if (!bytes.starts_with("\x89PNG\r\n\x1a\n"))
-    throw InputError(path.string(), "", "does not begin as a PNG image does; expected one");
+    throw InputError(path.string(), "", "is not a PNG image; expected one");
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   const std::unique_ptr<png_image, void (*)(png_image*)> freed_at_last(&png, png_image_free);
   const auto require = [&](int succeeded) {
     if (succeeded == 0)
-      throw InputError(path.string(), "", fmt::format("no PNG image: {}", png.message));
+      throw InputError(path.string(), "", fmt::format("not a valid PNG image:  {}", png.message));
   };
   require(png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()));
   require_size(path.string(), png.width, png.height, rules);
@@ -127,7 +128,7 @@ Image read_png(const fs::path& path, const InputRules& rules) {
   return image;
 }
 
-// One key of a map.yaml after the other.
+// Reads the keys of a map.yaml.
 class Keys {
  public:
   explicit Keys(const fs::path& path) : file_(path.string()) {
@@ -160,7 +161,7 @@ class Keys {
     if (node.size() > 2 && as_number(node[2], "origin", -10, 10) != 0)
       throw InputError(
           file_, "origin",
-          fmt::format("found a yaw of {}; expected 0: turn the image first", node[2].Scalar()));
+          fmt::format("found a yaw of {}; expected 0; rotate the image first", node[2].Scalar()));
     return {as_number(node[0], "origin", -1e6, 1e6), as_number(node[1], "origin", -1e6, 1e6)};
   }
 
@@ -224,7 +225,7 @@ bool OccupancyMap::is_free(int x, int y) const {
 }
 
 bool OccupancyMap::is_clear(Point at, double radius) const {
-  // In pixels, y down.
+  // Coordinates in pixels, y downwards.
   const double px = at.x / resolution_;
   const double py = height_ - at.y / resolution_;
   const double reach = radius / resolution_;
@@ -248,7 +249,7 @@ class Cells {
       : map_(map),
         size_(cell_size),
         radius_(radius),
-        // (A cell that fits but for the last digits of numbers fits.)
+        // 1e-6: a cell fits although rounding errors make it slightly too large.
         width_(static_cast<int>(std::floor(map.width() / cell_size + 1e-6))),
         height_(static_cast<int>(std::floor(map.height() / cell_size + 1e-6))) {
     if (width_ < 1 || height_ < 1)
@@ -276,7 +277,7 @@ class Cells {
   bool passable(int x, int y) const {
     return x >= 0 && x < width_ && y >= 0 && y < height_ && passable_[index(x, y)];
   }
-  bool leads(int ax, int ay, int bx, int by) const {
+  bool are_connected(int ax, int ay, int bx, int by) const {
     const Point a = middle(ax, ay);
     const Point b = middle(bx, by);
     const int steps = std::max(1, static_cast<int>(std::ceil(2 * size_ / map_.resolution())));
@@ -287,24 +288,24 @@ class Cells {
     }
     return true;
   }
-  int ways(int x, int y) const {
+  int connection_count(int x, int y) const {
     int count = 0;
     for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-      if (passable(x + dx, y + dy) && leads(x, y, x + dx, y + dy)) ++count;
+      if (passable(x + dx, y + dy) && are_connected(x, y, x + dx, y + dy)) ++count;
     return count;
   }
   int block_narrow() {
     int blocked = 0;
-    const auto look_at = [&](int ax, int ay, int bx, int by) {
-      if (!passable(ax, ay) || !passable(bx, by) || leads(ax, ay, bx, by)) return;
-      const bool first = ways(ax, ay) < ways(bx, by);
+    const auto separate = [&](int ax, int ay, int bx, int by) {
+      if (!passable(ax, ay) || !passable(bx, by) || are_connected(ax, ay, bx, by)) return;
+      const bool first = connection_count(ax, ay) < connection_count(bx, by);
       passable_[first ? index(ax, ay) : index(bx, by)] = false;
       ++blocked;
     };
     for (int y = 0; y < height_; ++y)
       for (int x = 0; x < width_; ++x) {
-        look_at(x, y, x + 1, y);
-        look_at(x, y, x, y + 1);
+        separate(x, y, x + 1, y);
+        separate(x, y, x, y + 1);
       }
     return blocked;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Maps of ROS (map_server): an image of what is free and what is not, and where it lies.
+// Occupancy grids of ROS (map_server): an image of free space, with scale and position.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +12,13 @@
 
 namespace grove::detail {
 
-// Free or not, by pixel, as the file's mode "trinary" says: what is unknown is not free.
+// Free space by pixel, in the file's mode "trinary"; unknown space is not free.
 class OccupancyMap {
  public:
-  // Reads map.yaml and the image it names, PGM or PNG. Throws InputError, also for a yaw, and for
-  // modes and thresholds that are not those of trinary maps.
+  // Reads map.yaml and its image, PGM or PNG. Throws InputError, also for a yaw other than 0 and
+  // for modes and thresholds other than those of trinary maps.
   explicit OccupancyMap(const std::filesystem::path& yaml, const InputRules& rules = {});
-  // The same in memory: rows from the top, `resolution` metres a pixel.
+  // From memory: rows from the top, `resolution` metres per pixel.
   OccupancyMap(int width, int height, std::vector<bool> free, double resolution, Point origin);
 
   double resolution() const { return resolution_; }
@@ -26,8 +26,8 @@ class OccupancyMap {
   double width() const { return width_ * resolution_; }
   double height() const { return height_ * resolution_; }
 
-  // Is there nothing but free space, inside the image, within `radius` of that point? Metres from
-  // the lower left corner.
+  // Whether all pixels within `radius` of `at` are free and inside the image. Metres from the lower
+  // left corner.
   bool is_clear(Point at, double radius) const;
 
  private:
@@ -40,16 +40,17 @@ class OccupancyMap {
   Point origin_;
 };
 
-// A map of cells, the lower left corner of the lowest row's first one at the image's.
+// A map of cells. The lower left corner of its lowest row is that of the image.
 struct CellMap {
   Grid grid;
-  int too_near = 0;  // cells whose middle is free but too near to a wall
-  int narrow = 0;    // cells that are blocked for no robot gets from them to a neighbour
+  int too_near = 0;  // blocked cells whose middle is free but too near to a wall
+  int narrow = 0;    // cells blocked because no robot can move from them to a neighbour
 };
 
-// Cells of that size, metres, whose middle a robot of that radius can be on. Between two neighbours
-// that are not blocked it can go straight: of two where it cannot one is blocked, that with fewer
-// ways. Throws std::invalid_argument if no cell fits into the image.
+// Returns a map of cells of `cell_size` metres. A cell is passable if a robot of radius
+// `robot_radius` metres fits at its middle. Between two passable neighbours the robot can move
+// straight: if it cannot, the one with fewer connections is blocked. Throws std::invalid_argument
+// if no cell fits into the image.
 CellMap cells_of(const OccupancyMap& map, double cell_size, double robot_radius);
 
 }  // namespace grove::detail

@@ -67,11 +67,11 @@ void Disturbances::read_stops(const DisturbanceArguments& arguments, const Insta
   }
 }
 
-// Of a slow robot the steps of all actions together are rounded, not each.
+// For a slow robot, rounds the total duration of its actions, not each duration.
 Duration Disturbances::durations(const ActionDependencyGraph& order, std::uint64_t seed) const {
   struct Run {
-    std::vector<double> owed;  // by agent: parts of steps
-    std::vector<Stop> stops;   // to come
+    std::vector<double> owed;  // by agent: fraction of a step not yet added
+    std::vector<Stop> stops;   // stops that have not happened yet
   };
   const auto state = std::make_shared<Run>(Run{std::vector<double>(slowness_.size()), stops_});
   return [this, seed, state, &order](ActionIndex index, Time begin) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What happens to robots on the way, as one types it.
+// Disturbances of robots, from the command line.
 #pragma once
 
 #include <cstdint>
@@ -11,29 +11,29 @@
 
 namespace grove::detail {
 
-// Of a command line.
+// Values of the options.
 struct DisturbanceArguments {
-  double delayed = 0;             // share of actions that take longer
-  std::int64_t delay_steps = 3;   // by so many steps at most
+  double delayed = 0;             // share of actions that take longer, 0 to 1
+  std::int64_t delay_steps = 3;   // maximum delay of such an action
   std::vector<std::string> slow;  // ROBOT=FACTOR
   std::vector<std::string> stop;  // ROBOT@TIME=STEPS
   std::vector<std::string> dies;  // ROBOT@TIME
 };
 
-// The same of an instance's robots, in numbers.
+// The same as numbers, for the robots of an instance.
 class Disturbances {
  public:
-  // Throws CLI::ValidationError, naming option and value.
+  // Throws CLI::ValidationError, which names the option and its value.
   Disturbances(const DisturbanceArguments& arguments, const Instance& instance);
 
-  // How long actions take in one drive; another seed, another drive.
+  // Returns the durations of actions in one execution; each seed gives another one.
   Duration durations(const ActionDependencyGraph& order, std::uint64_t seed) const;
 
  private:
   struct Stop {
     AgentIndex agent = -1;
     Time from = 0;
-    Time steps = 0;  // kNever: for good
+    Time steps = 0;  // kNever: for ever
   };
 
   void read_stops(const DisturbanceArguments& arguments, const Instance& instance);

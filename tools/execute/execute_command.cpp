@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove execute INSTANCE PLAN
+// grove execute INSTANCE PLAN.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -35,21 +35,22 @@ constexpr IntegerRange kDelaySteps{1, 1'000'000};
 constexpr std::size_t kMostStuck = 20;
 
 constexpr const char* kExecuteFooter =
-    R"(Robots drive the plan along its passing order: not by the clock, but each action as soon as the robot
-before it has left the place. So they never collide and never block each other, however late they
-are. A robot that moves holds both places until it has arrived; a robot that follows another waits for
-that, so even undisturbed a drive may take longer than the plan.
+    R"(Robots execute the plan along its passing order, not by the clock: each action starts as soon as the
+robot before it has left the place. So robots never collide and never block each other, whatever the
+delays. A robot that moves occupies both places until it has arrived, and a robot that follows it
+waits for that. So even without disturbances an execution may take longer than the plan.
 
-With --switch a robot that has waited for another for some steps goes first where they meet next, if
-the sum of finish times is expected to be less for it; the order stays one in which nobody waits in a
-circle. The table then has both, with the same delays.
+With --switch a robot that has waited for another one for some steps goes first where they meet
+next, if that reduces the expected sum of finish times. The order stays free of cycles. The table
+then has both executions, with the same delays.
 
-Every drive is checked like a plan, from its paths. With robots that die the others go on as far as
-they can, and it says who waits for whom. Of several drives, each with other delays, the table has
-the median and the worst, of each column by itself; of those that end.
+Every execution is checked like a plan, from its paths. If robots fail (--dies), the others continue
+as far as they can, and the output lists which robot waits for which. With --runs, each execution
+has other delays; the table has the median and the worst value of each column, over the executions
+that end.
 
---stop and --dies hold whatever else happens; several stops of a robot add up. In the plan that
---output writes a robot that took longer for something waits before it.
+--stop and --dies are independent of other delays; several stops of a robot add up. In the plan that
+--output writes, a robot whose action took longer waits before that action.
 
 Examples:
   grove execute my.cts.json my.plan.json --delays 0.1 --runs 1000
@@ -71,8 +72,8 @@ struct ExecuteArguments {
   std::string view;
 };
 
-// What drives took.
-struct Took {
+// Results of executions.
+struct Totals {
   std::vector<Cost> makespans;
   std::vector<Cost> costs;
 
@@ -95,7 +96,7 @@ class Execution {
       : a_(arguments),
         options_(options_text(app)),
         loaded_(arguments.instance.load()),
-        claimed_(read_plan_to_drive(arguments.plan, loaded_.instance)),
+        claimed_(read_plan_to_execute(arguments.plan, loaded_.instance)),
         order_(loaded_.instance, *claimed_.solution.plan) {}
 
   void run() {
@@ -108,7 +109,7 @@ class Execution {
     for (std::int64_t run = 0; run < a_.runs; ++run) drive_once(troubles, a_.seed + run);
     print();
     if (a_.switches) fmt::print("switched: {} places\n", switches_);
-    if (unfinished_ > 0) tell_stuck();
+    if (unfinished_ > 0) report_blocked_robots();
   }
 
  private:
@@ -143,9 +144,9 @@ class Execution {
     Solution solution;
     solution.plan = executed_plan(loaded_.instance, *claimed_.solution.plan, order_, drive);
     solution.lower_bound = 0;
-    solution.may_follow = claimed_.solution.may_follow;  // who waits for others still does not
+    solution.may_follow = claimed_.solution.may_follow;  // an execution adds no following
     solution.status = status_of(solution.plan->cost, 0, solution.omega);
-    solution.stats.texts["driven"] = a_.plan;
+    solution.stats.texts["executed"] = a_.plan;
     solution.stats.texts["options"] = options_;
     return solution;
   }
@@ -156,37 +157,37 @@ class Execution {
       write(a_.output, solution_text(loaded_.instance, driven));
     else if (!a_.output.empty())
       print_warnings(
-          {fmt::format("{} is not written: not all robots get to their end, so the drive "
-                       "is no plan",
+          {fmt::format("{} is not written: not all robots reach their end, so the execution "
+                       "is not a plan",
                        a_.output)});
     if (a_.view.empty()) return;
-    const std::string name_of_drive = stuck.empty()
-                                          ? "driven"
-                                          : fmt::format("driven, {} of {} robots not to their end",
-                                                        stuck.size(), order_.agent_count());
+    const std::string name_of_drive =
+        stuck.empty() ? "driven"
+                      : fmt::format("driven, {} of {} robots do not reach their end", stuck.size(),
+                                    order_.agent_count());
     const std::vector<NamedPlan> plans{
         {"planned", claimed_}, {name_of_drive, {driven, {"lower bound", "order of tasks"}}}};
     const std::string name = std::filesystem::path(a_.instance.name()).filename().string();
     write(a_.view, plan_page(name, page_data(name, loaded_.instance, plans)));
   }
 
-  // By the independent checker: a drive that collides is a bug.
+  // Uses the independent checker: an execution with a collision is an error in Grove.
   void require_valid(const ExecutionTrace& drive) const {
     require_valid_plan(loaded_.instance, solution_of(drive));
   }
 
-  void tell_stuck() const {
+  void report_blocked_robots() const {
     const auto id = [&](AgentIndex agent) { return one_line(loaded_.instance.agent(agent).id); };
     const std::string which =
         a_.runs == 1 ? ""
-                     : fmt::format("{} of {} drives do not end; of the one with --seed {} ",
+                     : fmt::format("{} of {} executions do not end; in the one with --seed {} ",
                                    unfinished_, a_.runs, first_stuck_seed_);
-    fmt::print("{}{} of {} robots do not get to their end:\n", which, first_stuck_.size(),
+    fmt::print("{}{} of {} robots do not reach their end:\n", which, first_stuck_.size(),
                order_.agent_count());
     for (std::size_t i = 0; i < std::min(first_stuck_.size(), kMostStuck); ++i) {
       const BlockedRobot& s = first_stuck_[i];
       if (s.agent == s.waits_for)
-        fmt::print("  {} does not move any more\n", id(s.agent));
+        fmt::print("  {} has failed\n", id(s.agent));
       else
         fmt::print("  {} waits for {}\n", id(s.agent), id(s.waits_for));
     }
@@ -196,7 +197,7 @@ class Execution {
 
   void print() {
     const Plan& plan = *claimed_.solution.plan;
-    Took undisturbed;
+    Totals undisturbed;
     undisturbed.add(order_, simulate_nominal(order_));
     const Cost makespan = std::ranges::max(plan.agents, {}, &AgentPlan::cost).cost;
     fmt::print("passing order: {} actions, {} waits between robots, {} rings\n",
@@ -208,7 +209,7 @@ class Execution {
     if (!switching_.costs.empty()) row("driven, switching", switching_, plan.cost, makespan);
   }
 
-  static void row(const std::string& name, Took& took, Cost cost, Cost makespan) {
+  static void row(const std::string& name, Totals& took, Cost cost, Cost makespan) {
     const auto middle = [](std::vector<Cost>& all) {
       std::ranges::sort(all);
       return all[all.size() / 2];
@@ -233,10 +234,10 @@ class Execution {
   const LoadedInstance loaded_;
   const ClaimedPlan claimed_;
   const ActionDependencyGraph order_;
-  Took fixed_;
-  Took switching_;
+  Totals fixed_;
+  Totals switching_;
   std::int64_t switches_ = 0;
-  std::int64_t unfinished_ = 0;  // drives
+  std::int64_t unfinished_ = 0;  // number of executions
   std::vector<BlockedRobot> first_stuck_;
   std::int64_t first_stuck_seed_ = 0;
 };
@@ -245,37 +246,45 @@ class Execution {
 
 void add_execute_command(CLI::App& app) {
   const auto arguments = std::make_shared<ExecuteArguments>();
-  CLI::App* command = app.add_subcommand("execute", "Drive a plan with delays, without collisions");
+  CLI::App* command = app.add_subcommand("execute", "Simulate the execution of a plan with delays");
   command->footer(kExecuteFooter);
   arguments->instance.add_to(*command);
-  command->add_option("PLAN", arguments->plan, "plan file, or another solver's paths")
+  command->add_option("PLAN", arguments->plan, "plan file, or paths of another solver")
       ->required()
       ->type_name("");
   DisturbanceArguments& t = arguments->troubles;
-  add_number(*command, "--delays", t.delayed, 0, 1, "share of actions that take longer");
-  add_integer(*command, "--delay-steps", t.delay_steps, kDelaySteps, "by 1 to so many steps");
+  add_number(*command, "--delays", t.delayed, 0, 1,
+             "share of actions that take longer, from 0 to 1");
+  add_integer(*command, "--delay-steps", t.delay_steps, kDelaySteps,
+              "maximum delay of an action, steps; drawn from 1 to N");
   add_repeated(*command, "--slow", t.slow, "ROBOT=FACTOR",
-               "a robot that takes FACTOR times as long");
+               "robot whose actions take FACTOR times as long (repeatable)");
   add_repeated(*command, "--stop", t.stop, "ROBOT@TIME=STEPS",
-               "a robot that stops for so many steps from then on");
+               "robot that stops at TIME for STEPS steps (repeatable)");
   add_repeated(*command, "--dies", t.dies, "ROBOT@TIME",
-               "a robot that does not move any more from then on");
+               "robot that fails at TIME and does not move again (repeatable)");
   command->add_flag("--switch", arguments->switches,
-                    "let robots go first that wait for a late one, where that saves time");
-  add_integer(*command, "--runs", arguments->runs, kRuns, "so many drives, each with other delays");
-  add_integer(*command, "--seed", arguments->seed, kSeeds, "of the delays of the first one");
+                    "let a robot that waits for a late one go first if that saves time");
+  add_integer(*command, "--runs", arguments->runs, kRuns,
+              "number of executions, each with other delays");
+  add_integer(*command, "--seed", arguments->seed, kSeeds,
+              "seed of the delays of the first execution");
   command->add_option("--order", arguments->order, "write the passing order to this file")
       ->type_name("FILE.json");
   arguments->frame.add_to(*command);
-  command->add_option("-o,--output", arguments->output, "write the first drive as a plan")
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "write the first execution as a plan to this file")
       ->type_name("PLAN");
-  command->add_option("--view", arguments->view, "show plan and first drive side by side as a page")
+  command
+      ->add_option("--view", arguments->view,
+                   "write a page with the plan and the first execution side by side")
       ->type_name("FILE.html");
   command->callback([command, arguments] {
     if (arguments->frame.given() && arguments->order.empty())
-      throw CLI::ValidationError("--cell-size, --origin", "expected only with --order");
+      throw CLI::ValidationError("--cell-size, --origin", "allowed only with --order");
     if (command->count("--delay-steps") > 0 && command->count("--delays") == 0)
-      throw CLI::ValidationError("--delay-steps", "expected only with --delays");
+      throw CLI::ValidationError("--delay-steps", "allowed only with --delays");
     Execution(*command, *arguments).run();
   });
 }

@@ -26,13 +26,13 @@ AgentIndex robot_of(const std::string& option, const std::string& text, const st
   return static_cast<AgentIndex>(found - instance.agents().begin());
 }
 
-ClaimedPlan read_plan_to_drive(const std::string& file, const Instance& instance) {
+ClaimedPlan read_plan_to_execute(const std::string& file, const Instance& instance) {
   ClaimedPlan claimed = read_plan_of_any_tool(file, instance);
   const auto wrong = check(instance, claimed.solution, 1);
   if (wrong.empty()) return claimed;
   const bool is_made_otherwise = claimed.solution.may_follow && !instance.may_follow();
   throw InputError(
-      file, wrong.front().place,
+      file, wrong.front().json_pointer,
       fmt::format("is not valid{}, so it cannot be driven: {}",
                   is_made_otherwise ? " with --no-following, and was made without it" : "",
                   wrong.front().message));

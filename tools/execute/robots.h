@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robots and their plans, as one names them on the command line.
+// Robots and plans named on the command line.
 #pragma once
 
 #include <string>
@@ -13,12 +13,12 @@ namespace grove::detail {
 [[noreturn]] void refuse(const std::string& option, const std::string& text,
                          const std::string& expected);
 
-// The robot called `id`, which begins `text`. Throws CLI::ValidationError.
+// Returns the robot called `id`, the first part of `text`. Throws CLI::ValidationError.
 AgentIndex robot_of(const std::string& option, const std::string& text, const std::string& id,
                     const Instance& instance);
 
-// The plan of the instance that is to be driven, in any format; prints warnings. Throws InputError
-// if there is none, or it is not valid.
-ClaimedPlan read_plan_to_drive(const std::string& file, const Instance& instance);
+// Reads the plan to execute, in any format, and prints warnings. Throws InputError if there is none
+// or if it is not valid.
+ClaimedPlan read_plan_to_execute(const std::string& file, const Instance& instance);
 
 }  // namespace grove::detail

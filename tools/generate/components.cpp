@@ -24,12 +24,11 @@ void flood(const Grid& grid, Cell first, int label, std::vector<int>& labels) {
 
 using Neighbors = std::vector<std::vector<int>>;  // by vertex
 
-// `from` and what can be reached from it and is not seen yet; each vertex after all that it leads
-// to for the first time.
+// Appends the unseen vertices that are reachable from `from`, in depth-first postorder.
 void visit_after_next(const Neighbors& next, int from, std::vector<bool>& seen,
                       std::vector<int>& visited) {
   std::vector<std::pair<int, std::size_t>> stack{
-      {from, 0}};  // with how many of its neighbours done
+      {from, 0}};  // vertex and number of its neighbours already visited
   seen[from] = true;
   while (!stack.empty()) {
     auto& [here, done] = stack.back();
@@ -67,8 +66,8 @@ std::vector<Cell> largest_component(const Grid& grid) {
   return cells;
 }
 
-// Kosaraju's two searches: along the roads, and then against them, from those vertices on that the
-// first one was done with last.
+// Kosaraju's algorithm: a depth-first search along the roads, then one against them from the
+// vertices in reverse postorder of the first.
 std::vector<int> largest_strong_component(const Roadmap& roadmap) {
   const std::size_t count = roadmap.vertices().size();
   Neighbors next(count);

@@ -8,16 +8,16 @@
 
 namespace grove::detail {
 
-// The connected parts of the passable cells: by cell, the number of its part (from 0, in the order
-// of their first cells), or -1 on blocked cells.
+// Returns for each cell the number of its connected component of passable cells, from 0 in the
+// order of the components' first cells; -1 for blocked cells.
 std::vector<int> components(const Grid& grid);
 
-// The cells of the largest part (the first of several), in ascending order; empty if all is
-// blocked.
+// Returns the cells of the largest component (the first of several) in ascending order. Empty if
+// all cells are blocked.
 std::vector<Cell> largest_component(const Grid& grid);
 
-// The vertices of the largest part (the first of several) in which every vertex can be reached from
-// every other, in ascending order.
+// Returns the vertices of the largest strongly connected component (the first of several) in
+// ascending order.
 std::vector<int> largest_strong_component(const Roadmap& roadmap);
 
 }  // namespace grove::detail

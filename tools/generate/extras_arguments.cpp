@@ -28,12 +28,12 @@ Extras::Range parse_durations(const std::string& option, const std::string& text
 void ExtrasArguments::add_to(CLI::App& command) {
   command_ = &command;
   command.add_flag("--turning", turning_,
-                   "agents go straight ahead, and need time for a quarter turn; headings at the "
-                   "start are drawn");
+                   "let agents move only forward, with time for each quarter turn; draw their "
+                   "headings at the start");
   add_integer(command, "--turn-steps", turn_steps_, {1, InstanceBuilder::kLongest},
-              "with --turning: steps that a quarter turn takes");
+              "with --turning: duration of a quarter turn, steps");
   command.add_flag("--goal-headings", goal_headings_,
-                   "with --turning: draw headings at the destinations, too");
+                   "with --turning: draw headings at the destinations as well");
   const std::string name = "--durations";
   command
       .add_option(
@@ -42,7 +42,7 @@ void ExtrasArguments::add_to(CLI::App& command) {
             durations_ = parse_durations(name, results.front());
             return true;
           },
-          "steps that tasks take, drawn for each: whole numbers from A to B")
+          "range of the duration of tasks, steps; drawn for each task, integers from A to B")
       ->type_name("A-B")
       ->default_str("0-0");
 }
@@ -50,10 +50,9 @@ void ExtrasArguments::add_to(CLI::App& command) {
 Extras ExtrasArguments::extras(bool with_goals) const {
   for (const char* option : {"--turn-steps", "--goal-headings"})
     if (!turning_ && command_->count(option) > 0)
-      throw CLI::ValidationError(option, "expected only with --turning");
+      throw CLI::ValidationError(option, "allowed only with --turning");
   if (goal_headings_ && !with_goals)
-    throw CLI::ValidationError("--goal-headings",
-                               "expected only where some agents have destinations");
+    throw CLI::ValidationError("--goal-headings", "allowed only if some agents have destinations");
   return {.turn_steps = turning_ ? static_cast<Time>(turn_steps_) : 0,
           .goal_headings = goal_headings_,
           .durations = durations_};

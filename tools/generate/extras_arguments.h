@@ -8,13 +8,14 @@
 
 namespace grove::detail {
 
-// --turning, --turn-steps, --goal-headings, --durations. Must outlive the parsing.
+// --turning, --turn-steps, --goal-headings, --durations. Must outlive the parsing of the command
+// line.
 class ExtrasArguments {
  public:
   void add_to(CLI::App& command);
 
-  // `with_goals`: some agents will have destinations. Throws CLI::ValidationError when the
-  // arguments do not fit together.
+  // `with_goals`: whether some agents will have destinations. Throws CLI::ValidationError if the
+  // arguments contradict each other.
   Extras extras(bool with_goals) const;
 
  private:

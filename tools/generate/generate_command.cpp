@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove generate: the command itself, and what its parts share.
+// grove generate: the command, and functions that its subcommands share.
 #include <fmt/format.h>
 
 #include "io/map_file.h"
@@ -12,8 +12,8 @@ namespace grove::detail {
 namespace {
 
 constexpr const char* kFooter =
-    R"(Everything drawn at random depends on --seed alone: the same command writes the same bytes on
-every machine.
+    R"(All random choices depend only on --seed: the same command writes the same bytes on every
+machine.
 
 Examples:
   grove generate map random --width 32 --height 32 --obstacles 0.2 --seed 1 -o my.map
@@ -30,7 +30,7 @@ Examples:
 }  // namespace
 
 void add_output(CLI::App& command, std::string& path, const std::string& type_name) {
-  command.add_option("-o,--output", path, "file to write, whole or not at all")
+  command.add_option("-o,--output", path, "file to write, completely or not at all")
       ->required()
       ->type_name(type_name);
 }
@@ -63,7 +63,7 @@ std::string map_as_seen_from(const std::filesystem::path& instance, const std::s
 
 void add_generate_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("generate", "Make maps, roadmaps, scenarios and data sets");
+      app.add_subcommand("generate", "Generate maps, roadmaps, scenarios, instances and data sets");
   command->footer(kFooter)->require_subcommand(1);
   add_generate_map_command(*command);
   add_generate_roadmap_command(*command);

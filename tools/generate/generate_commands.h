@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of `grove generate`.
+// The subcommands of `grove generate`.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -24,20 +24,20 @@ void add_generate_instance_command(CLI::App& generate);
 void add_generate_dataset_command(CLI::App& generate);
 void add_generate_paper_command(CLI::App& generate);
 
-// --output, required.
+// Adds the required option --output.
 void add_output(CLI::App& command, std::string& path, const std::string& type_name);
 
-// Reads a map, printing its warnings.
+// Reads a map and prints its warnings.
 Grid load_map(const std::string& map);
 
-// All rows of a scenario file, which must be for `map`.
+// Reads all rows of a scenario file, which must be for `map`.
 Scenario load_scenario(const std::string& file, const std::string& map, const Grid& grid);
 
-// A scenario drawn for `map`, with as many rows as the instance takes.
+// Draws a scenario for `map` with as many rows as the instance needs.
 Scenario draw_scenario(const std::string& map, const Grid& grid, const InstanceRequest& request,
                        std::int64_t seed);
 
-// `map` as an instance file at `instance` must name it.
+// Returns the path of `map` as an instance file at `instance` must name it.
 std::string map_as_seen_from(const std::filesystem::path& instance, const std::string& map);
 
 }  // namespace grove::detail

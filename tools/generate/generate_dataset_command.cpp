@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove generate dataset: every combination of scenarios, agents and tasks.
+// grove generate dataset: instances for every combination of scenarios, agents and tasks.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,10 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kDatasetFooter =
-    R"(Each instance is what 'grove generate instance' makes with the same seed. Files are named
-MAP_sS_nN_mM.cts.json (S: the number at the end of the scenario's name, N agents, M tasks); what is
-asked for besides is added: _turning, or _turningD where a turn takes D > 1 steps, _headings,
-_dA-B, _mg. manifest.txt lists them.
+    R"(Each instance is the one that 'grove generate instance' makes with the same seed. Files are named
+MAP_sS_nN_mM.cts.json (S: the number at the end of the scenario's name, N agents, M tasks), with a
+suffix for each extra: _turning, or _turningD if a turn takes D > 1 steps, _headings, _dA-B, _mg.
+manifest.txt lists them.
 
 Example, the paper's room cells:
   grove generate dataset --map room-32-32-4.map --scen room-32-32-4-random-*.scen \
@@ -39,7 +39,7 @@ struct DatasetArguments {
   std::string output_dir;
 };
 
-// "7" of "room-32-32-4-random-7.scen"; `position` where the name does not end in a number.
+// Returns "7" for "room-32-32-4-random-7.scen"; `position` if the name does not end in a number.
 std::string number_of(const std::string& file, std::size_t position) {
   const std::string stem = fs::path(file).stem().string();
   const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
@@ -55,8 +55,8 @@ std::vector<NumberedScenario> load_scenarios(const DatasetArguments& arguments, 
     const std::string number = number_of(file, scenarios.size() + 1);
     if (!numbers.insert(number).second)
       throw InputError(file, "",
-                       fmt::format("is a second scenario with number {}; expected "
-                                   "distinct ones",
+                       fmt::format("has the same number {} as another scenario; expected "
+                                   "distinct numbers",
                                    number));
     scenarios.push_back({number, load_scenario(file, arguments.map, grid), arguments.seed});
   }
@@ -82,7 +82,7 @@ void run(const DatasetArguments& arguments) {
                                       ? draw_scenarios(arguments, grid)
                                       : load_scenarios(arguments, grid)}};
   const SetSizes sizes{arguments.agents, arguments.tasks, {arguments.mg}, extras};
-  // First without writing: a set that does not fit must not leave half of itself behind.
+  // Checks the whole set before it writes the first file, so that no incomplete set remains.
   require_fitting(maps, sizes);
   write_set(arguments.output_dir, maps, sizes);
 }
@@ -92,20 +92,21 @@ void run(const DatasetArguments& arguments) {
 void add_generate_dataset_command(CLI::App& generate) {
   const auto arguments = std::make_shared<DatasetArguments>();
   CLI::App* command = generate.add_subcommand(
-      "dataset", "Instances for all combinations of scenarios, agents and tasks");
+      "dataset", "Generate instances for all combinations of scenarios, agents and tasks");
   command->footer(kDatasetFooter);
   command->add_option("--map", arguments->map, "map")->required()->type_name("FILE.map");
   command->add_option("--scen", arguments->scenario_files, "scenarios for this map")
       ->type_name("FILE.scen");
   add_integer(*command, "--scenarios", arguments->scenarios_to_draw, kScenarioNumbers,
-              "without --scen: scenarios to draw, the k-th with seed + k - 1");
+              "without --scen: number of scenarios to draw, the k-th with seed + k - 1");
   add_integers(*command, "--agents", arguments->agents, kAgentNumbers, "numbers of agents")
       ->required();
   add_integers(*command, "--tasks", arguments->tasks, kTaskNumbers, "numbers of tasks")->required();
-  add_integer(*command, "--seed", arguments->seed, kSeeds, "seed");
-  command->add_flag("--mg", arguments->mg, "make MG-MAPF instances");
+  add_integer(*command, "--seed", arguments->seed, kSeeds, "seed of all random choices");
+  command->add_flag("--mg", arguments->mg, "make MG-MAPF instances: agents without destinations");
   arguments->extras.add_to(*command);
-  command->add_option("--output-dir", arguments->output_dir, "folder to write to; made if missing")
+  command
+      ->add_option("--output-dir", arguments->output_dir, "folder to write to; created if missing")
       ->required()
       ->type_name("DIR");
   command->callback([arguments] { run(*arguments); });

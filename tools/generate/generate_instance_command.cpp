@@ -36,14 +36,15 @@ void run_scenario(const ScenarioArguments& arguments) {
 }
 
 constexpr const char* kInstanceFooter =
-    R"(On a map, the recipe of the paper: the first N rows of the scenario are the agents; the starts of
-the rows from 21 on are the tasks (with more than 20 agents: of the rows after theirs), each given
-to 1, 2 or 3 random agents. With --mg no agent has a destination: what it was is one more task of
-that agent. Without --scen a scenario is drawn with the same seed.
+    R"(On a map, instances are made as in the paper: the first N rows of the scenario are the agents, and
+the starts of the rows from 21 on are the tasks (with more than 20 agents: of the rows after the
+agents). Each task is given to 1, 2 or 3 random agents. With --mg no agent has a destination; its
+destination becomes one more task of that agent. Without --scen a scenario is drawn with the same
+seed.
 
-On a roadmap all are drawn, in the largest part in which every vertex can be reached from every
-other: distinct starts, distinct goals, and tasks on distinct vertices where nobody starts, given
-to agents as above. A robot at rest on a dead end, as parking bays are, is in nobody's way.
+On a roadmap, all is drawn in the largest strongly connected part: distinct starts, distinct goals,
+and tasks on distinct vertices where no agent starts, given to agents as above. A robot at rest on a
+dead end, such as a parking bay, does not block other robots.
 
 Examples:
   grove generate instance --map my.map --agents 10 --tasks 30 --seed 1 -o my.cts.json
@@ -71,12 +72,12 @@ void require_fitting(const CLI::App& command) {
     throw CLI::RequiredError("--map or --roadmap");
   const auto require_only = [&](const std::string& option, const std::string& where) {
     if (command.count(option) > 0)
-      throw CLI::ValidationError(option, fmt::format("expected only {}", where));
+      throw CLI::ValidationError(option, fmt::format("allowed only {}", where));
   };
   if (command.count("--roadmap") > 0) {
     require_only("--map", "without --roadmap");
     require_only("--scen", "with --map");
-    require_only("--turning", "with --map: headings are those of a grid");
+    require_only("--turning", "with --map, because only agents on grids have headings");
   } else {
     require_only("--agents-on", "with --roadmap");
     require_only("--tasks-on", "with --roadmap");
@@ -123,48 +124,48 @@ void run_instance(const CLI::App& command, const NewInstanceArguments& arguments
 void add_generate_scenario_command(CLI::App& generate) {
   const auto arguments = std::make_shared<ScenarioArguments>();
   CLI::App* command =
-      generate.add_subcommand("scenario", "Random starts and goals on a map, as a .scen file");
+      generate.add_subcommand("scenario", "Draw random starts and goals on a map, as a .scen file");
   command->footer(
-      "Starts are distinct, goals are distinct, and all lie in the map's largest connected part, "
+      "Starts are distinct, goals are distinct, and all are in the map's largest connected part, "
       "as\n"
       "in Moving AI's random scenarios. The length column is the 4-connected distance.");
   command->add_option("--map", arguments->map, "map")->required()->type_name("FILE.map");
-  add_integer(*command, "--rows", arguments->rows, kRowNumbers, "rows to write");
-  add_integer(*command, "--seed", arguments->seed, kSeeds, "seed");
+  add_integer(*command, "--rows", arguments->rows, kRowNumbers, "number of rows");
+  add_integer(*command, "--seed", arguments->seed, kSeeds, "seed of all random choices");
   add_output(*command, arguments->output, "FILE.scen");
   command->callback([arguments] { run_scenario(*arguments); });
 }
 
 void add_generate_instance_command(CLI::App& generate) {
   const auto arguments = std::make_shared<NewInstanceArguments>();
-  CLI::App* command =
-      generate.add_subcommand("instance", "A CTS-MAPF or MG-MAPF instance on a map or a roadmap");
+  CLI::App* command = generate.add_subcommand(
+      "instance", "Generate a CTS-MAPF or MG-MAPF instance on a map or a roadmap");
   command->footer(kInstanceFooter);
   command->add_option("--map", arguments->map, "map")->type_name("FILE.map");
-  command->add_option("--scen", arguments->scenario, "scenario for this map")
+  command->add_option("--scen", arguments->scenario, "scenario for this map; default: draw one")
       ->type_name("FILE.scen");
-  command->add_option("--roadmap", arguments->roadmap, "roadmap, in place of a map")
+  command->add_option("--roadmap", arguments->roadmap, "roadmap, instead of a map")
       ->type_name("FILE.roadmap.json");
   command
-      ->add_option(
-          "--agents-on", arguments->agents_on,
-          "with --roadmap: agents start and end on vertices whose ids begin so; '': on any; by "
-          "default on dead ends, if there are enough")
+      ->add_option("--agents-on", arguments->agents_on,
+                   "with --roadmap: prefix of the ids of vertices where agents start and end; '': "
+                   "any vertex; "
+                   "default: dead ends, if there are enough")
       ->type_name("PREFIX");
   command
       ->add_option(
           "--tasks-on", arguments->tasks_on,
-          "with --roadmap: tasks are on vertices whose ids begin so; '': on any; by default "
-          "where agents do not start and end, if these have places of their own")
+          "with --roadmap: prefix of the ids of vertices with tasks; '': any vertex; default: "
+          "vertices that are not for agents, if agents have vertices of their own")
       ->type_name("PREFIX");
-  add_integer(*command, "--agents", arguments->agents, kAgentNumbers, "agents")
+  add_integer(*command, "--agents", arguments->agents, kAgentNumbers, "number of agents")
       ->required()
       ->default_str("");
-  add_integer(*command, "--tasks", arguments->tasks, kTaskNumbers, "tasks")
+  add_integer(*command, "--tasks", arguments->tasks, kTaskNumbers, "number of tasks")
       ->required()
       ->default_str("");
-  add_integer(*command, "--seed", arguments->seed, kSeeds, "seed");
-  command->add_flag("--mg", arguments->mg, "make an MG-MAPF instance");
+  add_integer(*command, "--seed", arguments->seed, kSeeds, "seed of all random choices");
+  command->add_flag("--mg", arguments->mg, "make an MG-MAPF instance: agents without destinations");
   arguments->extras.add_to(*command);
   add_output(*command, arguments->output, "FILE.cts.json");
   command->callback([command, arguments] { run_instance(*command, *arguments); });

@@ -27,7 +27,7 @@ struct MapArguments {
   std::uint64_t map_seed() const { return static_cast<std::uint64_t>(seed); }
 };
 
-// Shared by the commands that fill them in and the callbacks that use them.
+// Shared by the functions that add the commands and their callbacks.
 using SharedArguments = std::shared_ptr<MapArguments>;
 using DrawMap = Grid (*)(const MapArguments&);
 
@@ -63,8 +63,9 @@ void add_random(CLI::App& map, const SharedArguments& arguments) {
       add_kind(map, arguments, "random", "Random obstacles", [](const MapArguments& a) {
         return random_map(a.columns(), a.rows(), a.obstacles, a.map_seed());
       });
-  add_number(*command, "--obstacles", arguments->obstacles, 0, 1, "share of the cells to block");
-  add_integer(*command, "--seed", arguments->seed, kSeeds, "seed");
+  add_number(*command, "--obstacles", arguments->obstacles, 0, 1,
+             "share of the cells to block, from 0 to 1");
+  add_integer(*command, "--seed", arguments->seed, kSeeds, "seed of all random choices");
 }
 
 void add_rooms(CLI::App& map, const SharedArguments& arguments) {
@@ -73,20 +74,19 @@ void add_rooms(CLI::App& map, const SharedArguments& arguments) {
         return rooms_map(a.columns(), a.rows(), static_cast<int>(a.room_size), a.doors,
                          a.map_seed());
       });
-  add_integer(*command, "--room-size", arguments->room_size, kSides, "side of a room in cells");
+  add_integer(*command, "--room-size", arguments->room_size, kSides, "side of a room, cells");
   add_number(*command, "--doors", arguments->doors, 0, 1,
-             "share of the walls between two rooms that have a door");
-  add_integer(*command, "--seed", arguments->seed, kSeeds, "seed");
+             "share of the walls between two rooms that have a door, from 0 to 1");
+  add_integer(*command, "--seed", arguments->seed, kSeeds, "seed of all random choices");
 }
 
 }  // namespace
 
 void add_generate_map_command(CLI::App& generate) {
-  CLI::App* map = generate.add_subcommand("map", "A map: empty, random or rooms");
+  CLI::App* map = generate.add_subcommand("map", "Generate a map: empty, random or rooms");
   map->footer(
-      "The passable cells are always one connected part: obstacles cut nothing off, and rooms have "
-      "at\n"
-      "least the doors that connect them all. A door is one cell wide; so is a wall.\n"
+      "All passable cells are connected: obstacles cut off no cell, and rooms have at least the\n"
+      "doors that connect them. Doors and walls are one cell wide.\n"
       "\n"
       "Examples:\n"
       "  grove generate map random --width 32 --height 32 --obstacles 0.2 --seed 1 -o my.map\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove generate paper: the paper's whole data set (section V), with one list of it.
+// grove generate paper: the paper's data set (section V), with a manifest.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,28 +23,29 @@ namespace fs = std::filesystem;
 constexpr int kScenarios = 50;
 
 constexpr const char* kPaperFooter =
-    R"(Without further options: 3 maps, 50 scenarios, 5, 10 and 20 agents, 10 to 50 tasks, with
-destinations and without: 4,500 instances, and DIR/manifest.txt with them all, for 'grove bench'.
-Files are named MAP_sS_nN_mM.cts.json; _mg is added to those without destinations. manifest-cts.txt
-and manifest-mg.txt list those with and those without, for methods that are for one of them.
+    R"(Without further options: 3 maps, 50 scenarios, 5, 10 and 20 agents, 10 to 50 tasks, with and
+without destinations: 4,500 instances, and DIR/manifest.txt, which lists them for 'grove bench'.
+Files are named MAP_sS_nN_mM.cts.json, with the suffix _mg without destinations. manifest-cts.txt
+and manifest-mg.txt list the instances with and without destinations, for methods that support only
+one of the problems.
 
 With --turning or --durations the same instances are made for robots that need time to turn, and
-for tasks that take time; the names then tell: MAP_sS_nN_mM_turning_d0-10.cts.json.
+for tasks that take time; the file names show it: MAP_sS_nN_mM_turning_d0-10.cts.json.
 
 With --movingai the maps and scenarios are those of the Moving AI benchmark, in one folder: MAP.map,
 scenarios 1 to 25 from MAP-random-1.scen to MAP-random-25.scen, 26 to 50 from MAP-even-1.scen to
-MAP-even-25.scen. Without it Grove draws maps of the same kinds - empty, random and rooms, 32 x 32
-cells -, writes them to DIR, and draws the scenarios.
+MAP-even-25.scen. Without it Grove generates maps of the same kinds (empty, random and rooms, 32 x
+32 cells), writes them to DIR, and draws the scenarios.
 
-An instance of scenario K is what 'grove generate instance' makes of it with --seed K, to which
---seed is added.
+An instance of scenario K is the one that 'grove generate instance' makes from it with the seed K
+plus --seed.
 
 Examples:
   grove generate paper --movingai mapf/ --scenarios 1-25 --output-dir paper
   grove generate paper --scenarios 1-3 --agents 5 --problem cts --output-dir small
   grove bench small/manifest.txt --run 'paper: --policy fixed' --run 'grove:' --output-dir results)";
 
-// What "--problem" makes: without destinations, or with.
+// Values of --problem. False: with destinations (CTS-MAPF); true: without (MG-MAPF).
 const std::map<std::string, std::vector<bool>> kProblems{
     {"both", {false, true}}, {"cts", {false}}, {"mg", {true}}};
 
@@ -70,7 +71,7 @@ fs::path scenario_file(const PaperArguments& arguments, const std::string& map, 
                                              : fmt::format("{}-even-{}.scen", map, k - kOfAKind));
 }
 
-// Benchmarks are often downloaded in part: tells at once what there is.
+// Benchmarks are often downloaded in part, so this checks all files first and reports which exist.
 void require_scenarios(const PaperArguments& arguments) {
   std::string missing;
   std::vector<std::int64_t> there;
@@ -85,13 +86,14 @@ void require_scenarios(const PaperArguments& arguments) {
   }
   if (missing.empty()) return;
   throw InputError(missing, "",
-                   fmt::format("is not there; expected it{}",
+                   fmt::format("does not exist; expected it{}",
                                there.empty() ? "" : ", or --scenarios " + ranges_text(there)));
 }
 
 MapSet load_map_set(const PaperArguments& arguments, const std::string& name) {
   if (std::ranges::count(arguments.maps, name) > 1)
-    throw CLI::ValidationError("--maps", fmt::format("expected '{}' once", name));
+    throw CLI::ValidationError(
+        "--maps", fmt::format("found '{}' more than once; expected distinct names", name));
   const std::string map = (fs::path(arguments.movingai) / (name + ".map")).string();
   return {map, load_map(map), {}};
 }
@@ -106,7 +108,8 @@ void load_scenarios(const PaperArguments& arguments, const std::string& name, Ma
 
 std::vector<MapSet> load_map_sets(const PaperArguments& arguments) {
   if (std::ranges::max(arguments.scenarios) > 2 * kOfAKind)
-    throw CLI::ValidationError("--scenarios", "expected at most 50 with --movingai");
+    throw CLI::ValidationError("--scenarios",
+                               "found more than 50 with --movingai; expected at most 50");
   std::vector<MapSet> sets;
   for (const std::string& name : arguments.maps) sets.push_back(load_map_set(arguments, name));
   require_scenarios(arguments);
@@ -115,7 +118,7 @@ std::vector<MapSet> load_map_sets(const PaperArguments& arguments) {
   return sets;
 }
 
-// --- maps of our own, the same as in benchmarks/data ---
+// --- generated maps, the same as in benchmarks/data ---
 
 constexpr int kSide = 32;
 constexpr int kMapSeed = 1;
@@ -142,7 +145,7 @@ void run(const CLI::App& app, const PaperArguments& arguments) {
   const Extras extras = arguments.extras.extras(arguments.problem != "mg");
   const bool draws = arguments.movingai.empty();
   if (draws && app.count("--maps") > 0)
-    throw CLI::ValidationError("--maps", "expected only with --movingai");
+    throw CLI::ValidationError("--maps", "allowed only with --movingai");
   const std::vector<MapSet> maps = draws ? draw_map_sets(arguments) : load_map_sets(arguments);
   const SetSizes sizes{arguments.agents, arguments.tasks, kProblems.at(arguments.problem), extras};
   require_fitting(maps, sizes);
@@ -159,13 +162,13 @@ void add_generate_paper_command(CLI::App& generate) {
   arguments->scenarios.resize(kScenarios);
   std::iota(arguments->scenarios.begin(), arguments->scenarios.end(), 1);
   CLI::App* command =
-      generate.add_subcommand("paper", "The paper's whole data set, or a part of it");
+      generate.add_subcommand("paper", "Generate the paper's data set, or a part of it");
   command->footer(kPaperFooter);
   command
       ->add_option("--movingai", arguments->movingai,
-                   "a folder with maps and scenarios of Moving AI; by default Grove draws its own")
+                   "folder with maps and scenarios of Moving AI; default: generate them")
       ->type_name("DIR");
-  command->add_option("--maps", arguments->maps, "with --movingai: names of other maps of it")
+  command->add_option("--maps", arguments->maps, "with --movingai: names of the maps")
       ->type_name("NAME,...")
       ->delimiter(',')
       ->default_str("empty-32-32,random-32-32-20,room-32-32-4");
@@ -177,13 +180,14 @@ void add_generate_paper_command(CLI::App& generate) {
       ->default_str("10,20,30,40,50");
   command
       ->add_option("--problem", arguments->problem,
-                   "with destinations (cts: CTS-MAPF), without (mg: MG-MAPF), or both")
+                   "problem: with destinations (cts: CTS-MAPF), without (mg: MG-MAPF), or both")
       ->type_name("cts|mg|both")
       ->check(one_of({"both", "cts", "mg"}))
       ->capture_default_str();
-  add_integer(*command, "--seed", arguments->seed, {0, 1'000'000'000}, "another set");
+  add_integer(*command, "--seed", arguments->seed, {0, 1'000'000'000}, "seed of the data set");
   arguments->extras.add_to(*command);
-  command->add_option("--output-dir", arguments->output_dir, "folder to write to; made if missing")
+  command
+      ->add_option("--output-dir", arguments->output_dir, "folder to write to; created if missing")
       ->required()
       ->type_name("DIR");
   command->callback([command, arguments] { run(*command, *arguments); });

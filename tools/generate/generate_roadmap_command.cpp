@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove generate roadmap --kind planar|warehouse
+// grove generate roadmap --kind planar|warehouse.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,21 +12,22 @@
 namespace grove::detail {
 namespace {
 
-// Options of one kind stand together in the help, under these words.
+// Options of one kind form a group in the help, with this title.
 constexpr const char* kOnlyPlanar = "With --kind planar";
 constexpr const char* kOnlyWarehouse = "With --kind warehouse";
 
 constexpr const char* kRoadmapFooter =
-    R"(From every vertex a way leads to every other. A road takes its length / metres-per-step, rounded up
+    R"(Every vertex is reachable from every other. A road takes its length / metres-per-step, rounded up
 to whole steps.
 
-planar: vertices v0, v1, ... at random, at least a step apart, joined by straight roads that do not
-cross (the Gabriel graph). Roads that alone join two parts stay two-way, whatever --one-way says.
+planar: vertices v0, v1, ... at random positions, at least a step apart, joined by straight roads
+that do not cross (the Gabriel graph). Roads that are the only connection between two parts stay
+two-way, whatever --one-way is.
 
-warehouse: aisles are one way, to and fro in turn; slots a0s0, a0s1, ... are where work is. A cross
-aisle is two lanes, one for each direction; they meet the aisles at c0e0, ... (eastbound) and c0w0,
-... (westbound). Parking bays p0, p1, ... lie beside the outermost lanes, joined to them at g0, g1,
-...; a robot at rest there is in nobody's way. The defaults make 400 slots and 114 bays.
+warehouse: one-way aisles of alternating direction, with slots a0s0, a0s1, ... for tasks. A cross
+aisle has two lanes, one for each direction, which meet the aisles at c0e0, ... (eastbound) and c0w0,
+... (westbound). Parking bays p0, p1, ... are beside the outermost lanes, joined to them at g0, g1,
+...; a robot at rest there does not block other robots. The defaults make 400 slots and 114 bays.
 
 Examples:
   grove generate roadmap --kind planar --vertices 200 --one-way 30 --seed 1 -o town.roadmap.json
@@ -73,7 +74,7 @@ Roadmap draw_warehouse(const RoadmapArguments& arguments) {
 void require_options_of_kind(const CLI::App& command, bool planar) {
   for (const CLI::Option* option : command.get_options())
     if (option->count() > 0 && option->get_group() == (planar ? kOnlyWarehouse : kOnlyPlanar))
-      throw CLI::ValidationError(option->get_name(), fmt::format("expected only with --kind {}",
+      throw CLI::ValidationError(option->get_name(), fmt::format("allowed only with --kind {}",
                                                                  planar ? "warehouse" : "planar"));
 }
 
@@ -94,43 +95,45 @@ void run(const CLI::App& command, const RoadmapArguments& arguments) {
 void add_planar_options(CLI::App& command, RoadmapArguments& arguments) {
   constexpr double kLongestSide = 10'000;
   const auto add = [&](CLI::Option* option) { option->group(kOnlyPlanar); };
-  add(add_integer(command, "--vertices", arguments.vertices, {2, 10'000}, "vertices"));
-  add(add_number(command, "--width", arguments.width, 1, kLongestSide, "metres from west to east"));
+  add(add_integer(command, "--vertices", arguments.vertices, {2, 10'000}, "number of vertices"));
+  add(add_number(command, "--width", arguments.width, 1, kLongestSide,
+                 "extent from west to east, metres"));
   add(add_number(command, "--height", arguments.height, 1, kLongestSide,
-                 "metres from south to north"));
+                 "extent from south to north, metres"));
   add(add_integer(command, "--one-way", arguments.one_way, {0, 100},
-                  "percent of the roads that are one way"));
-  add(add_integer(command, "--seed", arguments.seed, kSeeds, "seed"));
+                  "share of one-way roads, percent"));
+  add(add_integer(command, "--seed", arguments.seed, kSeeds, "seed of all random choices"));
 }
 
 void add_warehouse_options(CLI::App& command, RoadmapArguments& arguments) {
   constexpr double kLeastSpacing = 0.1;
   constexpr double kMostSpacing = 1000;
   const auto add = [&](CLI::Option* option) { option->group(kOnlyWarehouse); };
-  add(add_integer(command, "--aisles", arguments.aisles, {2, 1000}, "aisles, an even number"));
-  add(add_integer(command, "--slots", arguments.slots, {1, 1000}, "slots in an aisle"));
+  add(add_integer(command, "--aisles", arguments.aisles, {2, 1000}, "number of aisles, even"));
+  add(add_integer(command, "--slots", arguments.slots, {1, 1000}, "number of slots per aisle"));
   add(add_integer(command, "--cross-aisles", arguments.cross_aisles, {2, 100},
-                  "cross aisles, those at the ends included"));
+                  "number of cross aisles, including those at the ends"));
   add(add_integer(command, "--bays", arguments.bays, {0, 100},
-                  "parking bays between two aisles, at either end of them"));
+                  "number of parking bays between two aisles, at either end of the aisles"));
   add(add_number(command, "--aisle-spacing", arguments.aisle_spacing, kLeastSpacing, kMostSpacing,
-                 "metres from aisle to aisle"));
+                 "distance between aisles, metres"));
   add(add_number(command, "--slot-spacing", arguments.slot_spacing, kLeastSpacing, kMostSpacing,
-                 "metres from slot to slot, from lane to lane, and to a bay"));
+                 "distance between slots, between lanes, and from a lane to a bay, metres"));
 }
 
 }  // namespace
 
 void add_generate_roadmap_command(CLI::App& generate) {
   const auto arguments = std::make_shared<RoadmapArguments>();
-  CLI::App* command = generate.add_subcommand("roadmap", "A roadmap: planar or a warehouse");
+  CLI::App* command =
+      generate.add_subcommand("roadmap", "Generate a roadmap: planar or a warehouse");
   command->footer(kRoadmapFooter);
-  command->add_option("--kind", arguments->kind, "random points and roads, or a warehouse")
+  command->add_option("--kind", arguments->kind, "kind: random points and roads, or a warehouse")
       ->required()
       ->type_name("planar|warehouse")
       ->check(one_of({"planar", "warehouse"}));
   add_number(*command, "--metres-per-step", arguments->metres_per_step, 0.01, 1000,
-             "metres that robots drive in a step");
+             "distance that a robot drives per step, metres");
   add_planar_options(*command, *arguments);
   add_warehouse_options(*command, *arguments);
   add_output(*command, arguments->output, "FILE.roadmap.json");

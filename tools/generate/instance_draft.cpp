@@ -56,7 +56,8 @@ void InstanceDraft::turn_goals_into_tasks() {
   }
 }
 
-// Headings and durations are drawn apart: with them or without, all else is the same.
+// Draws headings and durations with generators of their own, so that all else does not depend on
+// them.
 void InstanceDraft::add_agents(InstanceBuilder& builder) const {
   Random random = random_for(RandomUse::kMotion, request_.seed);
   for (int i = 0; i < request_.agents; ++i) {

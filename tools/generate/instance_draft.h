@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What instances on grids and on roadmaps have in common: whose the tasks are, how agents move, how
-// long tasks take.
+// Common part of generated instances on grids and on roadmaps: assignment of tasks, motion of
+// agents, durations of tasks.
 #pragma once
 
 #include <string>
@@ -13,13 +13,13 @@
 namespace grove::detail {
 
 struct DrawnAgent {
-  std::string row;  // of the scenario, for messages; may be empty
+  std::string row;  // row of the scenario, for messages; may be ""
   Place start = kNoPlace;
   Place goal = kNoPlace;
 };
 
-// An instance in the making. `file`, what the agents are from, stands in messages; all throw
-// InputError, naming it.
+// An instance under construction. `file`, the source of the agents, is named in messages. All
+// members throw InputError.
 class InstanceDraft {
  public:
   // Agents a0, a1, ...
@@ -27,7 +27,7 @@ class InstanceDraft {
 
   int task_count() const { return static_cast<int>(tasks_.size()); }
   bool has_task_on(Place place) const;
-  // The next of the tasks t0, t1, ..., of 1, 2 or 3 of these agents.
+  // Adds the next of the tasks t0, t1, ... and gives it to 1, 2 or 3 agents drawn from `able`.
   void add_task(Place place, std::vector<int> able);
 
   Instance build(Map map) &&;

@@ -36,8 +36,8 @@ class Generator {
 
   std::vector<DrawnAgent> agents() const {
     if (scenario_.rows.size() < static_cast<std::size_t>(request_.agents))
-      fail("", fmt::format("has {} rows; {} agents need as many", scenario_.rows.size(),
-                           request_.agents));
+      fail("", fmt::format("has {} rows; expected at least {}, one for each agent",
+                           scenario_.rows.size(), request_.agents));
     std::vector<DrawnAgent> agents;
     for (int i = 0; i < request_.agents; ++i) {
       const ScenarioRow& row = scenario_.rows[i];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The paper's data sets (section V): agents and tasks from the rows of a scenario.
+// Instances of the paper's data sets (section V): agents and tasks from the rows of a scenario.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,21 @@
 namespace grove::detail {
 
 struct Scenario {
-  std::string name;  // the file it came from, for messages
+  std::string name;  // file of the scenario, for messages
   std::vector<ScenarioRow> rows;
 };
 
-// What the paper's instances do not have.
+// Features that the paper's instances do not have.
 struct Extras {
   struct Range {
     Time least = 0;
     Time most = 0;
   };
-  Time turn_steps = 0;         // of a quarter turn; 0: agents turn freely
-  bool goal_headings = false;  // of agents that need time to turn, in which they must rest
-  Range durations = {};        // of tasks, drawn uniformly
+  Time turn_steps = 0;         // duration of a quarter turn; 0: agents turn instantly
+  bool goal_headings = false;  // whether agents with turn_steps > 0 have a heading at the goal
+  Range durations = {};        // of tasks, steps, drawn uniformly
 
-  // "_turning2_d0-10", for names of files; empty without any.
+  // Returns "_turning2_d0-10", for file names; "" without extras.
   std::string suffix() const;
 };
 
@@ -34,23 +34,23 @@ struct InstanceRequest {
   int agents = 1;
   int tasks = 0;
   std::uint64_t seed = 0;
-  // MG-MAPF: no agent has a destination; what it was becomes an ordinary task of that agent.
+  // MG-MAPF: no agent has a destination; its destination becomes one more task of that agent.
   bool mg = false;
-  // Drawn apart, so all else is the same whatever they are. On grids only: turns.
+  // Drawn independently, so that all else does not depend on them. Turns only on grids.
   Extras extras = {};
 };
 
-// The first row (from 0) whose start may become a task. 20 rows are reserved for agents, or more if
-// there are more.
+// Returns the first row (from 0) whose start may become a task: 20, or the number of agents if
+// larger.
 int first_task_row(int agents);
-// The rows that a request uses when no start repeats.
+// Returns the number of rows that a request uses if no start repeats.
 int rows_needed(const InstanceRequest& request);
 
-// The first `agents` rows are the agents a0, a1, ...; the starts of the rows from first_task_row
-// on are the tasks t0, t1, ..., each given to 1, 2 or 3 distinct agents drawn from all those that
-// can reach it. Rows whose start is a task already, or that no agent can reach, are passed over.
-// Throws InputError, naming the scenario, when it has too few rows, rows that do not fit `grid`, or
-// an agent would get more than kMaxTasksPerAgent tasks.
+// Generates an instance. The first `agents` rows are the agents a0, a1, ...; the starts of the rows
+// from first_task_row on are the tasks t0, t1, .... Each task is given to 1, 2 or 3 distinct
+// agents, drawn from all agents that can reach it. Skips rows whose start is already a task or that
+// no agent can reach. Throws InputError, which names the scenario, if it has too few rows or rows
+// that do not fit `grid`, or if an agent would get more than kMaxTasksPerAgent tasks.
 Instance generate_instance(const Grid& grid, const Scenario& scenario,
                            const InstanceRequest& request);
 

@@ -30,8 +30,8 @@ bool touches_passable(const std::vector<bool>& passable, int width, int height, 
 
 // --- rooms ---
 
-// The rooms along one axis: room k spans the cells first[k] .. last[k]; a wall follows each but the
-// last.
+// The rooms along one axis: room k spans the cells first[k] to last[k]; a wall follows each room
+// except the last.
 struct Spans {
   std::vector<int> first;
   std::vector<int> last;
@@ -51,7 +51,7 @@ Spans divide(int length, int room_size) {
 struct Wall {
   int room;        // numbered row by row
   int other_room;  // to its right or below
-  Position first;  // the wall's cells, those at the crossings left out
+  Position first;  // the wall's cells without those at crossings
   Position last;
 };
 
@@ -72,7 +72,7 @@ std::vector<Wall> walls_between(const Spans& columns, const Spans& rows) {
   return walls;
 }
 
-// Puts walls whose doors connect all rooms first: a random spanning tree (Kruskal 1956).
+// Sorts walls whose doors connect all rooms to the front: a random spanning tree (Kruskal 1956).
 void connecting_walls_first(std::vector<Wall>& walls, int rooms) {
   std::vector<int> parent(rooms);
   std::iota(parent.begin(), parent.end(), 0);
@@ -107,8 +107,9 @@ Grid random_map(int width, int height, double obstacles, std::uint64_t seed) {
   const auto wanted =
       static_cast<std::size_t>(std::llround(obstacles * static_cast<double>(cells)));
   if (wanted + 2 > cells)
-    throw std::invalid_argument(
-        fmt::format("{} obstacles on {} cells leave fewer than 2 passable ones", wanted, cells));
+    throw std::invalid_argument(fmt::format(
+        "{} obstacles on {} cells leave fewer than 2 passable cells; expected at least 2", wanted,
+        cells));
 
   Random random = random_for(RandomUse::kMap, seed);
   std::vector<std::size_t> order(cells);
@@ -117,7 +118,7 @@ Grid random_map(int width, int height, double obstacles, std::uint64_t seed) {
   std::vector<bool> passable(cells, true);
   for (std::size_t k = 0; k < wanted; ++k) passable[order[k]] = false;
 
-  // Fill what is cut off from the largest part, and open as many cells beside that part instead.
+  // Blocks the cells that are cut off from the largest component, and frees as many beside it.
   const std::vector<Cell> kept = largest_component(Grid(width, height, passable));
   passable.assign(cells, false);
   for (Cell cell : kept) passable[cell] = true;
@@ -134,7 +135,7 @@ Grid random_map(int width, int height, double obstacles, std::uint64_t seed) {
 }
 
 Grid rooms_map(int width, int height, int room_size, double doors, std::uint64_t seed) {
-  if (room_size < 1) throw std::invalid_argument("a room needs at least 1 x 1 cell");
+  if (room_size < 1) throw std::invalid_argument("found a room size below 1; expected at least 1");
   const Spans columns = divide(width, room_size);
   const Spans rows = divide(height, room_size);
   std::vector<bool> passable(cells_of(width, height), false);

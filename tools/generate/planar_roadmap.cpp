@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT
-// A random planar roadmap: the Gabriel graph of random points. Two points p, q are joined unless a
-// third one lies in, or on, the circle that has pq as a diameter: sees pq at an angle of 90 degrees
+// A random planar roadmap: the Gabriel graph of random points. Points p and q are joined unless a
+// third point lies in or on the circle with diameter pq, that is, sees pq at an angle of 90 degrees
 // or more.
 //
-// No two roads meet but at their ends. Were a point common to the roads pq and rs, and none of the
-// four points on the other road, p r q s would be a convex quadrilateral; its angles sum to 360
-// degrees, so one of them is at least 90, and its corner keeps its neighbours from being joined. A
-// point on a road sees it at 180 degrees. So this is planar, as it is drawn.
+// *Claim: two roads meet only at their ends.* *Proof.* Suppose that roads pq and rs have a common
+// point, and that none of the four points is on the other road. Then p r q s is a convex
+// quadrilateral. Its angles sum to 360 degrees, so one of them is at least 90, and its corner
+// prevents its two neighbours from being joined. A point on a road sees it at 180 degrees. So the
+// drawing is planar.
 //
-// Connected: it holds every minimum spanning tree. If r lies in or on the circle over pq, then pr
-// and rq are shorter than pq, and a tree with pq gets shorter with one of them instead.
+// *Claim: the graph is connected.* It contains every minimum spanning tree: if r lies in or on the
+// circle over pq, then pr and rq are shorter than pq, so a tree with pq becomes shorter with one of
+// them instead.
 //
-// One-way roads: of a road a-b the way back may go if another way leads from b to a; then all that
-// could be reached still can. In a strongly connected network that can be said of one direction, at
-// least, of every road that is no bridge (Boesch, Tindell 1980), so no other order would find more.
+// *One-way roads.* The direction b to a of a road may be removed if another path leads from b to a;
+// then reachability does not change. In a strongly connected network this holds for at least one
+// direction of every road that is not a bridge (Boesch, Tindell 1980), so no other order of
+// removals would find more.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +35,7 @@ namespace {
 constexpr double kPerMetre = 100;
 constexpr int kDrawsPerPoint = 200;
 
-// In centimetres, so that all is exact.
+// Coordinates in centimetres, so that all computations are exact.
 struct Spot {
   std::int64_t x;
   std::int64_t y;

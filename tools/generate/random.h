@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the generators have their random numbers from.
+// Random numbers of the generators.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace grove::detail {
 
-// What the numbers of a seed are for: different uses of one seed do not depend on each other.
+// Use of the numbers of a seed; different uses of one seed are independent.
 enum class RandomUse : std::uint32_t {
   kMap = 1,
   kScenario = 2,  // starts, goals and places of tasks
-  kTasks = 3,     // whose they are
+  kTasks = 3,     // assignment of tasks
   kRoadmap = 4,
   kMotion = 5,  // headings
   kDurations = 6

@@ -25,7 +25,7 @@ Vertices with_prefix(const Roadmap& roadmap, Vertices vertices, const std::strin
   return vertices;
 }
 
-// Those of `vertices` that have roads to a single other vertex.
+// Returns those of `vertices` that have roads to only one other vertex.
 Vertices dead_ends(const Roadmap& roadmap, const Vertices& vertices) {
   std::vector<Vertices> neighbors(roadmap.vertices().size());
   const auto add = [&](int at, int neighbor) {
@@ -49,7 +49,7 @@ Vertices without(const Vertices& vertices, Vertices others) {
   return rest;
 }
 
-// Where agents may start and end, and tasks may be.
+// Vertices for the starts and goals of agents, and for tasks.
 struct Choice {
   Vertices agents;
   Vertices tasks;
@@ -83,7 +83,7 @@ std::vector<DrawnAgent> draw_agents(const Site& site, Vertices starts, int count
   Vertices goals = starts;
   random.shuffle(starts);
   random.shuffle(goals);
-  // A goal on its own start trades places with the next one, which then is on neither's start.
+  // If a goal is on its own start, swaps it with the next goal; then neither is on its start.
   for (std::size_t k = 0; k < goals.size(); ++k)
     if (goals[k] == starts[k]) std::swap(goals[k], goals[(k + 1) % goals.size()]);
   std::vector<DrawnAgent> agents;

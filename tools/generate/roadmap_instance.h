@@ -10,22 +10,22 @@
 
 namespace grove::detail {
 
-// A roadmap, and which of its vertices are for what: those whose ids begin so.
+// A roadmap, and the prefixes of the ids of vertices for agents and for tasks.
 struct Site {
-  std::string name;  // the roadmap's file, for messages
+  std::string name;  // file of the roadmap, for messages
   Roadmap roadmap;
-  // None: agents are on dead ends, where they are in nobody's way, if there is one for each of
-  // them, else anywhere; tasks are on all vertices that are not for agents, or anywhere as these
-  // are.
+  // nullopt: agents are on dead ends, where they block no other agent, if there are enough of them,
+  // else on any vertices. Tasks are on the vertices that are not for agents, or on any if agents
+  // may be on any.
   std::optional<std::string> agents_on = {};
   std::optional<std::string> tasks_on = {};
 };
 
-// Agents a0, a1, ... with distinct starts and distinct goals, none on its own start if there are
-// two vertices to choose from; tasks t0, t1, ... on distinct vertices where no agent starts, each
-// given to 1, 2 or 3 distinct agents. All lie in the largest part of the roadmap in which every
-// vertex can be reached from every other. Throws InputError, naming the roadmap, when that has too
-// few vertices, or an agent would get more than kMaxTasksPerAgent tasks.
+// Generates an instance with agents a0, a1, ... on distinct starts with distinct goals, none on its
+// own start if there are two vertices to choose from. Tasks t0, t1, ... are on distinct vertices
+// where no agent starts, each given to 1, 2 or 3 distinct agents. All are in the largest strongly
+// connected component of the roadmap. Throws InputError, which names the roadmap, if that component
+// has too few vertices, or if an agent would get more than kMaxTasksPerAgent tasks.
 Instance generate_instance(const Site& site, const InstanceRequest& request);
 
 }  // namespace grove::detail

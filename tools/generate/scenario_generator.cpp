@@ -25,7 +25,7 @@ std::vector<ScenarioRow> random_scenario(const Grid& grid, const std::string& ma
   Random random = random_for(RandomUse::kScenario, seed);
   random.shuffle(starts);
   random.shuffle(goals);
-  // A goal on its own start trades places with the next one, which then is on neither's start.
+  // If a goal is on its own start, swaps it with the next goal; then neither is on its start.
   for (std::size_t k = 0; k < goals.size(); ++k)
     if (goals[k] == starts[k]) std::swap(goals[k], goals[(k + 1) % goals.size()]);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenarios as Moving AI's random ones: distinct starts, distinct goals, each goal within reach.
+// Scenarios like Moving AI's random ones: distinct starts, distinct goals, every goal reachable.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace grove::detail {
 
-// Draws `count` rows within the map's largest connected part; no goal is its own row's start.
-// `map` is the map's file name. Throws InputError, naming it and what the rows are for, when the
-// part has fewer cells.
+// Draws `count` rows within the map's largest component; no goal is the start of its own row. `map`
+// is the map's file name. Throws InputError, which names the map and `purpose`, if the component
+// has too few cells.
 std::vector<ScenarioRow> random_scenario(const Grid& grid, const std::string& map, int count,
                                          std::uint64_t seed, const std::string& purpose);
 
-// The 4-connected distance from start to goal, by row.
+// Returns the 4-connected distance from start to goal for each row.
 std::vector<Time> scenario_lengths(const Grid& grid, const std::vector<ScenarioRow>& rows);
 
 }  // namespace grove::detail

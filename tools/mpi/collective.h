@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What all ranks do, each for itself, and which may fail on some of them.
+// Operations that all ranks execute together, and which may fail on some of them.
 #pragma once
 
 #include <CLI/Error.hpp>
@@ -12,20 +12,21 @@
 
 namespace grove::detail {
 
-// All ranks: calls `what`, and throws on all of them if it threw InputError or CLI::ValidationError
-// on any: what all threw if they say the same, else InputError with the text of the first and which
-// rank that is.
+// Collective. Calls `what` on each rank. If it throws InputError or CLI::ValidationError on any
+// rank, throws on all: the same exception if all threw the same text, else InputError with the text
+// of the first rank that failed, and its number.
 void collective(const MpiSession& session, const std::function<void()>& what);
 
-// Whether all ranks accept their command lines, which may not be the same, nor the programs that
-// read them. A rank alone would leave the others waiting for it.
+// Agreement of all ranks that their command lines are valid. Command lines and programs may differ
+// between ranks, and a rank that ended by itself would leave the others waiting.
 class CommandLines {
  public:
   // `session` must outlive this.
   explicit CommandLines(const MpiSession& session) : session_(session) {}
 
-  // All ranks do one of the two, once. A command that begins accepts: throws InputError if another
-  // rank did not. Whoever has accepted may refuse what all refuse.
+  // Each rank calls one of the two first. A command that starts calls accept(), which throws
+  // InputError if another rank refused. After accept(), refuse() has no effect, so only errors that
+  // occur on all ranks may end the command.
   void accept();
   void refuse(const std::string& why);
 
@@ -34,7 +35,8 @@ class CommandLines {
   bool agreed_ = false;
 };
 
-// All ranks: throws InputError unless all say the same. `what` is, for instance, "version".
+// Collective. Throws InputError unless `mine` is the same on all ranks. `what`: for instance
+// "version".
 void require_same(const MpiSession& session, const std::string& what, const std::string& mine);
 
 }  // namespace grove::detail

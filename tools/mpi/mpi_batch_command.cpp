@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove-mpi batch: many instances over all ranks.
+// grove-mpi batch: solves many instances with all ranks.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -35,8 +35,8 @@
 #include "tools/common/standard_error.h"
 #include "tools/common/version.h"
 #include "tools/mpi/collective.h"
-#include "tools/mpi/crew.h"
 #include "tools/mpi/mpi_commands.h"
+#include "tools/mpi/rank_layout.h"
 #include "tools/solve/solve_arguments.h"
 #include "tools/solve/solve_run.h"
 
@@ -49,17 +49,17 @@ using Poll = std::function<void()>;
 constexpr double kNoLimit_s = 1e9;
 
 constexpr const char* kBatchFooter =
-    R"(INSTANCES is a folder, with all *.cts.json below it, or a list: a path on each line, relative
-to the list, or FILE.scen --map M --agents K; # begins a comment. The limits are for each instance.
-DIR/results.csv and DIR/results.jsonl have a row for each, DIR/plans the plans. The same command
-goes on where an earlier one stopped; what ended in an error is tried again.
+    R"(INSTANCES is a folder (all *.cts.json below it) or a list: on each line a path relative to the list,
+or FILE.scen --map M --agents K; # begins a comment. The limits are for each instance.
+DIR/results.csv and DIR/results.jsonl have a row per instance, and DIR/plans has the plans. The same
+command resumes a batch that was stopped; instances that ended in an error are repeated.
 
 Examples:
   mpirun -np 8 grove-mpi batch instances/ --output results --time-limit 60
   mpirun -np 8 grove-mpi batch hard.txt --output results --ranks-per-instance 4)";
 
 struct BatchArguments {
-  SolveArguments solve;  // of each instance
+  SolveArguments solve;  // for each instance
   std::string instances;
   std::string output;
   std::int64_t ranks_per_instance = 1;
@@ -68,7 +68,8 @@ struct BatchArguments {
   bool quiet = false;
 };
 
-// What results depend on. By default the machine decides about memory: then it does not count.
+// Returns the settings that results depend on. The memory limit counts only if it was given;
+// otherwise the machine determines it.
 batch::Settings settings_of(const CLI::App& app, const BatchArguments& a) {
   std::string options;
   const auto add = [&](const char* option, const std::string& value, const std::string& defaults) {
@@ -115,7 +116,7 @@ class BatchRun {
     options_ = options_of_one_search(a_.solve);
     if (a_.ranks_per_instance > session_.ranks())
       throw CLI::ValidationError("--ranks-per-instance",
-                                 fmt::format("found {}; expected at most {}, as there are ranks",
+                                 fmt::format("found {}; expected at most {}, the number of ranks",
                                              a_.ranks_per_instance, session_.ranks()));
     require_same(session_, "version", version_text());
     require_same(session_, "options", options_text(app_));
@@ -141,7 +142,7 @@ class BatchRun {
            .idle = [] { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }},
           master_ ? &*master_ : nullptr);
       client.run();
-    } catch (const InputError& error) {  // the others would wait for ever
+    } catch (const InputError& error) {  // the other ranks would wait for ever
       complain(*app_.get_parent(), error.what());
       session_.abort(kExitBadInput);
     }
@@ -172,11 +173,11 @@ class BatchRun {
     const auto other = std::ranges::find_if(
         table_->rows(), [](const auto& row) { return row.outcome.version != version_text(); });
     if (other != table_->rows().end())
-      say_on_stderr(fmt::format("grove-mpi: warning: {} holds rows of {}; they stay", a_.output,
+      say_on_stderr(fmt::format("grove-mpi: warning: {} has rows of {}; they are kept", a_.output,
                                 other->outcome.version));
   }
 
-  // What each rank of the group says, or throws what the first that fails says.
+  // Throws on all ranks of the group if `error` is not "" on one of them: the text of the first.
   void agree(const std::string& error, const Poll& poll) {
     for (const std::string& text : batch::gather(*agreement_, error, poll))
       if (!text.empty()) throw std::runtime_error(text);
@@ -200,8 +201,8 @@ class BatchRun {
     return std::move(*loaded);
   }
 
-  // Why the method is not for this instance; empty: it is.
-  std::string misfit(const Instance& instance) const {
+  // Returns why the method does not support this instance; "" if it does.
+  std::string unsupported_reason(const Instance& instance) const {
     try {
       require_fit(method_of(a_.solve), instance, options_);
       return "";
@@ -218,8 +219,8 @@ class BatchRun {
     const Clock::time_point start = Clock::now();
     const LoadedInstance loaded = load(entry, poll);
     row.facts = facts_of(entry, loaded);
-    if (const std::string why = misfit(loaded.instance); !why.empty()) {
-      row.outcome = {.status = batch::kUnsuitable, .error = why};
+    if (const std::string why = unsupported_reason(loaded.instance); !why.empty()) {
+      row.outcome = {.status = batch::kUnsupported, .error = why};
       return;
     }
     Limits limits;
@@ -252,7 +253,7 @@ class BatchRun {
       if (farm_->ranks() == 1) throw;  // a row
       complain(*app_.get_parent(),
                fmt::format("internal failure of rank {}: {}", session_.rank(), error.what()));
-      session_.abort(kExitInternalFailure);  // the others would wait for ever
+      session_.abort(kExitInternalFailure);  // the other ranks would wait for ever
     }
   }
 
@@ -269,24 +270,25 @@ class BatchRun {
 }  // namespace
 
 void add_mpi_batch_command(CLI::App& root, MpiSession& session, CommandLines& lines) {
-  CLI::App* app = root.add_subcommand("batch", "Solve many instances, and tabulate the results");
+  CLI::App* app = root.add_subcommand("batch", "Solve many instances and tabulate the results");
   app->footer(kBatchFooter);
   const auto a = std::make_shared<BatchArguments>();
-  app->add_option("INSTANCES", a->instances, "a folder of instances, or a list of them")
+  app->add_option("INSTANCES", a->instances, "folder or list of instances")
       ->required()
       ->type_name("");
   add_search_options(*app, a->solve);
   add_confine_option(*app, a->confined);
   add_integer(*app, "--ranks-per-instance", a->ranks_per_instance, {1, 1'000'000},
-              "so many ranks work on an instance together: 1 where there are many small ones")
+              "number of ranks that solve an instance together; 1 for many small instances")
       ->type_name("G");
   add_number(*app, "--total-time-limit", a->total_time_limit_s, 0, kNoLimit_s,
-             "begin no further instance after so many seconds")
+             "start no instance after this time, seconds")
       ->type_name("S");
-  app->add_option("-o,--output", a->output, "the folder for plans and the table; made if need be")
+  app->add_option("-o,--output", a->output,
+                  "folder for the plans and the table; created if missing")
       ->required()
       ->type_name("DIR");
-  app->add_flag("--quiet", a->quiet, "no progress on the screen");
+  app->add_flag("--quiet", a->quiet, "do not show progress");
   app->callback([app, a, &session, &lines] {
     lines.accept();
     BatchRun(*app, *a, session).run();

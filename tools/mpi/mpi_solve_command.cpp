@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove-mpi solve: as grove solve, by all ranks.
+// grove-mpi solve: like grove solve, with all ranks.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -22,8 +22,8 @@
 #include "tools/common/program.h"
 #include "tools/common/version.h"
 #include "tools/mpi/collective.h"
-#include "tools/mpi/crew.h"
 #include "tools/mpi/mpi_commands.h"
+#include "tools/mpi/rank_layout.h"
 #include "tools/solve/incumbent_files.h"
 #include "tools/solve/proof_output.h"
 #include "tools/solve/solve_arguments.h"
@@ -36,15 +36,15 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kSolveFooter =
-    R"(All ranks work on the one instance, each with --threads threads beside the one that talks to
-the others. Every rank must be able to read the instance; rank 0 alone writes files and the log.
-The limits are those of every rank: --memory-limit is for each process.
+    R"(All ranks solve the instance together. Each has --threads search threads, and one thread that
+communicates with other ranks. Every rank must be able to read the instance; only rank 0 writes
+files and the log. The limits are per rank: --memory-limit is for each process.
 
 Examples:
   mpirun -np 2 grove-mpi solve benchmarks/data/first.cts.json
   mpirun -np 4 --map-by node --bind-to none grove-mpi solve INSTANCE.cts.json --threads 16)";
 
-// What a rank has and does in a run.
+// The run of one rank.
 class Run {
  public:
   Run(const CLI::App& app, SolveArguments& arguments, MpiSession& session)
@@ -78,7 +78,7 @@ class Run {
  private:
   bool is_first() const { return session_.rank() == 0; }
 
-  // mpirun passes it to rank 0 alone.
+  // mpirun passes standard input only to rank 0.
   void share_standard_input() {
     std::string text;
     collective(session_, [&] {
@@ -95,14 +95,14 @@ class Run {
     if (!checkpoints_.resumed) ProofOutput::remove_old(a_);
   }
 
-  // When no rank will refuse its input any more, and so all of them come to give the memory back.
+  // Call it when no rank can refuse its input any more, so that all of them release the memory.
   void share_memory() {
     const auto [bytes, zero_bytes] = SharedProblem::need(loaded_->instance);
     memory_ = session_.share(bytes, zero_bytes);
-    const Crew crew = gather_crew(session_, a_.threads, *memory_);
+    const RankLayout layout = gather_rank_layout(session_, a_.threads, *memory_);
     if (!is_first()) return;
-    log_->head(head_of(app_, a_, *loaded_, workers_text(crew)));
-    for (const std::string& warning : warnings(crew)) log_->warning(warning);
+    log_->head(head_of(app_, a_, *loaded_, workers_text(layout)));
+    for (const std::string& warning : warnings(layout)) log_->warning(warning);
     if (checkpoints_.resumed) log_->resumed(checkpoints_.resumed->header());
   }
 
@@ -115,12 +115,12 @@ class Run {
     add_run_facts(solution, app_, a_, start_);
     solution.stats.counts["ranks"] = session_.ranks();
     if (missing_ > 0) {
-      solution.stats.counts["silent_ranks"] = missing_;
+      solution.stats.counts["unresponsive_ranks"] = missing_;
       log_->warning(without_text());
     }
     const std::string failure = finish_run(a_, loaded_->instance, solution, *log_);
     if (missing_ > 0 && failure.empty())
-      session_.abort(kExitSuccess);  // or they would keep the others here
+      session_.abort(kExitSuccess);  // otherwise they would prevent the end of this rank
     try {
       report_failures({failure, proof_->failure()});
     } catch (const CommandFailed& failed) {
@@ -130,12 +130,12 @@ class Run {
   }
 
   std::string without_text() {
-    return fmt::format(
-        "{} of {} ranks said nothing when all was to end: the job ends without them{}", missing_,
-        session_.ranks(), proof_->log() == nullptr ? "" : ", and without a certificate");
+    return fmt::format("{} of {} ranks did not respond at shutdown; the job ends without them{}",
+                       missing_, session_.ranks(),
+                       proof_->log() == nullptr ? "" : ", and without a certificate");
   }
 
-  // All search or none does: rank 0 then says what there is to say.
+  // Either all ranks search or none does; rank 0 then reports.
   std::optional<Solution> solve_with(RunObserver& observer) {
     const SharedProblem shared(loaded_->instance, limits_, options_.threads, *memory_);
     const Problem& problem = shared.problem();
@@ -154,8 +154,8 @@ class Run {
     return solution;
   }
 
-  // What goes wrong here goes wrong on one rank alone, for which the others would wait for ever: a
-  // checkpoint may turn out to be damaged when rank 0 reads its nodes.
+  // An error here concerns only one rank, and the others would wait for it for ever: for instance
+  // rank 0 may find a checkpoint to be damaged when it reads the nodes.
   std::optional<Solution> solve_by_all(const Problem& problem, RunObserver& observer) {
     try {
       const auto network = session_.connect();
@@ -186,14 +186,15 @@ class Run {
   std::unique_ptr<LogFormat> log_;
   std::optional<ProofOutput> proof_;
   std::unique_ptr<SharedMemory> memory_;
-  std::string unrecorded_;    // why a part of the certificate is missing; of rank 0
-  std::int64_t missing_ = 0;  // ranks that the job is to end without
+  std::string unrecorded_;    // why a part of the certificate is missing; on rank 0
+  std::int64_t missing_ = 0;  // number of ranks that did not respond at the end
 };
 
 }  // namespace
 
 void add_mpi_solve_command(CLI::App& root, MpiSession& session, CommandLines& lines) {
-  CLI::App* app = root.add_subcommand("solve", "Find a plan and prove how good it is");
+  CLI::App* app =
+      root.add_subcommand("solve", "Find a plan and prove a lower bound on the cost of every plan");
   app->footer(kSolveFooter);
   const auto arguments = std::make_shared<SolveArguments>();
   arguments->instance.add_to(*app);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove proof trim FILE
+// grove proof trim FILE.
 #include <fmt/format.h>
 
 #include <memory>
@@ -14,8 +14,8 @@ namespace grove::detail {
 namespace {
 
 constexpr const char* kProofFooter =
-    R"(Certificates are what 'grove solve --proof' writes: why no plan costs less. grove-verify checks
-them; 'grove view --proof' shows them.
+    R"(A certificate, as 'grove solve --proof' writes it, proves that no plan costs less than a bound.
+grove-verify checks certificates; 'grove view --proof' shows them.
 
 Examples:
   grove solve my.cts.json --proof my.proof
@@ -23,17 +23,18 @@ Examples:
   grove-verify my.cts.json my.proof)";
 
 constexpr const char* kTrimFooter =
-    R"(Leaves out what the theorem does not need: lemmas that nothing names, lemmas said twice, splits
-of which what is below one side does without that side, demands of lemmas that their proofs do
-without. Certificates of other programs are read as well as Grove's, compressed or not, and stay as
-they are in that. The instance is not needed, for nothing is solved: what agents cost under the
-demands of a leaf is taken to need all of these. What is proven stays so, and is checked as ever,
-by grove-verify.
+    R"(Removes what the theorem does not need: lemmas that are never named, repeated lemmas, splits
+one branch of which does not use its constraint, and constraints of lemmas that their proofs do not
+use. Reads certificates of other programs as well, compressed or not; the output has the same
+compression. It does not need the instance and solves nothing: it assumes that the costs in a leaf
+depend on all constraints of that leaf. The theorem does not change. Check the result with
+grove-verify.
 
-The file is read three times, piece by piece; in memory are its lemmas, without their proofs, and a
-byte for each split, within --memory-limit: a small compressed file may hold any number of lines.
+The file is read three times, piece by piece. Memory is needed for its lemmas, without their proofs,
+and a byte per split, up to --memory-limit, because a small compressed file may have any number of
+lines.
 
-Prints one line, and exits with 0; or with 2 where FILE is no certificate, and leaves all as it was.
+Prints one line and exits with 0. If FILE is not a certificate, exits with 2 and changes nothing.
 
 Examples:
   grove proof trim my.proof
@@ -56,15 +57,15 @@ void run(const TrimArguments& arguments) {
 void add_trim_command(CLI::App& app) {
   const auto arguments = std::make_shared<TrimArguments>();
   CLI::App* command =
-      app.add_subcommand("trim", "Leave out of a certificate what its theorem does not need");
+      app.add_subcommand("trim", "Remove from a certificate what its theorem does not need");
   command->footer(kTrimFooter);
-  command->add_option("FILE", arguments->file, "the certificate")->required()->type_name("");
+  command->add_option("FILE", arguments->file, "certificate")->required()->type_name("");
   command
       ->add_option("-o,--output", arguments->output,
-                   "file to write, whole or not at all; by default FILE itself")
+                   "file to write, completely or not at all; default: FILE itself")
       ->type_name("FILE");
   add_number(*command, "--memory-limit", arguments->memory_limit_gb, 0.01, 1e6,
-             "refuse a certificate for which this program would need more than so many gigabytes")
+             "refuse a certificate for which this program would need more memory, GB")
       ->type_name("GB");
   command->callback([arguments] { run(*arguments); });
 }

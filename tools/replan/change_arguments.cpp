@@ -14,7 +14,7 @@
 namespace grove::detail {
 namespace {
 
-// "new_tasks/3/agents/0" as its parts "new_tasks", 3 and "/agents/0".
+// A field "new_tasks/3/agents/0", split into "new_tasks", 3 and "/agents/0".
 struct Field {
   explicit Field(const std::string& text) {
     const std::size_t slash = text.find('/');
@@ -31,21 +31,21 @@ struct Field {
 
 }  // namespace
 
-std::vector<Late> late_robots(const ChangeArguments& arguments, const Instance& instance) {
-  std::vector<Late> late;
+std::vector<Delay> late_robots(const ChangeArguments& arguments, const Instance& instance) {
+  std::vector<Delay> late;
   for (const std::string& text : arguments.late) {
     const auto split = text.rfind('=');
     if (split == std::string::npos) refuse("--late", text, "ROBOT=STEPS");
     const AgentIndex robot = robot_of("--late", text, text.substr(0, split), instance);
-    if (std::ranges::count(late, robot, &Late::agent) > 0)
-      refuse("--late", text, "each robot once");
+    if (std::ranges::count(late, robot, &Delay::agent) > 0)
+      refuse("--late", text, "each robot at most once");
     late.push_back(
         {robot, static_cast<Time>(parse_integer("--late", text.substr(split + 1), kPlanSteps))});
   }
   return late;
 }
 
-AskedChange::AskedChange(const ChangeArguments& arguments, const Instance& instance) {
+RequestedChange::RequestedChange(const ChangeArguments& arguments, const Instance& instance) {
   for (const std::string& file : arguments.new_tasks) read_new_tasks(file, instance);
   for (const std::string& task : arguments.dropped) {
     change_.dropped_tasks.push_back(task);
@@ -54,14 +54,14 @@ AskedChange::AskedChange(const ChangeArguments& arguments, const Instance& insta
   for (const std::string& text : arguments.blocked) block(text, instance);
 }
 
-void AskedChange::read_new_tasks(const std::string& file, const Instance& instance) {
+void RequestedChange::read_new_tasks(const std::string& file, const Instance& instance) {
   for (ReadTask& read : grove::detail::read_new_tasks(file, instance)) {
     change_.new_tasks.push_back(std::move(read.task));
     new_tasks_.push_back({file, read.place});
   }
 }
 
-void AskedChange::block(const std::string& text, const Instance& instance) {
+void RequestedChange::block(const std::string& text, const Instance& instance) {
   if (instance.roadmap()) return block_on_roadmap(text, *instance.roadmap());
   const Grid& grid = instance.grid();
   const std::size_t comma = text.find(',');
@@ -77,13 +77,13 @@ void AskedChange::block(const std::string& text, const Instance& instance) {
   blocked_.push_back({"--blocked", text});
 }
 
-void AskedChange::block_on_roadmap(const std::string& text, const Roadmap& roadmap) {
+void RequestedChange::block_on_roadmap(const std::string& text, const Roadmap& roadmap) {
   if (const auto vertex = roadmap.vertex(text)) {
     change_.blocked.push_back(roadmap.place_of_vertex(*vertex));
     blocked_.push_back({"--blocked", text});
     return;
   }
-  // Ids may have commas in them.
+  // Ids may contain commas, so each comma is tried.
   for (std::size_t comma = text.find(','); comma != std::string::npos;
        comma = text.find(',', comma + 1)) {
     const auto from = roadmap.vertex(text.substr(0, comma));
@@ -96,20 +96,20 @@ void AskedChange::block_on_roadmap(const std::string& text, const Roadmap& roadm
     return;
   }
   grove::detail::refuse("--blocked", text,
-                        "a vertex of the roadmap, or A,B: two that a road joins");
+                        "a vertex of the roadmap, or A,B: two vertices joined by a road");
 }
 
-void AskedChange::refuse(const InstanceError& error) const {
+void RequestedChange::refuse(const InstanceError& error) const {
   const Field field(error.field());
   if (field.part == "new_tasks") {
-    const Said& said = new_tasks_[field.number];
+    const Source& said = new_tasks_[field.number];
     throw InputError(said.where, said.what + field.rest, error.what());
   }
   const auto& all = field.part == "dropped_tasks" ? dropped_
                     : field.part == "blocked"     ? blocked_
                                                   : closed_roads_;
   if (field.number >= all.size()) throw error;
-  const Said& said = all[field.number];
+  const Source& said = all[field.number];
   throw CLI::ValidationError(said.where,
                              fmt::format("'{}': {}", one_line(said.what), error.what()));
 }

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// What becomes of an instance while its plan is driven, as one types it.
+// Changes of an instance during the execution of its plan, from the command line.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "execution/change.h"
-#include "execution/late.h"
+#include "execution/delay.h"
 #include "io/change_file.h"
 
 namespace grove::detail {
 
-// Of a command line.
+// Values of the options.
 struct ChangeArguments {
   std::vector<std::string> late;       // ROBOT=STEPS
   std::vector<std::string> new_tasks;  // files
@@ -19,17 +19,17 @@ struct ChangeArguments {
   std::vector<std::string> blocked;    // X,Y; or A and A,B on a roadmap
 };
 
-// Throw CLI::ValidationError, naming option and value; InputError for files.
-std::vector<Late> late_robots(const ChangeArguments& arguments, const Instance& instance);
+// Throw CLI::ValidationError, which names the option and its value, and InputError for files.
+std::vector<Delay> late_robots(const ChangeArguments& arguments, const Instance& instance);
 
-// The change, with where each part of it was said.
-class AskedChange {
+// The change, with the source of each part.
+class RequestedChange {
  public:
-  // `instance` is the one that is to be changed.
-  AskedChange(const ChangeArguments& arguments, const Instance& instance);
+  // `instance` is the instance to change.
+  RequestedChange(const ChangeArguments& arguments, const Instance& instance);
 
   const InstanceChange& change() const { return change_; }
-  // An error of apply() about it as one of the command line, or of a file.
+  // Rethrows an error of apply() as an error of the command line or of a file.
   [[noreturn]] void refuse(const InstanceError& error) const;
 
  private:
@@ -38,11 +38,11 @@ class AskedChange {
   void block_on_roadmap(const std::string& text, const Roadmap& roadmap);
 
   InstanceChange change_;
-  struct Said {
+  struct Source {
     std::string where;  // file or option
     std::string what;   // place in the file, or the option's value
   };
-  std::vector<Said> new_tasks_, dropped_, blocked_, closed_roads_;  // as in the change
+  std::vector<Source> new_tasks_, dropped_, blocked_, closed_roads_;  // same order as in the change
 };
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove replan INSTANCE PLAN --at T: what is left to do then, and another plan of it.
+// grove replan INSTANCE PLAN --at T: the remaining instance at time T, and a new plan of it.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -40,25 +40,26 @@ constexpr const char* kInstanceSuffix = ".cts.json";
 constexpr const char* kPlanSuffix = ".plan.json";
 
 constexpr const char* kReplanFooter =
-    R"(The instance as it is after T steps of the plan - where everybody stands, on a road, within a turn or
-at work, and what has been visited - with what has changed since, and a plan of it, both with times
-from 0. The search starts from the old plan; who has other tasks, or whose way is closed, is planned
-anew around the others. The bound is proven as always.
+    R"(Writes the instance as it is after T steps of the plan, with all changes, and a plan of it, both
+with times from 0. The instance has the position of each robot (on a road, within a turn or at work
+as well) and the remaining tasks. The search starts from the old plan. Robots with other tasks, or
+with a closed path, are planned again around the others. The bound is proven as in 'grove solve'.
 
-Robots without a destination still have none: they end on a task that is left, or anywhere if none is
-(if no plan as good as the old one is found so, the old end is the destination, and it says so). A
-plan without following is replaced by one without.
+Robots without a destination still have none: they end on a remaining task, or anywhere if none
+remains. If no plan as good as the old one is found this way, the end of the old plan becomes the
+destination, and the output says so. A plan without following is replaced by one without.
 
---late r3=5: r3 is where the plan had it five steps before T, and the others where the passing order
-then lets them be (see 'grove execute --help').
+--late r3=5: r3 is where the plan had it five steps before T; the others are where the passing order
+then allows (see 'grove execute --help').
 
---commit K: while the new plan is being found robots go on. All keep to the first K steps of the old
-plan, and the new one begins with them: late or not, who has done some of these can go on with it. If
-robots do more in that time, K is too small. (A plan file that is there is then replaced, by a costlier
-plan too, for it need not begin with these steps.)
+--commit K: robots continue while the new plan is computed. All follow the first K steps of the old
+plan, and the new plan begins with these steps. A robot that has done some of them, late or not, can
+continue with the new plan. If robots do more than K steps in that time, K is too small. (An
+existing plan file is then replaced even by a plan of higher cost, because the existing plan need
+not begin with these steps.)
 
-NEW TASKS are a task as in an instance, {"id": "t9", "cell": [3, 4], "agents": ["r0"]}, or several,
-{"tasks": [...]}.
+FILE.json of --new-task has a task as in an instance, {"id": "t9", "cell": [3, 4], "agents":
+["r0"]}, or several, {"tasks": [...]}.
 
 Examples:
   grove replan my.cts.json my.plan.json --at 20 --late r3=5
@@ -92,36 +93,36 @@ class Replanning {
   }
 
  private:
-  // A plan without following is replaced by one without.
+  // Returns the plan. If it is without following, so will be the new one.
   Plan read_plan() {
-    Solution driven = read_plan_to_drive(a_.plan, loaded_.instance).solution;
+    Solution driven = read_plan_to_execute(a_.plan, loaded_.instance).solution;
     if (!driven.may_follow) loaded_.instance = loaded_.instance.without_following();
     return *std::move(driven.plan);
   }
 
-  // Afterwards all robots stand where they stand then.
+  // At later times nothing changes, because all robots rest.
   void require_time_of_plan() const {
     const Time end = std::ranges::max(plan_.agents, {}, &AgentPlan::cost).cost;
     if (a_.at > end)
       throw CLI::ValidationError(
           "--at",
-          fmt::format("found {}; expected at most {}, when the last robot of the plan comes to "
-                      "rest",
+          fmt::format("found {}; expected at most {}, the time at which the last robot of the plan "
+                      "comes to rest",
                       a_.at, end));
   }
 
   void advance() {
     require_time_of_plan();
-    const std::vector<Late> late = late_robots(a_.change, loaded_.instance);
+    const std::vector<Delay> late = late_robots(a_.change, loaded_.instance);
     try {
       session_.advance(static_cast<Time>(a_.at), late);
-    } catch (const ImpossibleLateness& error) {
+    } catch (const InfeasibleDelay& error) {
       throw CLI::ValidationError("--late", one_line(error.what()));
     }
   }
 
   void change() {
-    const AskedChange asked(a_.change, session_.instance());
+    const RequestedChange asked(a_.change, session_.instance());
     try {
       session_.change(asked.change());
     } catch (const InstanceError& error) {
@@ -131,7 +132,7 @@ class Replanning {
 
   void name_outputs() {
     SolveArguments& s = a_.solve;
-    s.keeps_cheaper = a_.commit == 0;  // others need not begin with the committed steps
+    s.keeps_cheaper = a_.commit == 0;  // an existing plan need not begin with the committed steps
     const std::string stem = fmt::format("{}-at-{}", s.instance.stem(), a_.at);
     const bool names_plan = !s.output.empty() && is_name_of_file(s.output);
     const bool names_instance = !a_.output_instance.empty();
@@ -140,7 +141,7 @@ class Replanning {
     if (s.output.empty())
       s.output = (names_instance ? stem_of(a_.output_instance) : stem) + kPlanSuffix;
     locks_ = prepare_outputs(s, loaded_);
-    require_files_of_their_own();
+    require_distinct_outputs();
     require_writable(a_.output_instance);
   }
 
@@ -148,7 +149,7 @@ class Replanning {
     return output != kStandardOutput && (!fs::exists(output) || fs::is_regular_file(output));
   }
 
-  // "hall" of "hall.plan.json" and "hall.cts.json".
+  // Returns "hall" for "hall.plan.json" and "hall.cts.json".
   static std::string stem_of(const fs::path& file) {
     const std::string name = file.string();
     for (const std::string_view suffix : {kPlanSuffix, kInstanceSuffix, ".json"})
@@ -156,15 +157,15 @@ class Replanning {
     return name;
   }
 
-  // Of several that are written, and those that are read, none is another.
-  void require_files_of_their_own() const {
+  // Requires that the output files are distinct and are not input files.
+  void require_distinct_outputs() const {
     const SolveArguments& s = a_.solve;
-    std::vector<fs::path> written{a_.output_instance, map_then(), fs::path(s.log)};
+    std::vector<fs::path> written{a_.output_instance, changed_map(), fs::path(s.log)};
     if (s.output != kStandardOutput) written.push_back(s.output);
     for (std::size_t i = 0; i < written.size(); ++i) {
       require_distinct_files(written[i], s.instance.path(), "the instance");
       require_distinct_files(written[i], loaded_.map_path, "the map");
-      require_distinct_files(written[i], a_.plan, "the plan that is being driven");
+      require_distinct_files(written[i], a_.plan, "the plan that is being executed");
       for (const std::string& tasks : a_.change.new_tasks)
         require_distinct_files(written[i], tasks, "a file of new tasks");
       for (std::size_t k = 0; k < i; ++k)
@@ -172,47 +173,48 @@ class Replanning {
     }
   }
 
-  // A map on which something is closed is written beside the instance; empty: none is.
-  fs::path map_then() const {
+  // Returns the file beside the instance for a map with blocked places; "" if nothing is blocked.
+  fs::path changed_map() const {
     if (a_.change.blocked.empty() && !loaded_.map_path.empty()) return {};
     return stem_of(a_.output_instance) +
            (session_.instance().is_on_grid() ? ".map" : ".roadmap.json");
   }
 
-  void write_instance_then() const {
+  void write_remaining_instance() const {
     const Instance& now = session_.instance();
-    const fs::path map = map_then();
+    const fs::path map = changed_map();
     if (!map.empty()) {
       const std::string before = fs::exists(map) ? read_text(map) : "";
       if (now.is_on_grid())
         write_map(map, now.grid());
       else
         write_roadmap(map, *now.roadmap());
-      if (!before.empty() && read_text(map) != before) tell_that_another_is_replaced(map, "map");
+      if (!before.empty() && read_text(map) != before) report_replaced(map, "map");
     }
     const std::string text = instance_text(
         now, map_as_seen_from(a_.output_instance, (map.empty() ? loaded_.map_path : map).string()));
     if (fs::exists(a_.output_instance) && read_text(a_.output_instance) != text)
-      tell_that_another_is_replaced(a_.output_instance, "instance");
+      report_replaced(a_.output_instance, "instance");
     write_file_atomically(a_.output_instance, text);
   }
 
-  // Plans of that one are then none of this.
-  static void tell_that_another_is_replaced(const fs::path& file, const std::string& what) {
+  // Reports that existing plans of the replaced file are not plans of the new one.
+  static void report_replaced(const fs::path& file, const std::string& what) {
     say_on_stderr(fmt::format(
-        "grove: {} held another {}, of which plans are none of this one; --output-instance "
-        "names another file",
+        "grove: {} had another {} and was replaced; plans of that one are not valid for this one; "
+        "to keep it, give another name with --output-instance",
         file.string(), what));
   }
 
-  // The instance then says less than the one before: see docs/engineers.md.
-  static void tell_ends_of_old_plan(const Solution& solution) {
+  // The bound then is that of a more constrained instance: see docs/engineers.md.
+  static void report_ends_of_old_plan(const Solution& solution) {
     const auto ends = solution.stats.texts.find("ends_of_old_plan");
     if (ends == solution.stats.texts.end()) return;
-    say_on_stderr(fmt::format(
-        "grove: the old plan's end is now the destination of {}: no plan as good was found that "
-        "ends on a task that is left; bound and status are of this instance",
-        one_line(ends->second)));
+    say_on_stderr(
+        fmt::format("grove: the end of the old plan is now the destination of {}: no plan as good "
+                    "was found that "
+                    "ends on a remaining task; bound and status are of this instance",
+                    one_line(ends->second)));
   }
 
   void solve() {
@@ -228,9 +230,10 @@ class Replanning {
     Solution solution = solve_session(limits, rows);
     add_run_facts(solution, app_, s, start_);
     solution.stats.texts["instance"] = head.instance;
-    if (solution.stats.counts.contains("lower_bound_committed")) tell_committed(solution, *log);
-    write_instance_then();
-    tell_ends_of_old_plan(solution);
+    if (solution.stats.counts.contains("lower_bound_committed"))
+      report_committed_bound(solution, *log);
+    write_remaining_instance();
+    report_ends_of_old_plan(solution);
     report_failures({finish_run(s, session_.instance(), solution, *log)});
     if (s.require_plan && !solution.plan) throw CommandFailed(kExitNoPlan);
   }
@@ -241,14 +244,14 @@ class Replanning {
     } catch (const Session::NotCommitted& error) {
       throw CLI::ValidationError(
           "--commit",
-          fmt::format("found {}; expected {} at most, for '{}' comes then to what is "
-                      "blocked",
+          fmt::format("found {}; expected at most {}, because '{}' then comes to a blocked "
+                      "place",
                       a_.commit, error.steps, one_line(loaded_.instance.agent(error.agent).id)));
     }
   }
 
-  void tell_committed(const Solution& solution, LogFormat& log) const {
-    log.note(fmt::format("of plans that begin with the {} committed steps none costs less than {}",
+  void report_committed_bound(const Solution& solution, LogFormat& log) const {
+    log.note(fmt::format("no plan that begins with the {} committed steps costs less than {}",
                          a_.commit, solution.stats.counts.at("lower_bound_committed")),
              std::chrono::duration<double>(Clock::now() - start_).count());
   }
@@ -266,35 +269,35 @@ class Replanning {
 }  // namespace
 
 void add_replan_command(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("replan", "Change a plan that is being driven");
+  CLI::App* app = root.add_subcommand("replan", "Change a plan during its execution");
   app->footer(kReplanFooter);
   const auto arguments = std::make_shared<ReplanArguments>();
   ReplanArguments& a = *arguments;
   a.solve.instance.add_to(*app);
   app->add_option("PLAN", a.plan,
-                  "the plan that is being driven: a plan file, or another "
-                  "solver's paths")
+                  "plan that is being executed: a plan file, or paths of another solver")
       ->required()
       ->type_name("");
-  add_integer(*app, "--at", a.at, kPlanSteps, "how many steps of the plan have passed")->required();
+  add_integer(*app, "--at", a.at, kPlanSteps, "number of steps of the plan that have passed")
+      ->required();
   add_repeated(*app, "--late", a.change.late, "ROBOT=STEPS",
-               "a robot that is where the plan had it so many steps ago");
-  add_repeated(*app, "--new-task", a.change.new_tasks, "FILE.json", "tasks that have come");
+               "robot that is where the plan had it STEPS steps ago (repeatable)");
+  add_repeated(*app, "--new-task", a.change.new_tasks, "FILE.json",
+               "file with new tasks (repeatable)");
   add_repeated(*app, "--drop-task", a.change.dropped, "ID",
-               "a task that is not to be visited any more");
+               "task that is no longer to be visited (repeatable)");
   add_repeated(*app, "--blocked", a.change.blocked, "X,Y",
-               "a cell that is closed; on a roadmap a vertex, or A,B: a road");
+               "cell that is blocked; on a roadmap a vertex, or A,B: a road (repeatable)");
   add_integer(*app, "--commit", a.commit, kPlanSteps,
-              "so many steps of the old plan that all robots keep to");
+              "number of steps of the old plan that all robots still follow");
   app->add_option("--output-instance", a.output_instance,
-                  "the instance then; by default it is called like the plan file, with .cts.json")
+                  "file for the remaining instance; default: name of the plan file, with .cts.json")
       ->type_name("FILE");
   app->add_option("-o,--output", a.solve.output,
-                  "the plan file; by default it is called like the instance then, or like the old "
-                  "one with -at-T.plan.json; - is standard output")
+                  "plan file; default: like the instance file, or like the old plan with "
+                  "-at-T.plan.json; -: standard output")
       ->type_name("PLAN");
-  app->add_flag("--require-plan", a.solve.require_plan,
-                "end with exit code 3 if no plan was found");
+  app->add_flag("--require-plan", a.solve.require_plan, "exit with code 3 if no plan was found");
   a.solve.time_limit_s = *grove::Session::default_options().time_limit;
   add_search_options(*app, a.solve);
   a.solve.instance.add_rules_to(*app);

@@ -18,7 +18,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kShortestInterval_s = 0.1;  // there should be time for the search
+constexpr double kShortestInterval_s = 0.1;  // so that the search makes progress
 constexpr double kLongestInterval_s = 1e9;
 
 void make_folder(const std::filesystem::path& folder) {
@@ -27,34 +27,35 @@ void make_folder(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder))
     throw InputError(
         folder.string(), "",
-        fmt::format("cannot be made{}{}; expected a folder for checkpoints", error ? ": " : "",
-                    error ? error.message() : ": there is a file of that name"));
+        fmt::format("cannot be created{}{}; expected a folder for checkpoints", error ? ": " : "",
+                    error ? error.message() : ": a file has that name"));
   require_writable(checkpoint_file(folder));
 }
 
-// Two runs in one folder would take each other's checkpoints away.
+// Prevents that two runs in one folder overwrite each other's checkpoints.
 FileLock lock_folder(const std::filesystem::path& folder) {
   FileLock lock(folder / "checkpoint.lock");
   if (!lock.is_held())
     say_on_stderr(
-        fmt::format("grove: warning: {}: cannot be locked on this file system; see to it "
+        fmt::format("grove: warning: {}: cannot be locked on this file system; make sure "
                     "that no other run uses it",
                     folder.string()));
   return lock;
 }
 
-// Not torn by a crash of the machine: the disk gets a plan while the search goes on.
+// Whether the file is complete: plans are written without fsync, so a crash of the machine may
+// truncate one.
 bool is_whole(const std::filesystem::path& plan) {
   return read_text(plan).ends_with("}\n");
 }
 
-// The better one of the plan to start from and the one that an earlier run left.
+// Starts from the better one of the start plan and the plan that an earlier run left.
 void start_from_incumbent(const std::filesystem::path& file, const Instance& instance,
                           SolveOptions& options) {
   if (!std::filesystem::exists(file)) return;
   if (!is_whole(file))
     return say_on_stderr(fmt::format(
-        "grove: warning: {}: ends in the middle; goes on without that plan", file.string()));
+        "grove: warning: {}: is incomplete; continuing without that plan", file.string()));
   Plan plan = read_valid_plan(file, instance);
   if (!options.start || plan.cost < options.start->cost) options.start = std::move(plan);
 }
@@ -64,17 +65,18 @@ void start_from_incumbent(const std::filesystem::path& file, const Instance& ins
 void add_checkpoint_options(CLI::App& app, CheckpointArguments& a) {
   CLI::Option* checkpoint =
       app.add_option("--checkpoint", a.directory,
-                     "write the state of the search to this folder now and then, on SIGUSR1 and at "
-                     "the end, past the time limit if need be, so that a later run can go on from "
-                     "it; and the best plan, before it is announced")
+                     "write the state of the search to this folder at intervals, on SIGUSR1 and at "
+                     "the end (even after the time limit), so that a later run can resume; also "
+                     "write the best plan there, before it is announced")
           ->type_name("DIR");
   add_number(app, "--checkpoint-interval", a.interval_s, kShortestInterval_s, kLongestInterval_s,
-             "the time between two checkpoints")
+             "interval between two checkpoints, seconds")
       ->type_name("S")
       ->needs(checkpoint);
-  app.add_option("--resume", a.resume,
-                 "what to do about a checkpoint in that folder: go on from it (auto; without one, "
-                 "begin), or begin anew (never). With neither, finding one is an error")
+  app.add_option(
+         "--resume", a.resume,
+         "what to do with an existing checkpoint. auto: resume from it, or start a new search "
+         "if there is none; never: start a new search. Default: an existing checkpoint is an error")
       ->type_name("auto|never")
       ->check(one_of({"auto", "never"}))
       ->needs(checkpoint);
@@ -85,18 +87,18 @@ CheckpointFolder prepare_checkpoints(const CheckpointArguments& a, const Instanc
   if (a.directory.empty()) return {};
   make_folder(a.directory);
   CheckpointFolder folder{lock_folder(a.directory), nullptr};
-  options.checkpoints = {a.directory, a.interval_s, &checkpoint_asked};
+  options.checkpoints = {a.directory, a.interval_s, &checkpoint_requested};
   const std::filesystem::path file = checkpoint_file(a.directory);
   const bool found = std::filesystem::exists(file);
   if (a.resume.empty() && (found || std::filesystem::exists(a.incumbent_file())))
     throw InputError(found ? file.string() : a.incumbent_file().string(), "",
-                     "is of an earlier run; expected --resume auto to go on from it or --resume "
-                     "never to begin anew");
+                     "is of an earlier run; expected --resume auto to resume it or --resume "
+                     "never to start a new search");
   if (a.resume == "never") {
     std::filesystem::remove(a.incumbent_file());
     return folder;
   }
-  if (found) {  // first, since it knows whose it is
+  if (found) {  // before the plan, because this checks that the checkpoint is of this instance
     const Policy policy = options.policy == Policy::kFixed ? Policy::kFixed : Policy::kFree;
     folder.resumed = std::make_unique<CheckpointReader>(a.directory, fingerprint(instance), policy);
     options.resume = folder.resumed.get();

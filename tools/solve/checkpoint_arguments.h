@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one asks about checkpoints on the command line, and going on from one.
+// Checkpoint options of the command line, and resuming from a checkpoint.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -17,28 +17,28 @@ namespace grove::detail {
 struct CheckpointArguments {
   std::filesystem::path directory;
   double interval_s = 600;
-  std::string resume;  // empty: not said
+  std::string resume;  // "" if not given
 
-  // The best plan so far, written before it is announced; empty without checkpoints.
+  // File of the best plan so far, written before the plan is announced; "" without checkpoints.
   std::filesystem::path incumbent_file() const {
     return directory.empty() ? directory : directory / "incumbent.plan.json";
   }
 };
 
-// `arguments` must outlive the parsing.
+// `arguments` must outlive the parsing of the command line.
 void add_checkpoint_options(CLI::App& app, CheckpointArguments& arguments);
 
-// What a run holds until its end.
+// Resources that a run holds until its end.
 struct CheckpointFolder {
-  std::optional<FileLock> lock;               // none without checkpoints
-  std::unique_ptr<CheckpointReader> resumed;  // null: the run begins anew
+  std::optional<FileLock> lock;               // nullopt without checkpoints
+  std::unique_ptr<CheckpointReader> resumed;  // nullptr: a new search
 };
 
-// Makes the folder and locks it, sees that a checkpoint can be written there, and sets `options` up
-// to write checkpoints, in which case SIGUSR1 asks for one, and to go on from the one that is
-// there. Throws InputError for a folder or a file that cannot be used, also because another run
-// does, and when there is a checkpoint and nothing was said of it; CLI::ValidationError when the
-// arguments do not fit together.
+// Creates and locks the folder, checks that a checkpoint can be written there, and sets `options`
+// so that the run writes checkpoints (also on SIGUSR1) and resumes from an existing one. Throws
+// InputError if a folder or file cannot be used, for instance because another run uses it, or if
+// there is a checkpoint and --resume is not given; CLI::ValidationError if the arguments contradict
+// each other.
 CheckpointFolder prepare_checkpoints(const CheckpointArguments& arguments, const Instance& instance,
                                      SolveOptions& options);
 

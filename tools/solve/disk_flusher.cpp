@@ -40,8 +40,8 @@ void DiskFlusher::run() {
       flush_file(file.value());
     } catch (const InputError& error) {
       if (!std::exchange(failed, true))
-        say_on_stderr(fmt::format(
-            "grove: warning: {}; plans may not outlive a crash of the machine", error.what()));
+        say_on_stderr(
+            fmt::format("grove: warning: {}; a crash of the machine may lose plans", error.what()));
     }
     guard.lock();
   }

@@ -9,8 +9,9 @@
 
 namespace grove::detail {
 
-// A thread that brings files to the disk, so that they outlive the machine, while others go on:
-// that may take seconds. Its end waits until all are there. What fails is told on stderr, once.
+// A thread that flushes files to disk (fsync), so that they survive a crash of the machine, without
+// delaying the caller; a flush may take seconds. The destructor waits for all of them. The first
+// failure is reported on standard error.
 class DiskFlusher {
  public:
   DiskFlusher() : thread_([this] { run(); }) {}
@@ -18,7 +19,7 @@ class DiskFlusher {
   DiskFlusher(const DiskFlusher&) = delete;
   DiskFlusher& operator=(const DiskFlusher&) = delete;
 
-  // Returns at once. Of any thread.
+  // Returns at once. Thread-safe.
   void flush(const std::filesystem::path& file);
 
  private:
@@ -28,7 +29,7 @@ class DiskFlusher {
   std::condition_variable news_;
   std::set<std::filesystem::path> waiting_;
   bool over_ = false;
-  std::thread thread_;  // last: it uses the rest
+  std::thread thread_;  // last member, because it uses the others
 };
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every better plan of a run as a file of its own.
+// Files with the incumbents of a run.
 #pragma once
 
 #include <filesystem>
@@ -13,15 +13,16 @@
 
 namespace grove::detail {
 
-// Writes the k-th plan of a run to PREFIX-<k>.plan.json, and the best one to a file of its own,
-// whole or not at all, and passes everything on to another observer; a plan is in its file before
-// that one hears of it, and so outlives the process. The disk gets it soon after, from a thread of
-// its own, since plans come many at a time and the search must not wait: then it outlives the
-// machine. The end of this waits for the disk. A file that cannot be written is told on stderr,
-// once; the run goes on.
+// Writes the k-th plan of a run to PREFIX-<k>.plan.json and the best plan to a file of its own,
+// each completely or not at all, and forwards all events to another observer. A plan is in its file
+// before that observer receives it, so it survives the process. Another thread flushes it to disk
+// soon after, because plans may come in quick succession and the search must not wait; then it
+// survives a crash of the machine. The destructor waits for the flush. The first failure is
+// reported on standard error; the run continues.
 class IncumbentFiles : public ForwardingObserver {
  public:
-  // `prefix` or `best` empty: these are not written. `instance` and `next` must outlive this.
+  // If `prefix` or `best` is empty, these files are not written. `instance` and `next` must outlive
+  // this.
   IncumbentFiles(std::string prefix, std::filesystem::path best, const Instance& instance,
                  Omega omega, RunObserver& next)
       : ForwardingObserver(next),
@@ -30,11 +31,11 @@ class IncumbentFiles : public ForwardingObserver {
         instance_(instance),
         omega_(omega) {}
 
-  // The file of the k-th plan, from 1.
+  // Returns the file of the k-th plan, k >= 1.
   static std::filesystem::path file(const std::string& prefix, int k);
-  // Removes the files that an earlier run with this prefix left.
+  // Removes files that an earlier run with this prefix left.
   static void remove_old(const std::string& prefix);
-  // Could that be one of the files? Such a path must not be anything else in the run.
+  // Whether `path` could be one of the files; no other file of the run may have such a path.
   static bool may_be_file(const std::string& prefix, const std::filesystem::path& path);
 
   void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override;
@@ -49,7 +50,7 @@ class IncumbentFiles : public ForwardingObserver {
   const Omega omega_;
   int written_ = 0;
   bool failed_ = false;
-  std::optional<DiskFlusher> flusher_;  // from the first plan on
+  std::optional<DiskFlusher> flusher_;  // created with the first plan
 };
 
 }  // namespace grove::detail

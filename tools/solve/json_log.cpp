@@ -10,14 +10,14 @@
 
 #include "tools/common/machine.h"
 #include "tools/common/version.h"
-#include "tools/solve/demand_text.h"
+#include "tools/solve/constraint_text.h"
 
 namespace grove::detail {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Whatever bytes are in file names.
+// File names may contain any bytes; invalid UTF-8 must not fail.
 std::string line_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -34,7 +34,7 @@ Json cost_json(std::optional<Cost> cost) {
   return cost ? Json(*cost) : Json();
 }
 
-// (cost - lower bound) / lower bound; null without a cost, and where it would be infinite.
+// (cost - lower bound) / lower bound; null without a cost and if it would be infinite.
 Json gap_json(std::optional<Cost> cost, Cost lower_bound) {
   if (!cost) return {};
   if (*cost == lower_bound) return 0;
@@ -88,19 +88,19 @@ Json megabytes_json(std::int64_t bytes) {
 Json memory_json(const MemoryUse& memory) {
   return {{"process", megabytes_json(memory.process)},
           {"nodes", megabytes_json(memory.nodes)},
-          {"prices", megabytes_json(memory.prices)},
-          {"path_sets", megabytes_json(memory.path_sets)},
-          {"groups", megabytes_json(memory.groups)}};
+          {"subproblems", megabytes_json(memory.prices)},
+          {"mdds", megabytes_json(memory.path_sets)},
+          {"dependencies", megabytes_json(memory.groups)}};
 }
 
-// Columns, one entry for each rank; null what is not known.
-Json ranks_json(const RunStatistics& survey) {
+// Columns with one entry per rank; null if unknown.
+Json ranks_json(const RunStatistics& statistics) {
   Json json{{"nodes", Json::array()},           {"open", Json::array()},
             {"lower_bound", Json::array()},     {"memory_mb", Json::array()},
-            {"low_level_calls", Json::array()}, {"prices_asked", Json::array()}};
-  for (int number = 0; number < survey.rank_count; ++number) {
-    const auto found = survey.ranks.find(number);
-    if (found == survey.ranks.end()) {
+            {"low_level_calls", Json::array()}, {"branching_cost_queries", Json::array()}};
+  for (int number = 0; number < statistics.rank_count; ++number) {
+    const auto found = statistics.ranks.find(number);
+    if (found == statistics.ranks.end()) {
       for (Json& column : json) column.push_back(nullptr);
       continue;
     }
@@ -110,7 +110,7 @@ Json ranks_json(const RunStatistics& survey) {
     json["lower_bound"].push_back(cost_json(rank.bound));
     json["memory_mb"].push_back(megabytes_json(rank.memory));
     json["low_level_calls"].push_back(rank.low_level_calls);
-    json["prices_asked"].push_back(rank.prices_asked);
+    json["branching_cost_queries"].push_back(rank.branching_cost_queries);
   }
   return json;
 }
@@ -121,8 +121,8 @@ Json standing_json(const Node& node) {
 
 const char* outcome_of(const Expansion& expansion) {
   if (expansion.plan) return "plan";
-  if (expansion.children.empty()) return "closed";
-  return expansion.branching ? "split" : "raise";
+  if (expansion.children.empty()) return "pruned";
+  return expansion.branching ? "split" : "bound_raised";
 }
 
 }  // namespace
@@ -174,12 +174,12 @@ void JsonLog::row(const LogRow& row) {
   sink_.line(line_of(json));
 }
 
-void JsonLog::survey(const RunStatistics& survey, double seconds) {
+void JsonLog::statistics(const RunStatistics& statistics, double seconds) {
   Json json{{"event", "counts"},
             {"time_s", seconds_json(seconds)},
-            {"counts", survey.whole.counts},
-            {"memory_mb", memory_json(survey.whole.memory)}};
-  if (survey.rank_count > 0) json["ranks"] = ranks_json(survey);
+            {"counts", statistics.whole.counts},
+            {"memory_mb", memory_json(statistics.whole.memory)}};
+  if (statistics.rank_count > 0) json["ranks"] = ranks_json(statistics);
   sink_.line(line_of(json));
 }
 
@@ -202,7 +202,7 @@ void JsonLog::node(const NodeRow& row, double seconds) {
   if (e.plan) json["cost"] = e.plan->cost;
   if (e.branching) {
     json["conflict"] = text_of(e.branching->conflict, *instance_);
-    json["split"] = name_of(e.branching->split[1].constraint.kind);
+    json["split"] = split_name(e.branching->split[1].constraint.kind);
   }
   Json& children = json["children"] = Json::array();
   for (std::size_t i = 0; i < e.children.size(); ++i) {
@@ -210,7 +210,7 @@ void JsonLog::node(const NodeRow& row, double seconds) {
     child.update(standing_json(*e.children[i]));
     if (e.branching) {
       child["conflicts"] = e.children[i]->conflicts();
-      child["demand"] = text_of(e.children[i]->added(), *instance_);
+      child["constraint"] = text_of(e.children[i]->added(), *instance_);
     }
     children.push_back(std::move(child));
   }
@@ -232,7 +232,7 @@ void JsonLog::checkpoint(const CheckpointReport& report, double seconds) {
             {"took_s", seconds_json(report.seconds)}};
   if (!report.failure.empty()) {
     json["failure"] = report.failure;
-    sink_.warn_the_blind("NO checkpoint was written: " + report.failure);
+    sink_.warn_if_log_hidden("Checkpoint failed: " + report.failure);
   }
   sink_.line(line_of(json));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The log of a run for programs that follow it: one JSON object a line, with its kind as "event".
-// docs/command-line.md lists events and keys.
+// JSON log of a run: one object per line, with its kind in the key "event". docs/command-line.md
+// lists events and keys.
 #pragma once
 
 #include "tools/solve/log_format.h"
@@ -16,7 +16,7 @@ class JsonLog : public LogFormat {
   void warning(std::string_view text) override;
   void resumed(const CheckpointHeader& checkpoint) override;
   void row(const LogRow& row) override;
-  void survey(const RunStatistics& survey, double seconds) override;
+  void statistics(const RunStatistics& statistics, double seconds) override;
   void root(const RootRow& row, double seconds) override;
   void node(const NodeRow& row, double seconds) override;
   void infeasible(std::string_view reason) override;
@@ -26,7 +26,7 @@ class JsonLog : public LogFormat {
 
  private:
   LogSink sink_;
-  const Instance* instance_ = nullptr;  // of the head, which outlives the log
+  const Instance* instance_ = nullptr;  // from head(); outlives the log
 };
 
 }  // namespace grove::detail

@@ -19,7 +19,7 @@ LogSink::LogSink(std::FILE* screen, const std::filesystem::path& file, bool may_
   file_.reset(std::fopen(file.c_str(), "w"));
   if (!file_)
     throw InputError(file.string(), "",
-                     fmt::format("cannot write the log: {}", std::strerror(errno)));
+                     fmt::format("the log cannot be written: {}", std::strerror(errno)));
 }
 
 void LogSink::line(std::string_view text) {
@@ -31,11 +31,11 @@ void LogSink::line(std::string_view text) {
   if (file_ && !write(file_.get(), text, "the log file")) file_.reset();
 }
 
-void LogSink::warn_the_blind(std::string_view text) const {
+void LogSink::warn_if_log_hidden(std::string_view text) const {
   if (!screen_) say_on_stderr(fmt::format("grove: warning: {}", text));
 }
 
-// A log that cannot be written is given up with a word on stderr; the run goes on.
+// Closes a log that cannot be written, with a warning on standard error; the run continues.
 bool LogSink::write(std::FILE* file, std::string_view text, const char* name) {
   std::fprintf(file, "%.*s\n", static_cast<int>(text.size()), text.data());
   if (std::fflush(file) == 0 && std::ferror(file) == 0) return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the lines of a log go.
+// Output of a log: screen and file.
 #pragma once
 
 #include <cstdio>
@@ -9,17 +9,18 @@
 
 namespace grove::detail {
 
-// Writes lines to the screen, to a file, to both or to neither; and on a terminal a progress line
-// that the next line overwrites.
+// Writes lines to the screen, to a file, to both or to neither. On a terminal it also shows a
+// progress line, which the next line overwrites.
 class LogSink {
  public:
-  // `screen`: stdout or stderr; null: none. `file` empty: none; throws InputError when it cannot be
-  // opened. `may_show_progress`: mpirun gives its programs a terminal even where there is none.
+  // `screen`: stdout or stderr; nullptr: no screen. `file`: "" for no file; throws InputError if it
+  // cannot be opened. `may_show_progress`: false under mpirun, whose programs see a terminal even
+  // if there is none.
   LogSink(std::FILE* screen, const std::filesystem::path& file, bool may_show_progress = true);
 
   void line(std::string_view text = "");
-  // Says it on stderr unless the log can be seen on the screen.
-  void warn_the_blind(std::string_view text) const;
+  // Prints the text on standard error unless the screen shows the log.
+  void warn_if_log_hidden(std::string_view text) const;
   bool shows_progress() const { return shows_progress_; }
   void progress(std::string_view text);
 

@@ -15,7 +15,7 @@
 namespace grove::detail {
 namespace {
 
-// None unless the file holds a plan that is valid for the instance.
+// Returns nullopt unless the file has a plan that is valid for the instance.
 std::optional<Cost> valid_cost(const std::filesystem::path& file, const Instance& instance) {
   if (!std::filesystem::is_regular_file(file)) return std::nullopt;
   try {
@@ -30,14 +30,14 @@ void require_no_contradiction(const std::filesystem::path& file, Cost cost,
   const bool none = solution.status == Status::kInfeasible;
   if (!none && cost >= solution.lower_bound) return;
   throw std::logic_error(fmt::format(
-      "the search claims to have proven that {}, but {} holds a valid plan of cost {}; please "
-      "report this with the instance",
+      "the search claims that {}, but {} has a valid plan of cost {}; please "
+      "report this error with the instance",
       none ? "there is no plan" : fmt::format("no plan costs less than {}", solution.lower_bound),
       file.string(), cost));
 }
 
 void print(const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);  // the program sees in the end if that failed
+  std::fwrite(text.data(), 1, text.size(), stdout);  // run_program() reports a failure at the end
 }
 
 std::string ending_text(const Solution& solution) {
@@ -69,8 +69,8 @@ std::optional<Cost> write_plan(const std::filesystem::path& file, const Instance
   return std::nullopt;
 }
 
-void tell_without_plan(const Solution& solution, const std::filesystem::path& file,
-                       std::optional<Cost> kept) {
+void report_missing_plan(const Solution& solution, const std::filesystem::path& file,
+                         std::optional<Cost> kept) {
   if (solution.plan && !kept) return;
   say_on_stderr(fmt::format(
       "grove: {} ({}){}",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What becomes of a run's plan file (design, section 5).
+// Writes the plan file of a run (design, section 5).
 #pragma once
 
 #include <filesystem>
@@ -10,20 +10,21 @@
 
 namespace grove::detail {
 
-// Standard output in place of a plan file.
+// Name of a plan file that stands for standard output.
 inline constexpr const char* kStandardOutput = "-";
 
-// Writes what a run ended with to `file`, whole or not at all. But a file whose plan is valid for
-// `instance` is left alone by a run without a plan, and by one whose plan costs more: then returns
-// the cost of that plan. Of what else the file says nothing is believed, and nothing goes into what
-// is written. `keeps_cheaper`: else any plan of the run is written. Throws InputError when the file
-// cannot be written; std::logic_error when its plan refutes what the run claims to have proven.
+// Writes the result of a run to `file`, completely or not at all. If `file` has a plan that is
+// valid for `instance`, a run without a plan or with a plan of higher cost leaves the file
+// unchanged; then returns the cost of that plan. Nothing else in the existing file is trusted or
+// copied. If `keeps_cheaper` is false, any plan of the run is written. Throws InputError if the
+// file cannot be written, and std::logic_error if its plan contradicts the bound that the run
+// claims.
 std::optional<Cost> write_plan(const std::filesystem::path& file, const Instance& instance,
                                const Solution& solution, bool keeps_cheaper = true);
 
-// Says on stderr how the run ended if it has no plan, or if the file was left alone with a plan of
-// cost `kept`.
-void tell_without_plan(const Solution& solution, const std::filesystem::path& file,
-                       std::optional<Cost> kept);
+// Reports on standard error how the run ended if it has no plan, or if the file was left unchanged
+// with a plan of cost `kept`.
+void report_missing_plan(const Solution& solution, const std::filesystem::path& file,
+                         std::optional<Cost> kept);
 
 }  // namespace grove::detail

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of all ranks and runs.
+// Returns the files of all ranks and runs.
 std::vector<fs::path> parts_of(const fs::path& file) {
   const std::string prefix = file.filename().string() + ".part-";
   std::vector<fs::path> parts;
@@ -50,11 +50,11 @@ std::string text_of(const Certificate& made, Cost claimed) {
   return text;
 }
 
-// A checker repeats a joint search, state by state and time by time: some 10 times as slowly as
-// Grove. Up to so many states that takes it seconds at most.
+// A checker repeats a joint search, state by state and time by time, about 10 times as slowly as
+// Grove. Up to this number of states it takes seconds at most.
 constexpr std::int64_t kFewJointStates = 1000;
 
-// All that there are, if no more than kFewJointStates.
+// Whether the joint states of the instance are at most kFewJointStates.
 bool has_few_joint_states(const Instance& instance) {
   std::int64_t states = 1;
   for (AgentIndex agent = 0; agent < instance.agent_count() && states <= kFewJointStates; ++agent)
@@ -67,14 +67,13 @@ void warn_of_joint_search(const fs::path& file, const Instance& instance, const 
   if (searched != stats.counts.end()) {
     if (searched->second > kFewJointStates)
       say_on_stderr(fmt::format(
-          "grove: warning: {}: the proof is a joint search of all agents, and a checker has to "
-          "repeat "
-          "it; that took {} joint states here, and may take grove-verify 10 times as long",
+          "grove: warning: {}: the proof is a joint search of all agents, which the checker must "
+          "repeat; the search had {} joint states, and grove-verify may take 10 times as long",
           file.string(), searched->second));
   } else if (!has_few_joint_states(instance)) {
     say_on_stderr(fmt::format(
         "grove: warning: {}: the proof is a joint search of all agents that Grove did not need; it "
-        "may be too much for grove-verify",
+        "may take too much time or memory of grove-verify",
         file.string()));
   }
 }
@@ -82,11 +81,11 @@ void warn_of_joint_search(const fs::path& file, const Instance& instance, const 
 }  // namespace
 
 ProofOutput::ProofOutput(const SolveArguments& a, int rank)
-    : file_(a.proof), goes_on_(!a.checkpoints.directory.empty()) {
+    : file_(a.proof), may_resume_(!a.checkpoints.directory.empty()) {
   if (file_.empty()) return;
   if (method_of(a) == Method::kCtsCbsB || method_of(a) == Method::kCtsCbsC)
-    throw CLI::ValidationError("--proof",
-                               fmt::format("expected another method than {} with it", a.method));
+    throw CLI::ValidationError(
+        "--proof", fmt::format("not possible with --method {}; expected another method", a.method));
   recorder_ = std::make_unique<ProofRecorder>(unused_part(file_, rank));
 }
 
@@ -112,7 +111,7 @@ void ProofOutput::write(const Instance& instance, Solution& solution, const std:
     failure_ = error.what();
   } catch (const std::bad_alloc&) {
     failure_ = InputError(file_.string(), "",
-                          "there is no memory to make the certificate in; its parts stay")
+                          "there is not enough memory to make the certificate; its parts remain")
                    .what();
   }
   if (!failure_.empty()) solution.stats.texts["proof"] = "none was written";
@@ -129,7 +128,7 @@ void ProofOutput::make(const Instance& instance, Solution& solution) const {
 }
 
 void ProofOutput::remove_parts() const {
-  if (goes_on_) return;
+  if (may_resume_) return;
   for (const fs::path& part : parts_of(file_)) fs::remove(part);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The certificate that a run leaves (docs/proof.md).
+// Writes the certificate of a run (docs/proof.md).
 #pragma once
 
 #include <filesystem>
@@ -13,28 +13,28 @@
 
 namespace grove::detail {
 
-// While the run goes on, what each rank writes down is in files beside the certificate,
-// FILE.part-RANK-N; of a run that is to go on from its checkpoint they stay, and with those that
-// follow make one certificate in the end.
+// During the run each rank records its part in files beside the certificate, FILE.part-RANK-N. If
+// the run can be resumed from its checkpoint, these files remain; together with those of later runs
+// they make one certificate.
 class ProofOutput {
  public:
-  // Nothing is done if none is asked for. Throws InputError, and CLI::ValidationError for runs that
-  // cannot write one.
+  // Does nothing without --proof. Throws InputError, and CLI::ValidationError for runs that cannot
+  // write a certificate.
   explicit ProofOutput(const SolveArguments& arguments, int rank = 0);
-  // What earlier runs left goes, unless this one is to go on from a checkpoint; of several ranks
-  // one does it, before any makes its own. Throws InputError where no certificate can be written.
+  // Removes files of earlier runs unless this run resumes from a checkpoint. With several ranks,
+  // one calls it, before any rank creates its own files. Throws InputError if no certificate can be
+  // written.
   static void remove_old(const SolveArguments& arguments);
 
-  // For SolveOptions; null if none is asked for.
+  // For SolveOptions; nullptr without --proof.
   ProofLog* log() { return recorder_.get(); }
-  // This rank writes no more. Returns why not all that it has written down is in its file; empty:
-  // all is.
+  // Ends this rank's part. Returns "", or the reason why a part of it is not in its file.
   std::string close();
-  // Once all ranks have closed theirs, with what close() returned on one that failed: makes the
-  // certificate, and notes in the solution's statistics what it proves. What fails is told by
-  // failure(), for the plan is to be written first.
+  // Call it after all ranks have closed their parts, with the return value of close() of a rank
+  // that failed. Makes the certificate and records in the solution's statistics what it proves. It
+  // does not throw, because the plan must be written first; see failure().
   void write(const Instance& instance, Solution& solution, const std::string& failure);
-  // Why there is no certificate; empty: there is one, or none was asked for.
+  // Why there is no certificate; "" if there is one, or without --proof.
   const std::string& failure() const { return failure_; }
 
  private:
@@ -42,7 +42,7 @@ class ProofOutput {
   void remove_parts() const;
 
   const std::filesystem::path file_;
-  const bool goes_on_;  // a later run may
+  const bool may_resume_;  // a later run may resume
   std::unique_ptr<ProofRecorder> recorder_;
   std::string failure_;
 };

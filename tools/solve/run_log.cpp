@@ -9,12 +9,12 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kRowInterval_s = 0.5;  // at first; then a tenth of the time gone by
+constexpr double kRowInterval_s = 0.5;  // minimum; later a tenth of the elapsed time
 constexpr double kProgressInterval_s = 0.1;
 constexpr std::int64_t kRowInterval_nodes = 1000;
 
-// The rarer the event, the more telling.
-int telling(RunEvent event) {
+// Importance of an event: rarer events are more important.
+int importance(RunEvent event) {
   switch (event) {
     case RunEvent::kIncumbent:
       return 3;
@@ -46,11 +46,11 @@ void RunLog::on_incumbent(const Plan&, PlanSource source, const Progress&) {
 void RunLog::on_event(RunEvent event, const Progress& told) {
   Progress progress = told;
   if (progress.lower_bound >= kInfiniteCost) progress.lower_bound = bound_;  // there is no plan
-  if (telling(event) > telling(event_)) event_ = event;
+  if (importance(event) > importance(event_)) event_ = event;
   note_bound(progress);
   const bool news = event_ != RunEvent::kProgress || progress.nodes_expanded != last_row_nodes_;
   const bool is_due = row_is_due(progress);
-  survey_is_due_ = is_due || event == RunEvent::kEnd;
+  statistics_are_due_ = is_due || event == RunEvent::kEnd;
   if (event == RunEvent::kIncumbent || (event == RunEvent::kEnd && news) || is_due)
     return row(progress);
   if (event == RunEvent::kProgress) show_progress(progress);
@@ -60,10 +60,10 @@ void RunLog::on_bound_beside(BoundSource by) {
   raises_ = by;
 }
 
-// Of ranks one hears how many nodes they expanded, not what came of them.
+// Other ranks report only how many nodes they expanded, not the outcome.
 void RunLog::note_bound(const Progress& progress) {
   if (progress.lower_bound <= bound_) return;
-  const bool is_known = hears_expansions_ || progress.nodes_expanded == 0;
+  const bool is_known = receives_expansions_ || progress.nodes_expanded == 0;
   const std::optional<BoundSource> beside = std::exchange(raises_, std::nullopt);
   raised_by_[beside     ? name_of(*beside)
              : is_known ? last_work_
@@ -100,18 +100,18 @@ void RunLog::show_progress(const Progress& progress) {
   format_.progress(row_of(progress));
 }
 
-void RunLog::on_statistics(const RunStatistics& survey) {
-  format_.survey(survey, seconds());
+void RunLog::on_statistics(const RunStatistics& statistics) {
+  format_.statistics(statistics, seconds());
 }
 
 void RunLog::on_root(const NodePtr& root) {
   if (const auto row = tree_.root(*root)) format_.root(*row, seconds());
 }
 
-// A bound that rises now does so for this expansion: the last node of the old bound is gone.
+// If the bound rises now, this expansion is the cause: it completed the last node of the old bound.
 void RunLog::on_expanded(const NodePtr& node, const Expansion& expansion, int worker) {
-  hears_expansions_ = true;
-  last_work_ = expansion.branching ? "splits" : expansion.plan ? last_work_ : "groups";
+  receives_expansions_ = true;
+  last_work_ = expansion.branching ? "branching" : expansion.plan ? last_work_ : "wdg";
   if (const auto row = tree_.expanded(*node, expansion, worker)) format_.node(*row, seconds());
 }
 

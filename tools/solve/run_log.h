@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The events of a run as rows of its log.
+// Turns the events of a run into rows of its log.
 #pragma once
 
 #include <chrono>
@@ -13,17 +13,17 @@
 
 namespace grove::detail {
 
-// Decides when a row is due: at once for a plan and for nodes that are to be told, else throttled
-// by the clock, or, with `by_work`, by the number of nodes expanded, so that two runs of the same
-// search log the same rows.
+// Decides when a row is due: at once for a plan and for nodes of --log-tree. Other rows are
+// throttled by the clock or, with `by_work`, by the number of expanded nodes, so that two runs of
+// the same search log the same rows.
 class RunLog : public RunObserver {
  public:
   using Clock = std::chrono::steady_clock;
   struct Options {
     bool by_work = false;
-    // Rows get rarer with time, but are never further apart.
+    // Intervals between rows grow with time, up to this.
     double longest_interval_s = std::numeric_limits<double>::infinity();
-    std::int64_t tree_nodes = 0;  // so many are told when they have been expanded
+    std::int64_t tree_nodes = 0;  // number of expanded nodes to log
   };
   RunLog(LogFormat& format, Clock::time_point start, const Options& options);
 
@@ -33,9 +33,9 @@ class RunLog : public RunObserver {
   void on_infeasible(std::string_view reason) override;
   void on_note(std::string_view note) override;
   void on_checkpoint(const CheckpointReport& report) override;
-  // With rows that time or work made due, and at the end.
-  bool wants_statistics() override { return std::exchange(survey_is_due_, false); }
-  void on_statistics(const RunStatistics& survey) override;
+  // True with rows that are due by time or work, and at the end.
+  bool wants_statistics() override { return std::exchange(statistics_are_due_, false); }
+  void on_statistics(const RunStatistics& statistics) override;
   void on_root(const NodePtr& root) override;
   void on_expanded(const NodePtr& node, const Expansion& expansion, int worker) override;
 
@@ -52,13 +52,13 @@ class RunLog : public RunObserver {
   const Options options_;
   TreeLog tree_;
   bool has_rows_ = false;
-  bool survey_is_due_ = false;
-  bool hears_expansions_ = false;
-  std::optional<BoundSource> raises_;     // the bound, if it rises now: who, if beside the tree
-  RunEvent event_ = RunEvent::kProgress;  // the most telling one since the last row
+  bool statistics_are_due_ = false;
+  bool receives_expansions_ = false;
+  std::optional<BoundSource> raises_;     // source of the next rise of the bound, if not the tree
+  RunEvent event_ = RunEvent::kProgress;  // the most important one since the last row
   PlanSource source_ = PlanSource::kTree;
-  std::string_view last_work_ = "sequences";    // what a bound that rises now rises by
-  std::map<std::string_view, Cost> raised_by_;  // what it rose by since the last row, and how far
+  std::string_view last_work_ = "individual";   // cause of a rise of the bound by the tree
+  std::map<std::string_view, Cost> raised_by_;  // rise since the last row, by cause
   Cost bound_ = 0;
   double last_row_s_ = 0;
   std::int64_t last_row_nodes_ = 0;

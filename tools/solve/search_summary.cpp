@@ -23,13 +23,13 @@ class Counts {
     const auto it = counts_.find(name);
     return it == counts_.end() ? 0 : it->second;
   }
-  // "8123, 45 % of them known"
-  std::string known(const std::string& what) const {
-    const std::int64_t asked = (*this)[what + "_asked"];
-    return fmt::format("{}, {} % of them known", asked,
-                       100 * (*this)[what + "_known"] / std::max<std::int64_t>(asked, 1));
+  // "8123 queries, 45 % cache hits"
+  std::string queries(const std::string& what) const {
+    const std::int64_t queries = (*this)[what + "_queries"];
+    return fmt::format("{} queries, {} % cache hits", queries,
+                       100 * (*this)[what + "_hits"] / std::max<std::int64_t>(queries, 1));
   }
-  // "parallel 812, target 44", the most first.
+  // "vertex-edge 812, target 44", in descending order.
   std::string splits() const {
     constexpr std::string_view kPrefix = "splits_";
     std::vector<std::pair<std::int64_t, std::string>> kinds;
@@ -44,7 +44,7 @@ class Counts {
     }
     return text.empty() ? "none" : text;
   }
-  // "tree 1, priorities 2 (cost -14)": better plans, and what they took off the cost.
+  // "tree 1, prioritized 2 (cost -14)": number of incumbents and the decrease of cost, by source.
   std::string plans() const {
     std::string text;
     for (const std::string_view source : kPlanSources) {
@@ -72,15 +72,15 @@ std::vector<std::string> search_summary(const Stats& stats) {
       fmt::format("Splits        {}; {} bypasses", counts.splits(), counts["bypasses"]),
       fmt::format("Low level     {} calls, {} labels", counts["low_level_calls"],
                   counts["low_level_expanded"]),
-      fmt::format("Prices asked  {}", counts.known("prices")),
-      fmt::format("Path sets     {}", counts.known("path_sets")),
-      fmt::format("Pair bounds   {} pairs compared, {} small searches", counts["joint_pairs"],
-                  counts["pair_expansions"]),
-      fmt::format(
-          "Plan search   attempts {}, joint steps {}, neighbourhoods {}; calls {}, labels {}",
-          counts["primal_attempts"], counts["primal_joint_steps"], counts["primal_neighborhoods"],
-          counts["primal_low_level_calls"], counts["primal_low_level_expanded"]),
-      fmt::format("Better plans  {}", counts.plans()),
+      fmt::format("Branching     {}", counts.queries("branching_cost")),
+      fmt::format("MDDs          {}", counts.queries("mdd")),
+      fmt::format("WDG           {} nodes of joint MDDs, {} nodes of trees of pairs and groups",
+                  counts["joint_mdd_nodes"], counts["pair_expansions"]),
+      fmt::format("Primal        {} orders, {} LaCAM steps, {} LNS iterations; {} calls, {} labels",
+                  counts["primal_attempts"], counts["primal_lacam_steps"],
+                  counts["primal_lns_iterations"], counts["primal_low_level_calls"],
+                  counts["primal_low_level_expanded"]),
+      fmt::format("Incumbents    {}", counts.plans()),
   };
 }
 

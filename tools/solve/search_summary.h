@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a search did, for who asks.
+// Statistics of a search for --verbose.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace grove::detail {
 
-// Lines for the end of a log; none about what `stats` do not know.
+// Returns lines for the end of a log; none if `stats` has no counts of the search.
 std::vector<std::string> search_summary(const Stats& stats);
 
 }  // namespace grove::detail

@@ -33,8 +33,7 @@ std::string check_omega(const std::string& text) {
 }
 
 std::string check_backend(const std::string& text) {
-  return is_built(kBackends.at(text)) ? ""
-                                      : "this Grove was built without CBC; expected auto or dp";
+  return is_built(kBackends.at(text)) ? "" : "Grove was built without CBC; expected auto or dp";
 }
 
 std::string check_method(const std::string& text) {
@@ -42,7 +41,7 @@ std::string check_method(const std::string& text) {
   std::string names;
   for (Method method : all_methods())
     names += fmt::format("{}{}", names.empty() ? "" : ", ", name_of(method));
-  return fmt::format("found '{}'; expected one of {} (CTS-CBS as the paper has it: --policy fixed)",
+  return fmt::format("found '{}'; expected one of {} (CTS-CBS as in the paper: --policy fixed)",
                      text, names);
 }
 
@@ -84,23 +83,24 @@ Techniques techniques_of(const SolveArguments& arguments) {
 
 std::string help_on_tuning() {
   std::string text =
-      "--tune NAME=VALUE: numbers of the search, for experiments. They change how "
-      "fast it is, never what it proves.\n";
+      "--tune NAME=VALUE sets a parameter of the search, for experiments. No parameter changes "
+      "what "
+      "is proven.\n";
   for (const Tunable& t : tunables())
-    text +=
-        fmt::format("\n{}={}  (from {} to {})\n  {}\n{}", t.name(), t.value({}), t.least, t.most,
-                    t.what, t.measured.empty() ? "" : fmt::format("  [{}]\n", t.measured));
+    text += fmt::format("\n{}={}  (from {} to {})\n  {}\n{}", t.name(), t.value({}), t.min, t.max,
+                        t.meaning, t.evidence.empty() ? "" : fmt::format("  [{}]\n", t.evidence));
   return text;
 }
 
 std::string check_tuning(const std::string& text) {
   if (text == "help") throw CLI::CallForVersion(help_on_tuning(), 0);
-  std::vector<std::string> names;
-  for (const Tunable& t : tunables()) names.push_back(t.name());
   const std::string name = text.substr(0, text.find('='));
-  if (std::ranges::find(names, name) == names.end())
+  if (const auto known = accepted_tunable_names(); std::ranges::find(known, name) == known.end()) {
+    std::vector<std::string> names;
+    for (const Tunable& t : tunables()) names.push_back(t.name());
     return fmt::format("found '{}'; expected one of those that '--tune help' lists{}", name,
                        suggestion(name, names));
+  }
   try {
     Tuning scratch;
     set(scratch, text);
@@ -115,10 +115,9 @@ std::string check_tuning(const std::string& text) {
 void add_omega_option(CLI::App& app, SolveArguments& a) {
   app.add_option(
          "--omega", a.omega,
-         "how far from optimal the plan may be: cost <= (1 + W) * lower bound. 0 asks for an "
-         "optimal plan, inf for the first plan found (with --policy fixed: that the first joint "
-         "task "
-         "sequence allows)")
+         "relative tolerance: the search ends when cost <= (1 + W) * lower bound. 0: optimal plan; "
+         "inf: first plan found (with --policy fixed: the first plan within the first joint task "
+         "sequence)")
       ->type_name("W|inf")
       ->check(CLI::Validator(check_omega, ""))
       ->default_str(kDefaultOmega);
@@ -127,41 +126,40 @@ void add_omega_option(CLI::App& app, SolveArguments& a) {
 void add_method_options(CLI::App& app, SolveArguments& a) {
   app.add_option(
          "--method", a.method,
-         "auto: Grove's search, as the other options say. To compare with: plain CBS with the low "
-         "level of optimal-cbs, hcbs or mgcbs; s-cbs, CTS-CBS with omega inf and policy fixed. For "
-         "agents without a goal ('grove solve' alone): cts-cbs-a, which is auto; cts-cbs-b, one "
-         "task of each is made its "
-         "goal; cts-cbs-c, cts-cbs-a for two thirds of the time, then cts-cbs-b. The paper's are "
-         "those with --policy fixed")
+         "auto: Grove's own search. For comparison: plain CBS with the low level of optimal-cbs, "
+         "hcbs or mgcbs; s-cbs: CTS-CBS with omega inf and policy fixed. For agents without a goal "
+         "(only 'grove solve'): cts-cbs-a: the same as auto; cts-cbs-b: one task of each such "
+         "agent "
+         "becomes its goal; cts-cbs-c: cts-cbs-a for two thirds of the time, then cts-cbs-b. The "
+         "paper's methods need --policy fixed")
       ->type_name("METHOD")
       ->check(CLI::Validator(check_method, ""))
       ->capture_default_str();
   app.add_flag("--anytime", a.anytime,
-               "with cts-cbs-c: cts-cbs-b first, for two thirds of the time at most, then "
+               "with cts-cbs-c: run cts-cbs-b first, for at most two thirds of the time, then "
                "cts-cbs-a from its plan");
   app.add_option(
          "--policy", a.policy,
-         "what a tree of the forest fixes: a complete task sequence for every agent (fixed: the "
-         "paper's CTS-CBS), or nothing, so that one tree holds all sequences (free); auto: "
-         "free")
+         "what a tree fixes: one complete task sequence per agent (fixed: the paper's CTS-CBS), or "
+         "nothing, so that one tree has all sequences (free); auto: free")
       ->type_name("auto|fixed|free")
       ->check(one_of(keys_of(kPolicies)))
       ->capture_default_str();
-  app.add_option("--rtsp", a.rtsp,
-                 "with fixed, what solves the sequencing problems: dynamic programming (dp), the "
-                 "integer programs of "
-                 "CBC (cbc: slow, a cross-check), or Grove's choice (auto: dp)")
+  app.add_option(
+         "--rtsp", a.rtsp,
+         "with --policy fixed, solver of the sequencing problems: dynamic programming (dp), "
+         "integer programs of CBC (cbc: slow, a cross-check), or Grove's choice (auto: dp)")
       ->type_name("auto|dp|cbc")
       ->check(one_of(keys_of(kBackends)))
       ->check(CLI::Validator(check_backend, ""))
       ->capture_default_str();
-  add_integer(
-      app, "--seed", a.seed, kSeeds,
-      "breaks ties among conflicts and guides the search for plans: another seed, another run");
-  app.add_option("--without", a.without,
-                 "do without a technique of the search, for ablation studies; several with commas. "
-                 "Techniques change how fast the search is, never what it proves: " +
-                     names_of_techniques())
+  add_integer(app, "--seed", a.seed, kSeeds,
+              "seed of ties among conflicts and of the primal heuristics; any value");
+  app.add_option(
+         "--without", a.without,
+         "disable a technique of the search, for ablation studies (repeatable, or a "
+         "comma-separated list). Techniques change the speed, never what the search proves: " +
+             names_of_techniques())
       ->type_name("TECHNIQUE")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -170,7 +168,7 @@ void add_method_options(CLI::App& app, SolveArguments& a) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Validator(refuse_with, ""));
-  app.add_option("--tune", a.tune)  // not in the help
+  app.add_option("--tune", a.tune)  // experimental, so not in the help
       ->type_name("NAME=VALUE")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -180,26 +178,28 @@ void add_method_options(CLI::App& app, SolveArguments& a) {
 void add_search_options(CLI::App& app, SolveArguments& a) {
   add_omega_option(app, a);
   add_number(app, "--time-limit", a.time_limit_s, 0, 1e9,
-             "stop after so many seconds with what there is")
+             "time limit, seconds from the start of the program; then the run ends with the best "
+             "plan so far")
       ->type_name("S");
-  add_number(app, "--memory-limit", a.memory_limit_gb, 0, 1e6,
-             "stay below so many gigabytes: forget what can be found again, then give up the worst "
-             "nodes, whose bound still counts; stop if that does not help. By default 80 % of the "
-             "machine's, or of what a container or batch system grants")
+  add_number(
+      app, "--memory-limit", a.memory_limit_gb, 0, 1e6,
+      "memory limit of the process, GB. Near it the search frees what it can recompute, then "
+      "evicts its worst nodes and keeps their bound; if that is not enough, it stops. Default: "
+      "80 % of the memory of the machine, or of what cgroups or the Slurm job allow")
       ->type_name("GB");
   add_integer(app, "--threads", a.threads, {1, 1024},
-              "search on so many threads. By default one for each core that this process may use")
+              "number of search threads; default: one for each core that this process may use")
       ->type_name("T");
   add_method_options(app, a);
 }
 
 void add_file_options(CLI::App& app, SolveArguments& a) {
   app.add_option("--start", a.start,
-                 "a plan file of this instance: its plan is checked and is the first incumbent")
+                 "plan file of this instance; its plan is checked and becomes the first incumbent")
       ->type_name("PLAN");
   app.add_option("--incumbents", a.incumbents,
                  "write every better plan, as soon as it is found, to PREFIX-1.plan.json, "
-                 "PREFIX-2.plan.json and so on; those of an earlier run are removed")
+                 "PREFIX-2.plan.json, ...; files of an earlier run are removed")
       ->type_name("PREFIX");
   app.add_option(
          "--proof", a.proof,
@@ -208,25 +208,25 @@ void add_file_options(CLI::App& app, SolveArguments& a) {
       ->type_name("FILE");
   app.add_option(
          "-o,--output", a.output,
-         "the plan file; by default the instance's name with .plan.json, in this directory. "
-         "- is standard output; the log then goes to standard error. A file whose plan is "
-         "valid for this instance is replaced only by a plan that costs no more")
+         "plan file; default: name of the instance with .plan.json, in this directory. "
+         "-: standard output, and the log goes to standard error. A file whose plan is valid for "
+         "this instance is replaced only by a plan that does not cost more")
       ->type_name("PLAN");
   app.add_flag("--require-plan", a.require_plan,
-               "end with exit code 3 if no plan was found (grove-mpi: with 0 even then, since "
-               "mpirun takes anything else for a crash)");
+               "exit with code 3 if no plan was found (grove-mpi: with 0 even then, because "
+               "mpirun treats any other code as a crash)");
   add_log_options(app, a);
 }
 
 void add_log_options(CLI::App& app, SolveArguments& a) {
-  app.add_option("--log", a.log, "write the log to this file too")->type_name("FILE");
+  app.add_option("--log", a.log, "write the log to this file as well")->type_name("FILE");
   app.add_option("--log-format", a.log_format,
-                 "text, for people, or jsonl: one JSON object per event and line, for programs")
+                 "log as text, or as JSON lines: one JSON object per event and line")
       ->type_name("text|jsonl")
       ->check(one_of({"text", "jsonl"}))
       ->capture_default_str();
-  app.add_flag("--verbose", a.verbose, "the end of the log tells what the search did");
-  app.add_flag("--quiet", a.quiet, "no log on the screen");
+  app.add_flag("--verbose", a.verbose, "print statistics of the search at the end of the log");
+  app.add_flag("--quiet", a.quiet, "do not print the log on the screen");
 }
 
 void add_solve_options(CLI::App& app, SolveArguments& a) {
@@ -235,14 +235,15 @@ void add_solve_options(CLI::App& app, SolveArguments& a) {
   a.instance.add_rules_to(app);
   app.add_flag(
       "--deterministic", a.deterministic,
-      "let what happens depend on the work done alone: runs that come near no time or memory limit "
-      "then find the same plan and log the same, times and memory aside, whatever the number of "
-      "threads, of which it has work for four. (Without it only runs on one thread do.)");
+      "make the run depend only on the work done, not on timing: it finds the same plan and writes "
+      "the same log (times and memory excepted) for any number of threads, as long as it does not "
+      "come near a time or memory limit. At most four threads have work. Without this option only "
+      "single-threaded runs are repeatable");
   add_checkpoint_options(app, a.checkpoints);
   add_file_options(app, a);
   add_integer(app, "--log-tree", a.log_tree, kTreeNodes,
-              "tell each of the first N nodes expanded in a log of format jsonl: bound, conflict, "
-              "split, children; 'grove view --run' draws them as a tree");
+              "number of expanded nodes to log with --log-format jsonl: bound, conflict, split and "
+              "children of each of the first N; 'grove view --run' draws them as a tree");
 }
 
 std::string options_text(const CLI::App& app) {
@@ -269,11 +270,11 @@ Omega omega_of(const SolveArguments& a) {
 
 SolveOptions solve_options(const SolveArguments& a) {
   if (a.anytime && method_of(a) != Method::kCtsCbsC)
-    throw CLI::ValidationError("--anytime", "expected --method cts-cbs-c to go with it");
+    throw CLI::ValidationError("--anytime", "requires --method cts-cbs-c");
   SolveOptions options;
   if (method_of(a) == Method::kSCbs && !a.omega.empty() && !omega_of(a).is_infinite())
     throw CLI::ValidationError("--method s-cbs",
-                               fmt::format("has omega inf; expected no --omega {}", a.omega));
+                               fmt::format("requires omega inf; found --omega {}", a.omega));
   options.omega = omega_of(a);
   options.policy = kPolicies.at(a.policy);
   options.rtsp = kBackends.at(a.rtsp);
@@ -292,20 +293,19 @@ SolveOptions solve_options(const SolveArguments& a) {
   if (is_plain && !a.without.empty())
     throw CLI::ValidationError(
         options.policy == Policy::kFixed ? "--policy fixed" : "--method " + a.method,
-        "uses no techniques; expected no --without");
+        "uses no techniques; found --without");
   if (a.rtsp != "auto" && options.policy != Policy::kFixed)
-    throw CLI::ValidationError(
-        "--rtsp", fmt::format("is for trees of fixed sequences; expected --policy fixed with it, "
-                              "or no --rtsp {}",
-                              a.rtsp));
+    throw CLI::ValidationError("--rtsp", fmt::format("requires --policy fixed; expected that, "
+                                                     "or no --rtsp {}",
+                                                     a.rtsp));
   return options;
 }
 
 SolveOptions options_of_one_search(const SolveArguments& a) {
   if (is_adaptation(method_of(a)))
     throw CLI::ValidationError("--method " + a.method,
-                               "is for 'grove solve' alone; expected another method (cts-cbs-a is "
-                               "what auto does)");
+                               "only for 'grove solve'; expected another method (cts-cbs-a is "
+                               "the same as auto)");
   return solve_options(a);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one asks of a solve on the command line.
+// Command-line options of a solve.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -17,12 +17,12 @@
 
 namespace grove::detail {
 
-// Those of the library: what is not said is the same for programs and for their users.
+// Defaults of the library, so that programs and the command line have the same.
 inline const Options kDefaults;
 
 struct SolveArguments {
   InstanceArguments instance;
-  std::string omega;  // empty: not given
+  std::string omega;  // "" if not given
   double time_limit_s = *kDefaults.time_limit;
   double memory_limit_gb = static_cast<double>(*kDefaults.memory_limit) / 1e9;
   std::int64_t threads = kDefaults.threads;
@@ -39,7 +39,7 @@ struct SolveArguments {
   std::string incumbents;
   std::filesystem::path proof;
   std::filesystem::path output;
-  bool keeps_cheaper = true;  // a cheaper valid plan that is in the output file already
+  bool keeps_cheaper = true;  // keep a valid plan of lower cost that is already in the output file
   bool require_plan = false;
   std::filesystem::path log;
   std::string log_format = "text";
@@ -48,33 +48,33 @@ struct SolveArguments {
   bool quiet = false;
 };
 
-// Adds the options of a search - names, ranges, defaults and the texts of the help, once - and
-// those that name the files of one run. `arguments` must outlive the parsing.
+// Adds the options of a search (names, ranges, defaults, help) and those that name the files of a
+// run. `arguments` must outlive the parsing of the command line.
 void add_search_options(CLI::App& app, SolveArguments& arguments);
-// Parts of them: how good the plan must be, and by what means it is sought.
+// Parts of the above: tolerance; method.
 void add_omega_option(CLI::App& app, SolveArguments& arguments);
 void add_method_options(CLI::App& app, SolveArguments& arguments);
 void add_file_options(CLI::App& app, SolveArguments& arguments);
 void add_log_options(CLI::App& app, SolveArguments& arguments);
-// All that `grove solve` knows.
+// Adds all options of `grove solve`.
 void add_solve_options(CLI::App& app, SolveArguments& arguments);
 
-// What was asked for that is not the default, as one types it.
+// Returns the options that were given, as command-line words.
 std::string options_text(const CLI::App& app);
 
 Method method_of(const SolveArguments& arguments);
 Omega omega_of(const SolveArguments& arguments);
-// For the engine, but for the start plan. Throws CLI::ValidationError when they do not fit
-// together.
+// Returns the options for the engine, without the start plan. Throws CLI::ValidationError if they
+// contradict each other.
 SolveOptions solve_options(const SolveArguments& arguments);
-// The same for programs that run solve()'s search themselves: not for all methods.
+// The same for programs that run the search of solve() themselves; not for all methods.
 SolveOptions options_of_one_search(const SolveArguments& arguments);
-// Throws InputError if the method is not for this instance, or not with this start plan.
+// Throws InputError if the method does not support this instance, or this start plan.
 void require_fit(const SolveArguments& arguments, const Instance& instance,
                  const SolveOptions& options);
-// The instance, by the memory limit of the search; see InstanceArguments::load.
+// Loads the instance within the memory limit of the search; see InstanceArguments::load.
 LoadedInstance load(SolveArguments& arguments, bool speaks = true);
-// The limits of a run that began at `start`.
+// Sets the limits of a run that started at `start`.
 void set_limits(Limits& limits, const SolveArguments& arguments,
                 std::chrono::steady_clock::time_point start);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove solve: files in, log and plan file out.
+// grove solve: reads an instance, writes a log and a plan file.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <memory>
@@ -21,10 +21,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kSolveFooter =
-    R"(The plan file says how the run ended: optimal, bounded (within omega), feasible (a plan
-outside omega), unknown (no plan when a limit struck) or infeasible (proven). Its lower_bound is
-proven whatever the status. Ctrl-C and SIGTERM end the run like a time limit: with the best plan so
-far.
+    R"(The plan file has the status of the run: optimal, bounded (within omega), feasible (a plan outside
+omega), unknown (no plan when a limit was reached) or infeasible (proven). Its lower_bound is proven
+with every status. Ctrl-C and SIGTERM end the run as a time limit does, with the best plan so far.
 
 Examples:
   grove solve benchmarks/data/first.cts.json
@@ -64,7 +63,8 @@ void run_solve(const CLI::App& app, SolveArguments& a) {
 }  // namespace
 
 void add_solve_command(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("solve", "Find a plan and prove how good it is");
+  CLI::App* app =
+      root.add_subcommand("solve", "Find a plan and prove a lower bound on the cost of every plan");
   app->footer(kSolveFooter);
   const auto arguments = std::make_shared<SolveArguments>();
   add_solve_options(*app, *arguments);

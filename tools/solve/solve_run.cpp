@@ -23,9 +23,9 @@ namespace grove::detail {
 namespace {
 
 constexpr const char* kJsonLines = "jsonl";
-constexpr double kLongestWait_s = 10;  // of a program for a sign of life
+constexpr double kMaxRowInterval_s = 10;  // max. interval of rows for programs, as a sign of life
 
-// An adaptation of CTS-CBS is the paper's with the paper's policy.
+// The adaptations of CTS-CBS are those of the paper only with its policy.
 std::string method_text(const SolveArguments& a) {
   const bool is_fixed = solve_options(a).policy == Policy::kFixed;
   if (!is_adaptation(method_of(a))) return a.method;
@@ -33,20 +33,21 @@ std::string method_text(const SolveArguments& a) {
                      is_fixed ? "fixed" : "free (the paper's: --policy fixed)");
 }
 
-// The files of --incumbents must not replace any other of the run.
+// Refuses a prefix of --incumbents whose files could replace another file of the run.
 void prepare_incumbents(const SolveArguments& a, const LoadedInstance& loaded) {
   for (const auto& file : {a.output, a.log, a.proof, a.start, a.instance.path(), loaded.map_path})
     if (IncumbentFiles::may_be_file(a.incumbents, file))
-      throw InputError(file.string(), "",
-                       fmt::format("--incumbents {} may write over it; expected another prefix",
-                                   one_line(a.incumbents)));
+      throw InputError(
+          file.string(), "",
+          fmt::format("could be overwritten by --incumbents {}; expected another prefix",
+                      one_line(a.incumbents)));
   IncumbentFiles::remove_old(a.incumbents);
   require_writable(IncumbentFiles::file(a.incumbents, 1));
 }
 
 struct PlanWritten {
-  std::optional<Cost> kept;  // of write_plan()
-  std::string failure;       // empty: none
+  std::optional<Cost> kept;  // result of write_plan()
+  std::string failure;       // "" if there is none
 };
 
 PlanWritten try_to_write_plan(const SolveArguments& a, const Instance& instance,
@@ -84,8 +85,7 @@ std::unique_ptr<LogFormat> open_log(const SolveArguments& a, bool may_show_progr
   std::FILE* const screen = a.quiet ? nullptr : a.output == kStandardOutput ? stderr : stdout;
   LogSink sink(screen, a.log, may_show_progress);
   if (a.log_format == kJsonLines) return std::make_unique<JsonLog>(std::move(sink));
-  if (a.log_tree > 0)
-    throw CLI::ValidationError("--log-tree", "expected --log-format jsonl with it");
+  if (a.log_tree > 0) throw CLI::ValidationError("--log-tree", "requires --log-format jsonl");
   return std::make_unique<TextLog>(std::move(sink), a.time_limit_s, a.verbose);
 }
 
@@ -93,7 +93,7 @@ RunLog rows_of(LogFormat& log, const SolveArguments& a,
                std::chrono::steady_clock::time_point start) {
   const bool for_programs = a.log_format == kJsonLines;
   RunLog::Options options{.by_work = a.deterministic, .tree_nodes = a.log_tree};
-  if (for_programs) options.longest_interval_s = kLongestWait_s;
+  if (for_programs) options.longest_interval_s = kMaxRowInterval_s;
   return RunLog(log, start, options);
 }
 
@@ -126,7 +126,7 @@ std::string finish_run(const SolveArguments& a, const Instance& instance, const 
   const auto [kept, failure] = try_to_write_plan(a, instance, solution);
   log.end({solution, a.output == kStandardOutput ? "standard output" : a.output.string(),
            a.proof.string(), kept, !failure.empty()});
-  tell_without_plan(solution, a.output, kept);
+  report_missing_plan(solution, a.output, kept);
   return failure;
 }
 

@@ -14,14 +14,15 @@ namespace grove::detail {
 Plan read_valid_plan(const std::filesystem::path& path, const Instance& instance) {
   Solution solution = read_solution(path, instance);
   if (!solution.plan)
-    throw InputError(path.string(), "/agents",
-                     fmt::format("no plan (status {}); expected a valid plan for this instance",
-                                 to_string(solution.status)));
+    throw InputError(
+        path.string(), "/agents",
+        fmt::format("found no plan (status {}); expected a valid plan for this instance",
+                    to_string(solution.status)));
   solution.lower_bound = 0;
   solution.status = status_of(solution.plan->cost, solution.lower_bound, solution.omega);
   if (const auto violations = check(instance, solution, 1); !violations.empty())
-    throw InputError(path.string(), violations[0].place,
-                     fmt::format("not a plan of this instance: {}", violations[0].message));
+    throw InputError(path.string(), violations[0].json_pointer,
+                     fmt::format("not a valid plan of this instance: {}", violations[0].message));
   return std::move(*solution.plan);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plan files of earlier runs: as the first incumbent of this one, and as what it may leave alone.
+// Plan files of earlier runs, as start plans and as existing output files.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace grove::detail {
 
-// The plan in the file, which must be valid for `instance`; what else the file claims (status,
-// bound) does not count. Throws InputError that tells what is wrong.
+// Reads the plan in the file, which must be valid for `instance`; other claims of the file (status,
+// bound) are ignored. Throws InputError if it is not valid.
 Plan read_valid_plan(const std::filesystem::path& path, const Instance& instance);
 
 }  // namespace grove::detail

@@ -25,7 +25,7 @@ std::string count_text(int count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-// What of the items is out of the ordinary: " (2 turning, 1 idle)", or nothing.
+// Returns counts of special items, such as " (2 turning, 1 idle)"; "" if there are none.
 template <class Item>
 std::string traits_text(
     std::span<const Item> items,
@@ -62,7 +62,7 @@ char letter_of(PlanSource source) {
       return 'S';
     case PlanSource::kPrioritizedPlanning:
       return 'H';
-    case PlanSource::kConfigurations:
+    case PlanSource::kLacam:
       return 'C';
     case PlanSource::kLns:
       return 'L';
@@ -89,13 +89,13 @@ char letter_of(const LogRow& row) {
   return ' ';
 }
 
-// What the search gave up for want of memory.
+// The number of evicted nodes and of restarts.
 std::string evicted_text(const Solution& solution) {
   const auto evicted = solution.stats.counts.find("nodes_evicted");
   if (evicted == solution.stats.counts.end() || evicted->second == 0) return "";
   const std::int64_t restarts = solution.stats.counts.at("restarts");
-  return fmt::format(", {} nodes given up{}", evicted->second,
-                     restarts == 0 ? "" : fmt::format(", {} times begun anew", restarts));
+  return fmt::format(", {} nodes evicted{}", evicted->second,
+                     restarts == 0 ? "" : fmt::format(", {} restarts", restarts));
 }
 
 std::string map_text(const Instance& instance) {
@@ -123,15 +123,14 @@ void TextLog::head(const LogHead& h) {
       fmt::format("Threads       {}{}", h.workers, h.deterministic ? ", deterministic" : ""));
   sink_.line();
   sink_.line(
-      "First column: a better plan (* from the tree, H by priorities, C by configuration search,");
+      "First column: source of a new incumbent (* tree search, H prioritised planning, C LaCAM,");
   sink_.line(
-      "L by large neighbourhood search, J by joint search, S given), else a higher bound (B),");
-  sink_.line("else a new tree (T).");
+      "L large neighbourhood search, J joint search, S start plan); else B if the lower bound "
+      "rose;");
   sink_.line(
-      "expanded, open: nodes of the search tree done and waiting. No plan costs less than the "
-      "lower");
-  sink_.line("bound; incumbent is the cost of the best plan so far.");
-  sink_.line("gap = (incumbent - lower bound) / lower bound, so it compares with omega directly.");
+      "else T for a new tree. expanded, open: constraint-tree nodes expanded and still open.");
+  sink_.line("lower bound: no plan costs less. incumbent: cost of the best plan so far.");
+  sink_.line("gap = (incumbent - lower bound) / lower bound, directly comparable with omega.");
   sink_.line();
 }
 
@@ -182,9 +181,9 @@ void TextLog::checkpoint(const CheckpointReport& report, double seconds) {
   if (report.failure.empty())
     return sink_.line(fmt::format("  Checkpoint of {} nodes written in {:.2f} s ({:.2f}s)",
                                   report.nodes, report.seconds, seconds));
-  const std::string text = fmt::format("NO checkpoint was written: {}", report.failure);
+  const std::string text = fmt::format("Checkpoint failed: {}", report.failure);
   sink_.line("  " + text);
-  sink_.warn_the_blind(text);
+  sink_.warn_if_log_hidden(text);
 }
 
 void TextLog::end(const LogEnd& end) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The log of a run, as a MIP solver's users know it: head, table, summary.
+// Text log of a run, in the style of MIP solvers: head, table, summary.
 #pragma once
 
 #include "tools/solve/log_format.h"
@@ -9,7 +9,7 @@ namespace grove::detail {
 
 class TextLog : public LogFormat {
  public:
-  // `verbose`: the summary tells what the search did.
+  // `verbose`: the summary has statistics of the search.
   TextLog(LogSink sink, double time_limit_s, bool verbose)
       : sink_(std::move(sink)), time_limit_s_(time_limit_s), verbose_(verbose) {}
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The first nodes of a run's constraint trees, for its log.
+// The first nodes of a run's constraint trees, for --log-tree.
 #pragma once
 
 #include <array>
@@ -12,28 +12,28 @@
 
 namespace grove::detail {
 
-// A root, made by the run.
+// The root of a tree.
 struct RootRow {
-  std::int64_t number = 0;  // of the node
+  std::int64_t number = 0;  // number of the node
   const Node& root;
 };
 
-// A node that was expanded, and what it led to.
+// An expanded node and its children.
 struct NodeRow {
   std::int64_t number = 0;
   int worker = 0;
   const Node& node;
   const Expansion& expansion;
-  std::array<std::int64_t, 2> children{};  // their numbers
+  std::array<std::int64_t, 2> children{};  // numbers of the children
 };
 
-// Numbers nodes from 0 in the order in which they are made, until so many have been expanded. It
-// holds none of them: an address that a dead one had is that of the last node made there.
+// Numbers nodes from 0 in order of creation, until `most_expanded` nodes were expanded. Owns no
+// node: if an address is reused, it belongs to the node created last.
 class TreeLog {
  public:
   explicit TreeLog(std::int64_t most_expanded) : left_(most_expanded) {}
 
-  // None: it is not to be logged.
+  // Return nullopt if the node is not to be logged.
   std::optional<RootRow> root(const Node& root);
   std::optional<NodeRow> expanded(const Node& node, const Expansion& expansion, int worker);
 

@@ -25,7 +25,7 @@ void open_in_browser(std::string target) {
   if (failed != 0)
     throw InputError(
         opener, "",
-        "cannot be run; expected the Debian package xdg-utils, or open the page by hand");
+        "cannot be run; expected the Debian package xdg-utils, or open the page yourself");
 }
 
 }  // namespace grove::detail

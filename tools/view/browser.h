@@ -5,8 +5,8 @@
 
 namespace grove::detail {
 
-// Hands a file or an address to the desktop's own opener and does not wait for it. Throws
-// InputError where there is none.
+// Opens a file or an address with the desktop's opener (xdg-open) and does not wait for it. Throws
+// InputError if there is none.
 void open_in_browser(std::string target);
 
 }  // namespace grove::detail

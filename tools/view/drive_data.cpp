@@ -8,24 +8,24 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "execution/visits.h"
+#include "execution/action_dependency_graph.h"
 
 namespace grove::detail {
 namespace {
 
-constexpr double kFine = 1000;  // parts of a second, and of a cell or metre: as logs have them
+constexpr double kFine = 1000;  // resolution: parts of a second, of a cell, of a metre, as in logs
 
 std::int64_t in_parts(double number) {
   return std::llround(number * kFine);
 }
 
-// Whole degrees, 0 .. 359; -1: not known.
+// Whole degrees, 0 to 359; -1: unknown.
 std::int64_t degrees(double angle) {
   return std::isnan(angle) ? -1 : (std::llround(std::fmod(angle, 360)) + 360) % 360;
 }
 
-// `"name":[1,0,-3]`: the numbers that `of` makes of what was seen, each but the first one as what
-// it is more than the one before it.
+// Writes `"name":[1,0,-3]`: the values of `of`, each except the first as the difference from the
+// one before it.
 template <typename Of>
 void append_differences(std::string& text, const char* name, std::span<const PoseSample> seen,
                         Of of) {

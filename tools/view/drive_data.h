@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A drive as its page has it (README.md beside this): the log, and what the page has to know of the
-// passing order.
+// Data of the page for an execution (README.md in this directory): the log and the passing order.
 #pragma once
 
 #include <string>
@@ -11,11 +10,11 @@
 
 namespace grove::detail {
 
-// One JSON object: of each robot what was seen of it, in columns.
+// Returns a JSON object: per robot, the samples of its pose, in columns.
 std::string drive_data(const ExecutionLog& log);
 
-// One JSON object: of each robot when the plan has its actions end, which tasks they visit, and
-// what they wait for.
+// Returns a JSON object: per robot, when its actions end in the plan, which tasks they visit, and
+// which actions they wait for.
 std::string order_data(const Instance& instance, const ActionDependencyGraph& order);
 
 }  // namespace grove::detail

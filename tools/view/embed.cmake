@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
-# Writes OUTPUT, which defines what page_parts.h declares of the page NAME: the texts of the files
-# STYLES, one after the other, and of PROGRAM.
+# Writes OUTPUT, which defines the function of page_parts.h for the page NAME. The style is the concatenation of the
+# files STYLES, with values of the palette for @...@; the program is the file PROGRAM.
+include(${CMAKE_CURRENT_LIST_DIR}/palette.cmake)
 foreach(file IN LISTS STYLES)
   file(READ ${file} text)
   string(APPEND style "${text}")
 endforeach()
+string(CONFIGURE "${style}" style @ONLY)
 file(READ ${PROGRAM} program)
 file(WRITE ${OUTPUT} "// Made by embed.cmake.
 #include \"tools/view/page_parts.h\"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// GET /TOKEN/ is the page; GET /TOKEN/log?from=N the log from byte N on, whole lines of it, with
-// three headers: X-Log names the log, so that the page begins anew when that does, X-End is where
-// the answer ends, and X-Size what there is. Nothing else is answered but by 404: other users of
-// this machine, who can ask this address too, do not know the token.
+// GET /TOKEN/ returns the page. GET /TOKEN/log?from=N returns whole lines of the log from byte N
+// on, with three headers: X-Log names the file, so that the page restarts if it was replaced; X-End
+// is the end of the answer; X-Size is the size of the log. All other requests get 404: other users
+// of this machine can reach the address, but do not know the token.
 #include "tools/view/follow_server.h"
 
 #include <fmt/format.h>
@@ -22,23 +22,23 @@ namespace grove::detail {
 namespace {
 
 constexpr const char* kLoopback = "127.0.0.1";
-constexpr std::streamoff kMostAtOnce = 4 << 20;  // bytes
-constexpr std::streamsize kBeginning = 4096;     // by which a log is known again
+constexpr std::streamoff kMostAtOnce = 4 << 20;  // maximum size of an answer, bytes
+constexpr std::streamsize kBeginning = 4096;     // bytes by which a log is recognised
 constexpr auto kPause = std::chrono::milliseconds(100);
 constexpr auto kMoment = std::chrono::milliseconds(1);
 
-// A file that somebody writes.
+// A file that another process writes.
 class GrowingFile {
  public:
   explicit GrowingFile(std::filesystem::path path) : path_(std::move(path)) {}
 
   struct Part {
-    std::string name;  // another one when the file has begun anew
+    std::string name;  // changes if the file was replaced
     std::string text;  // whole lines
     std::streamoff end = 0;
     std::streamoff size = 0;
   };
-  // What it holds from `from` on if it is still the one of this name, else from the beginning.
+  // Returns the content from `from` on if the file still has this name, else from the beginning.
   Part read(std::streamoff from, const std::string& name) {
     const std::lock_guard lock(mutex_);
     std::ifstream file(path_, std::ios::binary);
@@ -81,7 +81,7 @@ std::streamoff offset_of(const httplib::Request& request) {
   }
 }
 
-// True: the request is not one of ours, and has been answered.
+// Answers requests that are not for this server, and returns true for them.
 bool refuse(int port, const httplib::Request& request, httplib::Response& response) {
   const std::string host = request.get_header_value("Host");
   const bool is_known =
@@ -91,7 +91,7 @@ bool refuse(int port, const httplib::Request& request, httplib::Response& respon
   return true;
 }
 
-// 128 bits that nobody can guess.
+// Returns 128 random bits, in hexadecimal.
 std::string random_token() {
   std::random_device device;
   std::string token;
@@ -99,14 +99,14 @@ std::string random_token() {
   return token;
 }
 
-// A server that has just ended does not keep its port for a minute; but one that runs keeps it,
-// where httplib would share it.
+// Lets the port be reused immediately after a server has ended, but not shared with a running one,
+// as httplib would allow.
 void keep_the_port(socket_t socket) {
   const int yes = 1;
   setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
 }
 
-// As it is: to compress megabytes takes httplib seconds, and they stay on this machine.
+// Without compression, which takes httplib seconds for megabytes and is useless on one machine.
 void send(httplib::Response& response, std::string text, const char* type) {
   const std::size_t size = text.size();
   if (size == 0) return response.set_content("", type);
@@ -127,13 +127,13 @@ void serve(const Followed& followed, int port, const std::function<void(const st
   server.set_default_headers({{"Cache-Control", "no-store"},
                               {"X-Content-Type-Options", "nosniff"},
                               {"Referrer-Policy", "no-referrer"}});
-  server.set_keep_alive_max_count(1);  // the end does not wait for pages that might ask again
+  server.set_keep_alive_max_count(1);  // so that stop() does not wait for idle connections
   server.set_socket_options(&keep_the_port);
   if (port == 0)
     port = server.bind_to_any_port(kLoopback);
   else if (!server.bind_to_port(kLoopback, port))
     port = -1;
-  if (port < 0) throw InputError("--port", "", "is taken; expected one that is free, or none");
+  if (port < 0) throw InputError("--port", "", "is in use; expected a free port, or no --port");
   server.set_pre_routing_handler(
       [port](const httplib::Request& request, httplib::Response& response) {
         return refuse(port, request, response) ? httplib::Server::HandlerResponse::Handled
@@ -152,7 +152,8 @@ void serve(const Followed& followed, int port, const std::function<void(const st
   });
   begun(fmt::format("http://{}:{}{}", kLoopback, port, root));
   std::jthread listening([&] { server.listen_after_bind(); });
-  while (!server.is_running()) std::this_thread::sleep_for(kMoment);  // stop() would do nothing
+  while (!server.is_running())
+    std::this_thread::sleep_for(kMoment);  // before, stop() has no effect
   while (!over()) std::this_thread::sleep_for(kPause);
   server.stop();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Serves a log that grows, with the page that shows it, to this machine alone.
+// Server for a growing log and the page that shows it; accessible only from this machine.
 #pragma once
 
 #include <filesystem>
@@ -8,17 +8,16 @@
 
 namespace grove::detail {
 
-// What a server is to show.
+// What the server serves.
 struct Followed {
-  std::filesystem::path log;  // need not exist yet; may begin anew
-  std::string page;           // of page.h
+  std::filesystem::path log;  // need not exist yet; may be replaced by a new file
+  std::string page;           // HTML, see page.h
 };
 
-// Serves on the loopback address until `over` says so, asked some times a second. `port` 0: any
-// that is free. `begun` is told the address ("http://127.0.0.1:43210/TOKEN/", with a random token
-// that is a new one each time) before the first answer; without the token the answer is 404.
-// Answers nobody who has come by another name (DNS rebinding). Throws InputError where the port is
-// taken.
+// Serves on the loopback address until `over`, which is polled some times a second, returns true.
+// `port`: 0 for any free port. `begun` is called with the address ("http://127.0.0.1:43210/TOKEN/",
+// with a new random token) before the first answer; without the token the answer is 404. Refuses
+// requests with another host name (DNS rebinding). Throws InputError if the port is in use.
 void serve(const Followed& followed, int port, const std::function<void(const std::string&)>& begun,
            const std::function<bool()>& over);
 

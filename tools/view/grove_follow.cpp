@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove-follow LOG: what `grove view --follow` becomes. The page comes by standard input.
+// grove-follow LOG: the program that `grove view --follow` executes. Reads the page from standard
+// input.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -44,14 +45,14 @@ void follow(const FollowArguments& arguments) {
 }  // namespace grove::detail
 
 int main(int argc, char** argv) {
-  CLI::App app("Show a log while it grows: the end of grove view --follow", "grove-follow");
+  CLI::App app("Show a log while it grows: the server of grove view --follow", "grove-follow");
   grove::detail::FollowArguments arguments;
   grove::detail::prepare_program(app);
   app.require_subcommand(0);
-  app.add_option("LOG", arguments.log, "need not exist yet")->required()->type_name("");
+  app.add_option("LOG", arguments.log, "log; need not exist yet")->required()->type_name("");
   grove::detail::add_integer(app, "--port", arguments.port, grove::detail::kPorts,
-                             "0: one that is free");
-  app.add_flag("--open", arguments.open, "show the page in the browser");
+                             "port; 0: any free port");
+  app.add_flag("--open", arguments.open, "open the page in the browser");
   app.callback([&] { grove::detail::follow(arguments); });
   return grove::detail::run_only_process(app, argc, argv);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// grove-picture view ...: what `grove view` becomes where it is to draw. It is grove with this one
-// command, and has the libraries that drawing takes.
+// grove-picture view ...: the program that `grove view` executes to draw pictures. It has only this
+// command, and the libraries for drawing.
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>

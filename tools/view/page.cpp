@@ -28,7 +28,7 @@ std::string escaped(std::string_view text) {
   return html;
 }
 
-// In JSON a '<' is part of a text, where it may be written like this: nothing ends the element.
+// In JSON, '<' occurs only in strings and may be escaped. Then no text can end the element.
 std::string without_markup(std::string_view json) {
   std::string safe;
   safe.reserve(json.size());
@@ -43,16 +43,16 @@ std::string without_markup(std::string_view json) {
 
 struct Data {
   const char* id;
-  std::string_view text;  // without markup
+  std::string_view text;  // without '<'
 };
 
-// May the page ask the server that it came from?
-enum class Asks { kNobody, kItsServer };
+// The servers that the page may request data from.
+enum class Asks { kNone, kItsServer };
 
-// The policy allows what is in the page and nothing else, but for what it may ask: no requests, no
-// scripts of others.
+// The content security policy allows only what is in the page: no external scripts, and no requests
+// except those that `asks` permits.
 std::string html(std::string_view title, const PageParts& parts, std::initializer_list<Data> all,
-                 Asks asks = Asks::kNobody) {
+                 Asks asks = Asks::kNone) {
   std::string data;
   for (const auto& [id, text] : all)
     data += fmt::format("<script type=\"application/json\" id=\"{}\">{}</script>\n", id, text);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pages of `grove view`: each one file that needs nothing beside it.
+// The pages of `grove view`: each is a single file without external resources.
 #pragma once
 
 #include <string>
@@ -7,23 +7,24 @@
 
 namespace grove::detail {
 
-// Plays plans. `data`: of page_data.h.
+// Page that plays plans. `data`: see page_data.h.
 std::string plan_page(std::string_view title, std::string_view data);
 
-// Shows what a run did. `log`: lines of JSON (run_log_file.h).
+// Page of a run. `log`: lines of JSON (run_log_file.h).
 std::string run_page(std::string_view title, std::string_view log);
-// The same of a log that grows, which it asks the server that it came from for, and no one else.
+// The same for a growing log, which the page requests only from the server that it came from.
 std::string following_page(std::string_view title);
 
-// Shows a drive. `data`: of page_data.h, with one plan; `order` and `drive`: of drive_data.h.
+// Page of an execution. `data`: see page_data.h, with one plan; `order` and `drive`: see
+// drive_data.h.
 std::string drive_page(std::string_view title, std::string_view data, std::string_view order,
                        std::string_view drive);
-// The same of a drive whose log grows.
+// The same for an execution whose log grows.
 std::string following_drive_page(std::string_view title, std::string_view data,
                                  std::string_view order);
 
-// Shows a certificate. `data`: of page_data.h, with one plan at most; `certificate`: its lines, of
-// certificate_text.h.
+// Page of a certificate. `data`: see page_data.h, with at most one plan; `certificate`: its lines,
+// see certificate_text.h.
 std::string proof_page(std::string_view title, std::string_view data, std::string_view certificate);
 
 }  // namespace grove::detail

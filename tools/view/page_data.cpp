@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// "12E.3N": how often, if more than once, and a letter.
+// Run-length encoding "12E.3N": the count, if more than 1, and a letter.
 class Steps {
  public:
   void add(char letter) {
@@ -84,7 +84,7 @@ Json world_json(const Instance& instance) {
 
 // --- agents and tasks ---
 
-// In steps of a turn, clockwise from north.
+// Angle in steps of a turn, clockwise from north.
 Time angle(Motion motion, const Pose& pose) {
   const Time heading = static_cast<Time>(pose.heading) * motion.turn_steps;
   const bool leftward = pose.steps > 0 && pose.to == left_of(pose.heading);
@@ -92,7 +92,7 @@ Time angle(Motion motion, const Pose& pose) {
   return (heading + (leftward ? around - pose.steps : pose.steps)) % around;
 }
 
-// "3", or "3l": on its way to the left.
+// "3", or "3l" while turning left.
 std::string angle_text(Motion motion, const Pose& pose) {
   std::string text = std::to_string(angle(motion, pose));
   if (pose.steps > 0) text += pose.to == left_of(pose.heading) ? 'l' : 'r';
@@ -129,7 +129,7 @@ Json tasks_json(const Instance& instance) {
 
 // --- plans ---
 
-// None: no move that has a letter.
+// Returns nullopt if the move has no letter.
 std::optional<char> move_letter(const Instance& instance, Place from, Place to) {
   if (from == to) return '.';
   if (!instance.is_on_grid())
@@ -143,7 +143,7 @@ std::optional<char> move_letter(const Instance& instance, Place from, Place to) 
   return std::nullopt;
 }
 
-// None: no step of a turn from the one to the other.
+// Returns nullopt if there is no step of a turn from `from` to `to`.
 std::optional<char> turn_letter(Motion motion, const Pose& from, const Pose& to) {
   if (from.heading == to.heading && from.to == to.to && from.steps == to.steps) return '.';
   const auto after = [&](Heading end) {
@@ -228,7 +228,7 @@ Json plan_json(const Instance& instance, const NamedPlan& named) {
   return json;
 }
 
-// "<" begins all that could end or nest a script element.
+// Escapes "<", which begins everything that could end or nest a script element.
 std::string without_markup(const std::string& json) {
   std::string text;
   text.reserve(json.size());

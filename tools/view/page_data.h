@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a page of `grove view` shows, as the data that its program reads (README.md beside this).
+// Data of a page of `grove view` (README.md in this directory).
 #pragma once
 
 #include <span>
@@ -16,7 +16,7 @@ struct NamedPlan {
   ClaimedPlan claimed;  // with or without a plan, valid or not
 };
 
-// One JSON object. No part of it ends a <script> element.
+// Returns a JSON object without '<', so that it cannot end a <script> element.
 std::string page_data(const std::string& instance_name, const Instance& instance,
                       std::span<const NamedPlan> plans);
 

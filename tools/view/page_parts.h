@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Style and program of the pages, as the build makes them of page/, run/, drive/ and proof/.
+// Style and script of the pages, made by the build from page/, run/, drive/ and proof/.
 #pragma once
 
 #include <string_view>
 
 namespace grove::detail {
 
-// Neither holds an end of its element.
+// Neither contains the end tag of its element.
 struct PageParts {
   std::string_view style;
   std::string_view program;

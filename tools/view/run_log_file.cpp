@@ -13,10 +13,10 @@ namespace grove::detail {
 namespace {
 
 constexpr const char* kHeader =
-    "expected the header of a log for programs, as 'grove solve --log FILE --log-format jsonl' "
+    "expected the header of a log, as 'grove solve --log FILE --log-format jsonl' "
     "writes it";
 
-// Empty: it is none.
+// Returns "" if the line is not an event.
 std::string event_of(std::string_view line) {
   const auto json = nlohmann::json::parse(line, nullptr, false);
   if (!json.is_object()) return "";

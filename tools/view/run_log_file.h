@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The log of a run as a file: what `grove solve --log FILE --log-format jsonl` writes.
+// JSON log of a run, as written by `grove solve --log FILE --log-format jsonl`.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace grove::detail {
 
-// Its whole lines, each an object with an `event`, the header first. A last line that has not ended
-// is left out: the run is still under way, or was killed. Throws InputError.
+// Returns its complete lines, each an object with an `event`, the header first. Drops an incomplete
+// last line, because the run may be in progress or killed. Throws InputError.
 std::string read_run_log(const std::filesystem::path& path);
 
 }  // namespace grove::detail

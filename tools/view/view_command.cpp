@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove view INSTANCE [PLAN...]
+// grove view INSTANCE [PLAN...].
 #include "tools/view/view_command.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@
 #include "model/check.h"
 #include "proof/certificate_text.h"
 #include "tools/common/commands.h"
-#include "tools/common/companion.h"
+#include "tools/common/helper_program.h"
 #include "tools/common/instance_arguments.h"
 #include "tools/common/options.h"
 #include "tools/common/own_files.h"
@@ -36,25 +36,27 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kViewFooter =
-    R"(One page that needs no network and nothing installed but a browser. It plays the plan, and finds out
-by itself what is wrong with it: collisions, jumps, tasks left out.
+    R"(Writes one page that needs only a browser, no network. The page plays the plan and marks errors in
+it: collisions, jumps, missing tasks.
 
-PLAN is a plan file, or what other solvers write: the path lists of EECBS, CBSH2-RTC and MAPF-LNS2
-(--outputPaths) or the text of lacam and pibt. Without any, the page shows the instance.
+PLAN is a plan file, or the output of another solver: the path lists of EECBS, CBSH2-RTC and
+MAPF-LNS2 (--outputPaths) or the text of lacam and pibt. Without a plan, the page shows the
+instance.
 
---drive shows robots that drive the plan, from the log of their drive (docs/drive-log.md): where they
-are, what each does, how far it is and for whom it waits. With --follow while they drive.
+--drive shows robots that execute the plan, from the log of their execution (docs/drive-log.md):
+position, action, progress, and the robot for which each one waits. With --follow, during the
+execution.
 
---run shows what a search did instead, from its log for programs: bound and best plan over time, where
-each came from, splits, memory, ranks, and with --log-tree the trees. With --follow it is shown while
-the run goes on, to browsers on this machine.
+--run shows a search instead, from its JSON log: bound and best plan over time with their sources,
+splits, memory, ranks and, with --log-tree, the trees. With --follow it is shown during the run, to
+browsers on this machine.
 
---proof shows a certificate of a lower bound (docs/proof.md), as grove solve --proof writes it: what it
-splits plans by, why none is lost, what each part of it relies on, and where on the map that is; with
-PLAN, how near its cost is to that bound. grove-verify is what checks a certificate.
+--proof shows a certificate of a lower bound (docs/proof.md), as 'grove solve --proof' writes it: its
+splits, why no plan is lost, and what each part relies on, with places on the map; with PLAN, also
+the distance of its cost to the bound. The page does not check the certificate; grove-verify does.
 
---svg, --png and --gif write pictures of the first plan instead, without a browser: SVG and PNG of the
-moments --at, side by side; GIF plays all of it.
+--svg, --png and --gif write pictures of the first plan instead, without a browser: SVG and PNG show
+the moments --at side by side, GIF plays the whole plan.
 
 Examples:
   grove view benchmarks/data/first.cts.json first.plan.json
@@ -67,18 +69,18 @@ Examples:
   grove view hall.cts.json hall.plan.json --proof hall.proof)";
 
 constexpr IntegerRange kWidths{16, 10'000};
-constexpr std::size_t kMostPlans = 2;  // on a page
+constexpr std::size_t kMostPlans = 2;  // on one page
 constexpr IntegerRange kPorts{0, 65'535};
-constexpr std::int64_t kMostSplits = 5000;  // of a certificate
+constexpr std::int64_t kMostSplits = 5000;  // of a certificate on a page
 
 struct ViewArguments {
   InstanceArguments instance;
   std::vector<std::string> plans;
   std::string output;
   bool open = false;
-  std::string run;    // a log, in place of an instance
-  std::string drive;  // a log, of the first plan
-  std::string proof;  // a certificate
+  std::string run;    // log of a run, instead of an instance
+  std::string drive;  // log of an execution of the first plan
+  std::string proof;  // certificate
   bool follow = false;
   std::int64_t port = 0;
   PictureOrder pictures;
@@ -96,7 +98,7 @@ std::string name_of(const std::string& file) {
   return fs::path(file).filename().string();
 }
 
-// (The page of a plan is mostly called like the instance.)
+// The page of a plan usually has the name of the instance.
 std::string default_output(const ViewArguments& arguments) {
   if (!arguments.proof.empty()) return name_of(arguments.proof) + ".html";
   if (arguments.plans.empty()) return arguments.instance.stem() + ".instance.html";
@@ -104,7 +106,7 @@ std::string default_output(const ViewArguments& arguments) {
   return name.substr(0, name.find('.')) + ".html";
 }
 
-// Empty: pictures alone are wanted.
+// Returns "" if only pictures are requested.
 std::string page_file(const ViewArguments& arguments) {
   if (!arguments.output.empty() || arguments.wants_pictures()) return arguments.output;
   return default_output(arguments);
@@ -132,16 +134,16 @@ void write_pictures(const PictureMaker& maker, PictureOrder order, const Instanc
   maker.draw(order, instance, plan, write);
 }
 
-// What is to be shown, with the log as it grows, goes on as standard input.
+// Executes the server, with the page as its standard input.
 [[noreturn]] void follow(const ViewArguments& arguments, const std::string& log,
                          std::string_view page) {
-  become_standard_input(page);
+  replace_standard_input(page);
   std::vector<std::string> words{log, "--port", std::to_string(arguments.port)};
   if (arguments.open) words.emplace_back("--open");
-  become("grove-follow", words);
+  exec_program("grove-follow", words);
 }
 
-// The page of a log: called like it, unless somebody says otherwise.
+// Writes the page of a log, by default under the name of the log.
 void write_log_page(const ViewArguments& arguments, const std::string& log,
                     const std::string& page) {
   const std::string output =
@@ -161,13 +163,14 @@ void require_valid(const Instance& instance, const NamedPlan& plan, std::string_
   const Solution& solution = plan.claimed.solution;
   const auto wrong = check(instance, solution, 1);
   if (solution.plan && wrong.empty()) return;
-  throw InputError(plan.name, wrong.empty() ? "" : wrong.front().place,
-                   fmt::format("{}; expected {}",
-                               wrong.empty() ? "holds no plan" : wrong.front().message, expected));
+  throw InputError(
+      plan.name, wrong.empty() ? "" : wrong.front().json_pointer,
+      fmt::format("{}; expected {}", wrong.empty() ? "contains no plan" : wrong.front().message,
+                  expected));
 }
 
 void show_drive(const ViewArguments& arguments, const Instance& instance, const NamedPlan& plan) {
-  require_valid(instance, plan, "the valid plan that is driven");
+  require_valid(instance, plan, "the valid plan that is executed");
   const std::string name = name_of(arguments.instance.name());
   const std::string data = page_data(name, instance, std::span(&plan, 1));
   const ActionDependencyGraph order(instance, *plan.claimed.solution.plan);
@@ -186,9 +189,9 @@ void show_proof(const ViewArguments& arguments, const Instance& instance,
   const bool may_follow = certificate.may_follow;
   const Instance spoken_of = may_follow ? instance : instance.without_following();
   for (const NamedPlan& plan : plans)
-    require_valid(
-        spoken_of, plan,
-        may_follow ? "a valid plan" : "a plan valid without following, as the certificate has it");
+    require_valid(spoken_of, plan,
+                  may_follow ? "a valid plan"
+                             : "a plan valid without following, as the certificate requires");
   const std::string data = page_data(name_of(arguments.instance.name()), instance, plans);
   const std::string output = page_file(arguments);
   require_distinct_files(output, arguments.proof, "the certificate");
@@ -196,15 +199,16 @@ void show_proof(const ViewArguments& arguments, const Instance& instance,
   if (arguments.open) open_in_browser(fs::absolute(output).string());
 }
 
-// It is shown all the same: the page says what is wrong, a picture shows it red.
-void note_what_is_wrong(const Instance& instance, const NamedPlan& plan,
-                        std::vector<std::string>& warnings) {
+// Warns about an invalid plan. It is shown anyway: the page lists the errors, a picture marks them
+// red.
+void warn_if_invalid(const Instance& instance, const NamedPlan& plan,
+                     std::vector<std::string>& warnings) {
   const Solution& solution = plan.claimed.solution;
   if (!solution.plan) return;
   const auto wrong = check(instance, solution, 1);
   if (!wrong.empty())
     warnings.push_back(fmt::format("{} is not valid: {}: {}", one_line(plan.name),
-                                   wrong.front().place, one_line(wrong.front().message)));
+                                   wrong.front().json_pointer, one_line(wrong.front().message)));
 }
 
 void run(const ViewArguments& arguments, const PictureMaker& maker) {
@@ -223,11 +227,11 @@ void run(const ViewArguments& arguments, const PictureMaker& maker) {
         {fs::path(file).filename().string(), read_plan_of_any_tool(file, loaded.instance)});
   if (!arguments.drive.empty()) return show_drive(arguments, loaded.instance, plans.front());
   if (!arguments.proof.empty()) return show_proof(arguments, loaded.instance, plans);
-  for (const NamedPlan& plan : plans) note_what_is_wrong(loaded.instance, plan, warnings);
+  for (const NamedPlan& plan : plans) warn_if_invalid(loaded.instance, plan, warnings);
   if (arguments.wants_pictures() && plans.size() > 1)
-    warnings.push_back("pictures show the first plan alone");
+    warnings.push_back("pictures show only the first plan");
   if (plans.size() > kMostPlans)
-    warnings.push_back(fmt::format("a page shows {} plans; {} and those after it are left out",
+    warnings.push_back(fmt::format("a page shows {} plans; {} and later ones are left out",
                                    kMostPlans, one_line(plans[kMostPlans].name)));
   print_warnings(warnings);
   if (arguments.wants_pictures()) write_pictures(maker, arguments.pictures, loaded.instance, plans);
@@ -236,18 +240,18 @@ void run(const ViewArguments& arguments, const PictureMaker& maker) {
 
 void add_log_options(CLI::App& command, ViewArguments& arguments) {
   command
-      .add_option("--drive", arguments.drive,
-                  "log of a drive of the plan, to show robots as they drive")
+      .add_option("--drive", arguments.drive, "log of an execution of the plan, to show the robots")
       ->type_name("LOG.jsonl");
-  command.add_option("--proof", arguments.proof, "certificate of a lower bound to show, as a tree")
+  command.add_option("--proof", arguments.proof, "certificate of a lower bound, to show as a tree")
       ->type_name("CERTIFICATE");
-  command.add_option("--run", arguments.run, "log of a run to show, in place of an instance")
+  command.add_option("--run", arguments.run, "log of a run to show, instead of an instance")
       ->type_name("LOG.jsonl");
-  command.add_flag("--follow", arguments.follow, "with --run or --drive: show it while it grows");
-  add_integer(command, "--port", arguments.port, kPorts, "of --follow; 0: one that is free");
+  command.add_flag("--follow", arguments.follow,
+                   "with --run or --drive: show the log while it grows");
+  add_integer(command, "--port", arguments.port, kPorts, "with --follow: port; 0: any free port");
 }
 
-// (CLI11 would say the same, and write it into every line of the help.)
+// CLI11 could check this too, but would repeat it in every line of the help.
 void require_fit(const CLI::App& command) {
   const auto given = [&](const char* name) { return !command.get_option(name)->empty(); };
   if (given("--follow") && !given("--run") && !given("--drive"))
@@ -266,40 +270,41 @@ void require_fit(const CLI::App& command) {
       throw CLI::RequiresError(picture, "--svg, --png or --gif");
   if (given("--speed") && !given("--gif")) throw CLI::RequiresError("--speed", "--gif");
   if (given("--proof") && command.get_option("PLAN")->count() > 1)
-    throw CLI::ValidationError("--proof", "expected one PLAN at most with it");
+    throw CLI::ValidationError("--proof", "found several plans; expected at most one PLAN");
   if (given("--drive") && command.get_option("PLAN")->count() != 1)
-    throw CLI::RequiresError("--drive", "PLAN, the one that is driven");
+    throw CLI::RequiresError("--drive", "PLAN, the plan that is executed");
 }
 
 }  // namespace
 
 void add_view_command(CLI::App& app, const PictureMaker& maker) {
   const auto arguments = std::make_shared<ViewArguments>();
-  CLI::App* command = app.add_subcommand("view", "Show an instance and its plans as a page");
+  CLI::App* command =
+      app.add_subcommand("view", "Show an instance, plans, a run or a certificate as a page");
   command->footer(kViewFooter);
   arguments->instance.add_to(*command);
-  command->add_option("PLAN", arguments->plans, "plan files, or other solvers' paths")
+  command->add_option("PLAN", arguments->plans, "plan files, or paths of other solvers")
       ->type_name("");
   command
-      ->add_option(
-          "-o,--output", arguments->output,
-          "page to write, whole or not at all; by default named after plan, log or certificate")
+      ->add_option("-o,--output", arguments->output,
+                   "page to write, completely or not at all; default: named after the plan, log or "
+                   "certificate")
       ->type_name("FILE.html");
-  command->add_flag("--open", arguments->open, "show the page in the browser");
-  command->add_option("--svg", arguments->pictures.svg, "vector picture to write")
+  command->add_flag("--open", arguments->open, "open the page in the browser");
+  command->add_option("--svg", arguments->pictures.svg, "write a vector picture")
       ->type_name("FILE.svg");
-  command->add_option("--png", arguments->pictures.png, "picture to write")->type_name("FILE.png");
-  command->add_option("--gif", arguments->pictures.gif, "animation to write")
+  command->add_option("--png", arguments->pictures.png, "write a picture")->type_name("FILE.png");
+  command->add_option("--gif", arguments->pictures.gif, "write an animation")
       ->type_name("FILE.gif");
   command
       ->add_option("--at", arguments->pictures.moments,
-                   "moments of --svg and --png, in steps; by default 0")
+                   "moments of --svg and --png, steps; default: 0")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(0.0, 1e9).description(""))
       ->type_name("T,T,...");
-  add_integer(*command, "--width", arguments->pictures.width, kWidths, "pixels of a moment");
-  command->add_option("--speed", arguments->pictures.speed, "steps that --gif plays in a second")
+  add_integer(*command, "--width", arguments->pictures.width, kWidths, "width of a moment, pixels");
+  command->add_option("--speed", arguments->pictures.speed, "speed of --gif, steps per second")
       ->check(CLI::Range(0.1, 50.0).description(""))
       ->type_name("X")
       ->capture_default_str();

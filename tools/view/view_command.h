@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove view, of two programs: grove itself, and grove-picture, which can draw.
+// grove view, shared by two programs: grove, and grove-picture, which can draw.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -13,21 +13,21 @@
 
 namespace grove::detail {
 
-// Pictures that are asked for; a file without a name is not.
+// Requested pictures; a picture without a file name is not requested.
 struct PictureOrder {
   std::string svg;
   std::string png;
   std::string gif;
-  std::vector<double> moments;  // of SVG and PNG, in steps; at least one
-  std::int64_t width = 800;     // pixels of a moment
-  double speed = 4;             // steps that a GIF plays in a second
+  std::vector<double> moments;  // times of SVG and PNG, steps; at least one
+  std::int64_t width = 800;     // of a moment, pixels
+  double speed = 4;             // of a GIF, steps per second
 
   bool is_empty() const { return svg.empty() && png.empty() && gif.empty(); }
 };
 
-// One of the two is set.
+// Exactly one of the two is set.
 struct PictureMaker {
-  // Replaces this process before it has read or written any file; does not return.
+  // Replaces this process (exec) before it has read or written any file; does not return.
   std::function<void()> hand_over;
   // Draws the plan; nullptr: the instance. Calls `write` with each file and its content.
   std::function<void(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A planner for many robots on one map. In: the map, and for each robot the poses that it is to
-// visit. Out: for each robot a path with times. Plans anew whenever something comes in and nothing
-// is missing.
+// A planner for many robots on one map. Input: the map, and for each robot the poses that it must
+// visit. Output: for each robot a path with times. Re-plans after each input once all inputs have
+// arrived.
 #include <chrono>
 #include <cmath>
 #include <geometry_msgs/msg/pose_array.hpp>
@@ -49,7 +49,7 @@ class GroveNode : public rclcpp::Node {
         omega_(declare_parameter("omega", 0.05)),
         time_limit_(declare_parameter("time_limit", 1.0)),
         robots_(declare_parameter("robots", std::vector<std::string>())) {
-    // The map's server says it once: whoever comes later wants it, too.
+    // The map server publishes the map once; transient_local delivers it to later subscribers too.
     const auto kept = rclcpp::QoS(1).transient_local();
     map_in_ = create_subscription<OccupancyGrid>(
         "map", kept, [this](OccupancyGrid::ConstSharedPtr map) { take_map(*map); });
@@ -73,7 +73,7 @@ class GroveNode : public rclcpp::Node {
                               .data = map.data},
                     cell_);
     } catch (const grove::Error& error) {
-      RCLCPP_ERROR(get_logger(), "no use for this map: %s", error.what());
+      RCLCPP_ERROR(get_logger(), "cannot use this map: %s", error.what());
     }
     plan();
   }
@@ -107,8 +107,8 @@ class GroveNode : public rclcpp::Node {
         RCLCPP_ERROR(get_logger(), "no plan: %s", std::string(to_string(solution.status)).c_str());
         return;
       }
-      RCLCPP_INFO(get_logger(), "cost %ld, none costs less than %ld",
-                  static_cast<long>(solution.plan->cost), static_cast<long>(solution.lower_bound));
+      RCLCPP_INFO(get_logger(), "cost %ld, lower bound %ld", static_cast<long>(solution.plan->cost),
+                  static_cast<long>(solution.lower_bound));
       publish(*solution.plan);
     } catch (const grove::Error& error) {
       RCLCPP_ERROR(get_logger(), "no plan: %s", error.what());
@@ -141,7 +141,7 @@ class GroveNode : public rclcpp::Node {
 
   std::string frame_;
   std::optional<PlanningGrid> grid_;
-  std::map<std::string, PoseArray> visits_;  // of whom they have come for
+  std::map<std::string, PoseArray> visits_;  // by robot, if received
   rclcpp::Subscription<OccupancyGrid>::SharedPtr map_in_;
   std::vector<rclcpp::Subscription<PoseArray>::SharedPtr> visits_in_;
   std::map<std::string, rclcpp::Publisher<Path>::SharedPtr> paths_out_;

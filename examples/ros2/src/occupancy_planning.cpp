@@ -6,7 +6,7 @@
 namespace grove_ros2 {
 namespace {
 
-// From the map's frame to that of its origin, and back.
+// Transforms a pose from the map's frame to the frame of its origin, and back.
 Pose2d from_origin(const Pose2d& origin, const Pose2d& pose) {
   const double x = pose.x - origin.x;
   const double y = pose.y - origin.y;
@@ -33,8 +33,8 @@ int pixels_a_cell(const Occupancy& map, double cell) {
   return pixels < 1 ? 1 : static_cast<int>(pixels);
 }
 
-// Of Grove's rows the first is the highest. What is left over at the upper and right edge is no
-// cell.
+// The first row of Grove's grid is the top row. The remaining pixels at the upper and right edge
+// belong to no cell.
 grove::World world_of(const Occupancy& map, int pixels, int occupied_from) {
   const int width = map.width / pixels;
   const int height = map.height / pixels;
@@ -103,14 +103,14 @@ std::vector<Waypoint> waypoints(const PlanningGrid& grid, const grove::AgentPlan
     found.push_back({.seconds = seconds_per_step * static_cast<double>(found.size()),
                      .pose = grid.middle(std::get<grove::Cell>(at.place))});
   const auto goes = [&](std::size_t i) { return plan.path[i].place != plan.path[i + 1].place; };
-  const auto way = [&](std::size_t i) {
+  const auto heading = [&](std::size_t i) {
     return std::atan2(found[i + 1].pose.y - found[i].pose.y, found[i + 1].pose.x - found[i].pose.x);
   };
   double yaw = 0;
   for (std::size_t i = 0; i + 1 < found.size(); ++i)
-    if (goes(i)) yaw = way(i);
+    if (goes(i)) yaw = heading(i);
   for (std::size_t i = found.size(); i-- > 0;) {
-    if (i + 1 < found.size() && goes(i)) yaw = way(i);
+    if (i + 1 < found.size() && goes(i)) yaw = heading(i);
     found[i].pose.yaw = yaw;
   }
   return found;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From an occupancy grid and poses in metres to a Grove instance, and from its plan back to poses
-// with times. Knows nothing of ROS, so that it can be tried without.
+// Converts an occupancy grid and poses in metres to a Grove instance, and its plan to poses with
+// times. Independent of ROS, so that it can be tested without ROS.
 #pragma once
 
 #include <cstdint>
@@ -10,47 +10,46 @@
 
 namespace grove_ros2 {
 
-// In the map's frame, metres and radians.
+// A pose in the map's frame, in metres and radians.
 struct Pose2d {
   double x = 0;
   double y = 0;
   double yaw = 0;
 };
 
-// As nav_msgs/OccupancyGrid has it: row by row from the lowest, 0 is free, 100 occupied, -1
-// unknown.
+// As in nav_msgs/OccupancyGrid: row by row from the bottom; 0: free, 100: occupied, -1: unknown.
 struct Occupancy {
   int width = 0;
   int height = 0;
-  double resolution = 0;  // metres a pixel
+  double resolution = 0;  // metres per pixel
   Pose2d origin;          // the lower left corner of pixel (0, 0)
   std::vector<std::int8_t> data;
 };
 
-// What one robot is to do: it is at the first place, is to visit those between in any order, and
-// ends at the last.
+// Places of one robot: it starts at the first, visits the ones between in any order, and ends at
+// the last.
 struct Errand {
   std::string robot;
   std::vector<Pose2d> places;
 };
 
 struct Waypoint {
-  double seconds = 0;  // from the plan's begin
+  double seconds = 0;  // from the begin of the plan
   Pose2d pose;
 };
 
-// Cells of a robot's size over the map: one is passable if all of it is free.
+// A grid of cells of a robot's size on the map. A cell is passable if all its pixels are free.
 class PlanningGrid {
  public:
-  // `cell`: metres; it becomes a whole number of pixels, at least that size. `occupied_from`:
-  // pixels of that value and more are occupied. Throws grove::InvalidArgument.
+  // `cell`: side of a cell in metres, rounded up to whole pixels. `occupied_from`: pixels of this
+  // value or more are occupied. Throws grove::InvalidArgument.
   PlanningGrid(const Occupancy& map, double cell, int occupied_from = 50);
 
   const grove::World& world() const { return world_; }
   double cell_size() const { return size_; }
-  // Throws grove::InvalidArgument, naming `field`, for what is not on a passable cell.
+  // Throws grove::InvalidArgument with this `field` if the pose is not on a passable cell.
   grove::Cell cell_at(const Pose2d& pose, const std::string& field) const;
-  // The middle of a cell.
+  // Returns the pose of the middle of a cell.
   Pose2d middle(grove::Cell cell) const;
 
  private:
@@ -62,7 +61,8 @@ class PlanningGrid {
 // Throws grove::InvalidArgument.
 grove::Instance instance_of(const PlanningGrid& grid, const std::vector<Errand>& errands);
 
-// Where a robot is at each step. It looks where it goes next; at the end, where it went last.
+// Returns the robot's pose at each step. It faces its next move; after its last move, the direction
+// of that move.
 std::vector<Waypoint> waypoints(const PlanningGrid& grid, const grove::AgentPlan& plan,
                                 double seconds_per_step);
 

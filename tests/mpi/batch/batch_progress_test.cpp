@@ -39,7 +39,7 @@ TEST(BatchState, CountsRows) {
   EXPECT_EQ(state.solving_s, 12);
 }
 
-TEST(SecondsLeft, AreWhatTheRestTakesAtThisPace) {
+TEST(SecondsLeft, ExtrapolateTheCurrentPace) {
   const BatchState state = some_state();  // 6 s each, 94 left on 2 groups
   EXPECT_DOUBLE_EQ(*seconds_left(state), 282);
   BatchState last = state;  // more groups than instances: one round
@@ -53,7 +53,7 @@ TEST(SecondsLeft, AreWhatTheRestTakesAtThisPace) {
   EXPECT_DOUBLE_EQ(*seconds_left(ending), 6);
 }
 
-TEST(SecondsLeft, AreNotKnownBeforeTheFirstIsDone) {
+TEST(SecondsLeft, AreUnknownBeforeTheFirstInstanceIsDone) {
   BatchState state;
   state.total = 3;
   state.under_way = 1;
@@ -64,7 +64,7 @@ TEST(SecondsLeft, AreNotKnownBeforeTheFirstIsDone) {
   EXPECT_EQ(seconds_left(BatchState{}), 0);
 }
 
-TEST(ProgressTexts, SayWhatThereIs) {
+TEST(ProgressTexts, ShowOnlyWhatIsPresent) {
   BatchState state = some_state();
   EXPECT_EQ(progress_text(state).line,
             "41/135 done: 36 solved, 4 at a limit, 1 failed; 2:05 elapsed, about 4:42 left");
@@ -98,13 +98,13 @@ std::string shown(bool terminal, const std::vector<double>& times) {
   return text;
 }
 
-TEST(Progress, OnATerminalIsDrawnAgainAndAgain) {
+TEST(Progress, RedrawsItsLineOnATerminal) {
   EXPECT_EQ(shown(true, {0, 0.1, 0.15, 5}),
             "\r0/1 done: 0 solved; 0:00 elapsed\033[K\r0/1 done: 0 solved; 0:05 elapsed\033[K"
             "\r1/1 done: 1 solved; 0:05 elapsed\033[K\n");
 }
 
-TEST(Progress, ElsewhereIsALineNowAndThen) {
+TEST(Progress, PrintsOccasionalLinesElsewhere) {
   EXPECT_EQ(shown(false, {0, 1, 10, 29, 31, 32, 60, 61.5}),
             "0/1 done: 0 solved; 0:00 elapsed\n0/1 done: 0 solved; 0:31 elapsed\n"
             "0/1 done: 0 solved; 1:02 elapsed\n1/1 done: 1 solved; 1:02 elapsed\n");

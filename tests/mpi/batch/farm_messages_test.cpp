@@ -22,11 +22,11 @@ const std::vector<FarmMessage> kMessages{
     Ended{},
     Ended{std::string("\0\xff\n", 3)}};
 
-TEST(FarmMessages, ComeBackAsTheyWereSent) {
+TEST(FarmMessages, RoundTrip) {
   for (const FarmMessage& message : kMessages) EXPECT_EQ(decode(encode(message)), message);
 }
 
-TEST(FarmMessages, CutShortAreNone) {
+TEST(FarmMessages, TruncatedMessageIsRefused) {
   for (const FarmMessage& message : kMessages) {
     const std::string bytes = encode(message);
     for (std::size_t size = 0; size < bytes.size(); ++size)

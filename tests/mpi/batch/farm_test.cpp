@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The farm on simulated ranks, with messages that are late and a solver that only lets time pass.
+// The task farm on simulated ranks, with delayed messages and a solver that only lets time pass.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ std::vector<Entry> numbered_entries(int count) {
   return entries;
 }
 
-// What a run has to go by, and what one sees of it.
+// Inputs of a run, and its observed results.
 struct Trial {
   int ranks = 1;
   int per_group = 1;
@@ -47,7 +47,7 @@ struct Trial {
   double interrupt_at = std::numeric_limits<double>::infinity();
   int interrupt_rank = -1;  // -1: all
   double kill_at = std::numeric_limits<double>::infinity();
-  std::function<double(int rank, const Entry&)> duration_s = {};  // by default random, to 50 ms
+  std::function<double(int rank, const Entry&)> duration_s = {};  // default: random, up to 50 ms
   std::function<void(int rank, const Entry&)> work = {};          // may throw
   std::function<void(const BatchState&)> watch = {};
 
@@ -58,7 +58,7 @@ struct Trial {
   int left = 0;
 };
 
-// Another one, that lets someone look before each message is sent.
+// Forwards to another transport, and calls `look` before each message is sent.
 class WatchedTransport : public Transport {
  public:
   using Look = std::function<void(int to, const std::string& bytes)>;
@@ -96,7 +96,7 @@ class Simulation {
   }
 
   void run() {
-    ranks_.run([this](int rank) { be(rank); });
+    ranks_.run([this](int rank) { run_rank(rank); });
     if (ranks_.killed()) return;
     for (int rank = 0; rank < run_.ranks; ++rank) {
       EXPECT_EQ(world_.next_arrival(rank), std::numeric_limits<double>::infinity());
@@ -110,7 +110,7 @@ class Simulation {
     return std::min(run_.per_group, run_.ranks - group * run_.per_group);
   }
 
-  SimulatedNetwork::Delay delay() {
+  SimulatedNetwork::DelayModel delay() {
     return [this](int, int, std::size_t) {
       const bool is_late = random_() % 8 == 0;
       return std::uniform_real_distribution<double>(0, is_late ? 0.03 : 0.002)(random_);
@@ -127,7 +127,7 @@ class Simulation {
   }
 
   // main() of a rank.
-  void be(int rank) {
+  void run_rank(int rank) {
     std::optional<ResultTable> table;
     std::optional<FarmMaster> master;
     const BatchClock clock{[this] { return ranks_.now(); }, [] { return std::string("now"); }};
@@ -171,7 +171,8 @@ class Simulation {
 
   void solve(int rank, const Entry& entry, Row& row, const std::function<void()>& poll) {
     const bool leads = grouping_.rank_in_group(rank) == 0;
-    if (rank == 0) expect_on_disk(run_.finished[0]);  // its own, which it does not send for
+    if (rank == 0)
+      expect_on_disk(run_.finished[0]);  // rank 0 gets its own instances without a message
     run_.begun[rank].push_back(entry.id);
     const double end = ranks_.now() + duration_s(rank, entry);
     while (ranks_.now() < end) {
@@ -234,7 +235,7 @@ class Farms : public ::testing::Test {
     return ids;
   }
 
-  // Of the leaders, who tell what is finished.
+  // Instances finished by the group leaders, which report them.
   static Ids finished_by_leaders(const Trial& run) {
     Ids ids;
     for (int rank = 0; rank < run.ranks; rank += run.per_group)
@@ -297,8 +298,7 @@ TEST_F(Farms, SolveEveryInstanceOnce) {
   });
 }
 
-// A signal that reaches one rank ends the work of all.
-TEST_F(Farms, StopTogether) {
+TEST_F(Farms, StopAfterASignalToOneRank) {
   for (const int rank : {-1, 0, 1, 2}) {
     use_new_folder();
     Trial run{.ranks = 3, .interrupt_at = 0.1, .interrupt_rank = rank};
@@ -312,9 +312,9 @@ TEST_F(Farms, StopTogether) {
   }
 }
 
-// Twice the signal comes, to all ranks or to one; what was under way then has no row, and the same
-// command solves it again, and nothing else.
-TEST_F(Farms, GoOnAfterInterrupts) {
+// Two interrupts, of all ranks or of one. An instance in progress then has no row, and the same
+// command solves only the instances without a row.
+TEST_F(Farms, ResumeAfterInterrupts) {
   int interrupted = 0;
   for_all([&](Trial run) {
     use_new_folder();
@@ -338,11 +338,11 @@ TEST_F(Farms, GoOnAfterInterrupts) {
     }
     EXPECT_EQ(finished, sorted_ids(run.entries));
   });
-  EXPECT_GT(interrupted, 24);  // else this tested nothing
+  EXPECT_GT(interrupted, 24);  // otherwise this test is void
 }
 
-// As SIGKILL does, wherever the ranks are: inside a write too, which the tests of tables try.
-TEST_F(Farms, GoOnAfterBeingKilled) {
+// As SIGKILL does, at any point of the ranks, also inside a write (see the tests of tables).
+TEST_F(Farms, ResumeAfterBeingKilled) {
   for_all([&](Trial run) {
     use_new_folder();
     std::size_t before = 0;
@@ -360,7 +360,7 @@ TEST_F(Farms, GoOnAfterBeingKilled) {
   });
 }
 
-TEST_F(Farms, MakeRowsOfFailures) {
+TEST_F(Farms, WriteRowsOfFailures) {
   for_all([&](Trial run) {
     use_new_folder();
     Trial broken = run;
@@ -382,7 +382,7 @@ TEST_F(Farms, MakeRowsOfFailures) {
   });
 }
 
-TEST_F(Farms, TellWhichRankFailed) {
+TEST_F(Farms, ReportWhichRankFailed) {
   Trial run{.ranks = 4, .per_group = 2};
   run.work = [](int rank, const Entry& entry) {
     if (rank == 3 || (rank == 1 && entry.id == "i0")) throw std::runtime_error("no memory");
@@ -399,7 +399,7 @@ TEST_F(Farms, TellWhichRankFailed) {
   EXPECT_GT(run.end_state->failed, 0);
 }
 
-TEST_F(Farms, HandOutNothingAfterTheTotalTime) {
+TEST_F(Farms, AssignNothingAfterTheTotalTimeLimit) {
   for_all([&](Trial run) {
     use_new_folder();
     Trial first = run;
@@ -418,8 +418,8 @@ TEST_F(Farms, HandOutNothingAfterTheTotalTime) {
   });
 }
 
-// Rank 0 has its own work, or waits for a rank of its group: the others must not notice.
-TEST_F(Farms, ServeOthersMeanwhile) {
+// Rank 0 has its own work, or waits for a rank of its group. This must not delay the other groups.
+TEST_F(Farms, AssignInstancesWhileRankZeroIsBusy) {
   struct Case {
     int ranks, per_group, slow;
   };
@@ -438,14 +438,14 @@ TEST_F(Farms, ServeOthersMeanwhile) {
   }
 }
 
-TEST_F(Farms, HandOutInOrder) {
+TEST_F(Farms, AssignInstancesInOrder) {
   Trial run;
   simulate(run);
   EXPECT_EQ(run.begun[0], (Ids{"i0", "i1", "i2", "i3", "i4", "i5", "i6", "i7", "i8", "i9", "i10"}));
 }
 
-// A table that cannot be written is no fault of the instance under way.
-TEST_F(Farms, EndWhenTheTableBreaks) {
+// If the table cannot be written, the instance in progress has not failed.
+TEST_F(Farms, EndIfTheTableCannotBeWritten) {
   for (const int ranks : {1, 3}) {
     use_new_folder();
     Trial run{.ranks = ranks};
@@ -460,7 +460,7 @@ TEST_F(Farms, EndWhenTheTableBreaks) {
   }
 }
 
-TEST_F(Farms, TellTheirStateAsTheyGo) {
+TEST_F(Farms, ReportTheirState) {
   Trial run{.ranks = 3};
   int last = 0;
   int most_under_way = 0;

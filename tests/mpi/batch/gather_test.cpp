@@ -9,8 +9,8 @@
 namespace grove::detail::batch {
 namespace gather_test {
 
-// Round after round: who is quick must not be taken for who is slow.
-TEST(DistributedCheckpoint, TellsAllWhatEachSaid) {
+// Many rounds: a fast rank's message must not be counted in a slow rank's round.
+TEST(Gather, ReturnsTheTextsOfAllRanksOnEachRank) {
   for (const int count : {1, 2, 3, 7})
     for (const std::uint64_t seed : {1, 2, 3}) {
       std::mt19937_64 random(seed);
@@ -19,15 +19,16 @@ TEST(DistributedCheckpoint, TellsAllWhatEachSaid) {
       });
       grove::detail::testing::SimulatedRanks ranks(count, seed);
       ranks.on_time = [&](double now) { network.advance_to(now); };
-      const auto said = [](int rank, int round) {
+      const auto text_of = [](int rank, int round) {
         return rank == round % 3 ? "" : std::to_string(round) + " by " + std::to_string(rank);
       };
       int rounds = 0;
       ranks.run([&](int rank) {
         for (int round = 0; round < 20; ++round, ++rounds) {
-          const auto all = gather(network.at(rank), said(rank, round), [&] { ranks.pause(rank); });
+          const auto all =
+              gather(network.at(rank), text_of(rank, round), [&] { ranks.pause(rank); });
           ASSERT_EQ(all.size(), static_cast<std::size_t>(count));
-          for (int other = 0; other < count; ++other) EXPECT_EQ(all[other], said(other, round));
+          for (int other = 0; other < count; ++other) EXPECT_EQ(all[other], text_of(other, round));
         }
       });
       EXPECT_EQ(rounds, 20 * count);

@@ -7,14 +7,14 @@
 namespace grove::detail::testing {
 namespace {
 
-constexpr int kNobody = -1;
+constexpr int kNoAgent = -1;
 constexpr double kLongestStep_s = 0.001;
 constexpr double kNoEnd_s = 1000;
 
 }  // namespace
 
 SimulatedRanks::SimulatedRanks(int ranks, std::uint64_t seed)
-    : alive_(static_cast<std::size_t>(ranks), true), random_(seed), turn_(kNobody) {}
+    : alive_(static_cast<std::size_t>(ranks), true), random_(seed), turn_(kNoAgent) {}
 
 void SimulatedRanks::run(const std::function<void(int rank)>& body) {
   std::vector<std::jthread> threads;
@@ -23,7 +23,7 @@ void SimulatedRanks::run(const std::function<void(int rank)>& body) {
   {
     std::unique_lock lock(mutex_);
     pass_turn();
-    changed_.wait(lock, [&] { return turn_ == kNobody; });
+    changed_.wait(lock, [&] { return turn_ == kNoAgent; });
   }
   threads.clear();
   if (failure_) std::rethrow_exception(failure_);
@@ -37,7 +37,7 @@ void SimulatedRanks::run_rank(int rank, const std::function<void(int rank)>& bod
     }
     body(rank);
   } catch (const Killed&) {
-    // as asked
+    // by kill()
   } catch (...) {
     if (!failure_) failure_ = std::current_exception();
     killed_ = true;
@@ -50,7 +50,7 @@ void SimulatedRanks::run_rank(int rank, const std::function<void(int rank)>& bod
 void SimulatedRanks::pause(int rank) {
   std::unique_lock lock(mutex_);
   now_ += std::uniform_real_distribution<double>(0, kLongestStep_s)(random_);
-  if (now_ > kNoEnd_s) throw std::runtime_error("the ranks come to no end");
+  if (now_ > kNoEnd_s) throw std::runtime_error("the ranks do not end");
   if (on_time) on_time(now_);
   pass_turn();
   wait_for_turn(lock, rank);
@@ -66,7 +66,7 @@ void SimulatedRanks::pass_turn() {
   for (int rank = 0; rank < static_cast<int>(alive_.size()); ++rank)
     if (alive_[static_cast<std::size_t>(rank)]) ranks.push_back(rank);
   turn_ = ranks.empty()
-              ? kNobody
+              ? kNoAgent
               : ranks[std::uniform_int_distribution<std::size_t>(0, ranks.size() - 1)(random_)];
   changed_.notify_all();
 }

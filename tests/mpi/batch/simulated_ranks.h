@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ranks that run ordinary, waiting code in one process, on a clock of their own.
+// Simulated ranks: they run ordinary blocking code in one process, on a simulated clock.
 #pragma once
 
 #include <condition_variable>
@@ -12,22 +12,22 @@
 
 namespace grove::detail::testing {
 
-// Each rank has a thread, but only one of them runs at a time: until it calls pause(), when time
-// goes on a little and some rank, chosen at random, has its turn. The same seed, the same run.
+// Each rank has a thread, but only one thread runs at a time, until it calls pause(): then the time
+// advances a little and some rank, chosen at random, runs. The same seed gives the same run.
 class SimulatedRanks {
  public:
   SimulatedRanks(int ranks, std::uint64_t seed);
 
-  // Runs `body(rank)` on all ranks. Rethrows what one of them throws, std::runtime_error when there
-  // is no end.
+  // Runs `body(rank)` on all ranks. Rethrows an exception of a rank. Throws std::runtime_error if
+  // the run takes more than 1,000 simulated seconds.
   void run(const std::function<void(int rank)>& body);
-  // To be called by the rank whose turn it is, inside run().
+  // Only the running rank may call it, inside run().
   void pause(int rank);
   double now() const { return now_; }
 
-  // Called whenever time has gone on. May call kill().
+  // Called whenever the time has advanced. It may call kill().
   std::function<void(double now)> on_time;
-  // Ends all ranks where they stand, as if by SIGKILL: run() returns.
+  // Ends all ranks at once, like SIGKILL: run() returns.
   void kill() { killed_ = true; }
   bool killed() const { return killed_; }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The low levels on all worlds - grids and roads, agents that turn, work that takes time, starts on
-// the way - against a search that looks at every time step. GROVE_FUZZ_FACTOR multiplies the number
-// of cases.
+// FixedOrderSipp, FreeOrderSipp and MDDs on all worlds, compared with a search over all time steps:
+// grids and roads, agents that turn, tasks that take time, starts between places. GROVE_FUZZ_FACTOR
+// multiplies the number of cases.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -37,12 +37,12 @@ class Fuzzer {
         instance_(tiny_.build()),
         world_(instance_.world()),
         distances_(instance_),
-        chains_(world_),
+        corridors_(world_),
         fixed_(world_),
         free_(world_),
         builder_(world_),
         intervals_(world_),
-        visit_check_(world_, intervals_) {}
+        single_stop_bound_(world_, intervals_) {}
 
   void run() {
     for (AgentIndex agent = 0; agent < instance_.agent_count(); ++agent) {
@@ -51,7 +51,7 @@ class Fuzzer {
       if (::testing::Test::HasFatalFailure()) return;
     }
   }
-  // The case under way.
+  // The current case, for failure messages.
   std::string text() const {
     std::string text = tiny_.to_text() + fmt::format("agent {}, prefix", agent_);
     for (const Stop stop : work_.prefix) text += fmt::format(" {}", stop);
@@ -65,7 +65,7 @@ class Fuzzer {
   int cases = 0;
   int delayed = 0;
   int infeasible = 0;
-  int late_finishes = 0;  // finish and last arrival part
+  int late_finishes = 0;  // the finish differs from the last arrival
   std::map<std::string, int> by_world;
 
  private:
@@ -91,8 +91,8 @@ class Fuzzer {
     return work;
   }
 
-  // As the search has them, as a graph, or as a graph by direct legs.
-  CostToGo completions_of(const AgentStops& stops, const SequenceClass& work) {
+  // The cost-to-go as the search uses it, as a graph, or as a graph by direct legs.
+  CostToGo cost_to_go_of(const AgentStops& stops, const SequenceClass& work) {
     const CostToGo& given = stops.cost_to_go();
     switch (below(3)) {
       case 0:
@@ -114,7 +114,7 @@ class Fuzzer {
     const SequenceClass work = sequence_class(stops.count());
     agent_ = agent;
     work_ = work;
-    CostToGo cost_to_go = completions_of(stops, work);
+    CostToGo cost_to_go = cost_to_go_of(stops, work);
     SequenceStages goals(stops, work, cost_to_go);
     constraints_.clear();
     Path path;
@@ -150,8 +150,8 @@ class Fuzzer {
       default:
         break;
     }
-    if (chains_.count() == 0) return {place(at), kNoPlace, at, at};
-    const auto row = chains_.places(below(chains_.count()));
+    if (corridors_.count() == 0) return {place(at), kNoPlace, at, at};
+    const auto row = corridors_.places(below(corridors_.count()));
     const bool front = below(2) == 0;
     const Time begin = below(cost + 2);
     return {front ? row.front() : row.back(), front ? row[1] : row[row.size() - 2], begin,
@@ -162,7 +162,7 @@ class Fuzzer {
     ++cases;
     ++by_world[world_of(agent)];
     const auto expected = world_reference_cost(instance_, agent, work, constraints_);
-    check_visits(goals.stops(), expected);
+    check_single_stops(goals.stops(), expected);
     check_free(agent, goals, expected, path);
     if (::testing::Test::HasFatalFailure()) return false;
     if (work.prefix.size() == static_cast<std::size_t>(goals.stops().count()))
@@ -174,7 +174,7 @@ class Fuzzer {
     }
     delayed += *expected > goals.distance(goals.first_stage(), goals.stops().start());
     late_finishes += last_arrival(world_, path) < *expected;
-    check_optimal_paths(agent, goals, *expected);
+    check_mdd(agent, goals, *expected);
     return true;
   }
 
@@ -186,10 +186,10 @@ class Fuzzer {
     return world;
   }
 
-  // Each stop by itself bounds the cost; one that is all there is settles it.
-  void check_visits(const AgentStops& stops, std::optional<Time> expected) {
+  // The bound from single stops must not exceed the least cost, and equals it if there is one stop.
+  void check_single_stops(const AgentStops& stops, std::optional<Time> expected) {
     intervals_.assign(constraints_);
-    const Time least = visit_check_.least_cost(stops, 0, Limits());
+    const Time least = single_stop_bound_.least_cost(stops, 0, Limits());
     ASSERT_LE(least, expected.value_or(kNever)) << text();
     if (expected && stops.count() == 1) {
       ASSERT_EQ(least, *expected) << text();
@@ -224,8 +224,9 @@ class Fuzzer {
     check_path(agent, path);
   }
 
-  // All of that cost, and none of less.
-  void check_optimal_paths(AgentIndex agent, SequenceStages& goals, Time cost) {
+  // There must be an MDD of the least cost, a random path of which is valid, and none of lower
+  // cost.
+  void check_mdd(AgentIndex agent, SequenceStages& goals, Time cost) {
     using Outcome = MddBuilder::Outcome;
     Mdd paths;
     constexpr std::size_t kPlenty = 1 << 20;
@@ -267,18 +268,18 @@ class Fuzzer {
   const Instance instance_;
   const World& world_;
   const DistanceFields distances_;
-  const Corridors chains_;
+  const Corridors corridors_;
   FixedOrderSipp fixed_;
   FreeOrderSipp free_;
   MddBuilder builder_;
   SafeIntervals intervals_;
-  SingleStopBound visit_check_;
+  SingleStopBound single_stop_bound_;
   AgentIndex agent_ = 0;
   SequenceClass work_;
   std::vector<Constraint> constraints_;
 };
 
-TEST(WorldLowLevel, AgreesWithATimeExpandedSearch) {
+TEST(WorldLowLevel, AgreesWithTimeExpandedSearch) {
   int cases = 0;
   int delayed = 0;
   int infeasible = 0;
@@ -287,7 +288,7 @@ TEST(WorldLowLevel, AgreesWithATimeExpandedSearch) {
   const int seeds = testing::fuzz_rounds(300);
   std::vector<int> all(static_cast<std::size_t>(seeds));
   std::iota(all.begin(), all.end(), 0);
-  all.push_back(3582);  // gates of who came too late to rest closed the way for who did not
+  all.push_back(3582);  // regression: gates of labels too late to rest postponed labels in time
   for (const int seed : all) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Fuzzer fuzzer(static_cast<unsigned>(seed));
@@ -299,7 +300,7 @@ TEST(WorldLowLevel, AgreesWithATimeExpandedSearch) {
     late_finishes += fuzzer.late_finishes;
     for (const auto& [world, count] : fuzzer.by_world) by_world[world] += count;
   }
-  // Most cases must be worth something.
+  // Most cases must be non-trivial.
   EXPECT_GT(delayed, 2 * seeds);
   EXPECT_GT(infeasible, seeds / 2);
   EXPECT_GT(late_finishes, seeds / 4);

@@ -11,22 +11,22 @@
 namespace grove::detail::testing {
 namespace {
 
-// An agent in the course of its way.
-struct Situation {
+// State of an agent at one time.
+struct AgentState {
   Pose pose;
   int at_work = -1;  // on this stop
   Time done = 0;
   unsigned counted = 0;  // stops
-  int last = -1;         // the last one of them
-  Mouth mouth;           // inside a chain: by which it came in; none if inside since time 0
-  Time arrival = 0;      // at its place; all times are one from where nothing changes any more
+  int last = -1;         // the stop counted last
+  Mouth mouth;           // entrance of the corridor it is in; none outside, or inside since time 0
+  Time arrival = 0;      // at its place; clamped to the time from which the rules no longer change
 
   auto key() const {
     return std::tuple(pose.place, pose.heading, pose.to, pose.steps, at_work, done, counted, last,
                       mouth.end, mouth.inner, arrival);
   }
-  bool operator<(const Situation& other) const { return key() < other.key(); }
-  bool operator==(const Situation& other) const { return key() == other.key(); }
+  bool operator<(const AgentState& other) const { return key() < other.key(); }
+  bool operator==(const AgentState& other) const { return key() == other.key(); }
 };
 
 class Layers {
@@ -40,26 +40,26 @@ class Layers {
         constraints_(constraints),
         rules_(instance.world(), constraints),
         steps_(oracle::steps_on(instance.map())) {
-    Situation start{.pose = instance.pose_of(agent_.start), .mouth = {}};
+    AgentState start{.pose = instance.pose_of(agent_.start), .mouth = {}};
     if (instance.world().is_working(agent_.start)) {
       const Work& begun = instance.world().work(agent_.start);
       start.at_work =
           static_cast<int>(std::ranges::find(agent_.stops, begun.task) - agent_.stops.begin());
       start.done = begun.done;
-      if (!may_follow(0, start.at_work)) return;  // it cannot but count that first
+      if (!may_follow(0, start.at_work)) return;  // it must count that stop first
     }
     if (!rules_.barred(start.pose.place, 0)) reach(start);
     now_.swap(next_);
   }
 
   bool finished(Time time) const {
-    return std::ranges::any_of(now_, [&](const Situation& s) { return may_rest(s, time); });
+    return std::ranges::any_of(now_, [&](const AgentState& s) { return may_rest(s, time); });
   }
 
-  // False if nothing changes any more.
+  // Advances to `time`. Returns false if the reachable states no longer change.
   bool step(Time time) {
     next_.clear();
-    for (const Situation& s : now_) leave(s, time);
+    for (const AgentState& s : now_) leave(s, time);
     now_.swap(next_);
     return time <= rules_.last_change() || now_ != next_;
   }
@@ -75,7 +75,7 @@ class Layers {
     return position > work_.prefix.size() || (work_.forbidden_next >> next & 1) == 0;
   }
 
-  bool is_home(const Situation& s) const {
+  bool is_home(const AgentState& s) const {
     if (agent_.goal)
       return s.pose.place == *agent_.goal &&
              (!agent_.goal_heading ||
@@ -87,7 +87,7 @@ class Layers {
     return false;
   }
 
-  bool may_rest(const Situation& s, Time time) const {
+  bool may_rest(const AgentState& s, Time time) const {
     if (s.at_work >= 0 || s.counted != (1U << stops()) - 1 || !is_home(s)) return false;
     return std::ranges::all_of(constraints_, [&](const Constraint& c) {
       const bool here = c.cell == s.pose.place;
@@ -104,7 +104,7 @@ class Layers {
     });
   }
 
-  void leave(const Situation& s, Time time) {
+  void leave(const AgentState& s, Time time) {
     const bool stays = !rules_.barred(s.pose.place, time);
     if (s.at_work >= 0) {
       if (stays) work_on(s, s.at_work, s.done + 1);
@@ -118,7 +118,7 @@ class Layers {
     }
     for (const Pose& pose : oracle::next_poses(instance_, agent_, steps_, s.pose)) {
       if (rules_.barred(pose.place, time)) continue;
-      Situation there = s;
+      AgentState there = s;
       there.pose = pose;
       if (pose.place != s.pose.place) {
         if (rules_.move_barred(s.pose.place, pose.place, s.mouth, time)) continue;
@@ -129,7 +129,7 @@ class Layers {
     }
   }
 
-  void work_on(Situation s, int k, Time done) {
+  void work_on(AgentState s, int k, Time done) {
     s.at_work = k;
     s.done = done;
     if (done == stop(k).duration) {
@@ -141,12 +141,12 @@ class Layers {
     reach(s);
   }
 
-  void reach(const Situation& s) {
+  void reach(const AgentState& s) {
     next_.insert(s);
     for (int k = 0; k < stops(); ++k) {
       if (stop(k).duration > 0 || stop(k).cell != s.pose.place || !may_follow(s.counted, k))
         continue;
-      Situation counting = s;
+      AgentState counting = s;
       counting.counted |= 1U << k;
       counting.last = k;
       next_.insert(counting);
@@ -160,8 +160,8 @@ class Layers {
   const std::vector<Constraint>& constraints_;
   const StepRules rules_;
   const std::vector<std::vector<Place>> steps_;
-  std::set<Situation> now_;
-  std::set<Situation> next_;
+  std::set<AgentState> now_;
+  std::set<AgentState> next_;
 };
 
 }  // namespace

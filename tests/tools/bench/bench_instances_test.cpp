@@ -32,7 +32,7 @@ TEST_F(Orders, AreBalanced) {
                                            "b_s10_n5"}));
 }
 
-TEST_F(Orders, KeepABrokenInstanceWithItsError) {
+TEST_F(Orders, IncludeABrokenInstanceWithItsError) {
   const auto instances =
       balanced({entry("good"), {.id = "x", .path = directory_.write("x.cts.json", "{")}});
   ASSERT_EQ(instances.size(), 2U);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The workers, with a script in place of the solver.
+// Tests of the benchmark workers, with a shell script in place of the solver.
 #include "tools/bench/bench_run.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include "io/text_file.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
-#include "tools/bench/rehearsal.h"
+#include "tools/bench/method_support.h"
 
 namespace grove::detail::bench {
 namespace bench_run_test {
@@ -21,7 +21,7 @@ using batch::Row;
 
 namespace fs = std::filesystem;
 
-// A plan for a corridor of three cells.
+// A plan in a corridor of three cells.
 constexpr const char* kPlan =
     R"({"status": "optimal", "cost": 2, "lower_bound": 2, "omega": 0, "agents": [{"id": "a",
         "sequence": [], "cost": 2, "path": [[0, 0], [1, 0], [2, 0]]}], "stats": {"version": "v"}})";
@@ -37,7 +37,7 @@ class Benches : public ::testing::Test {
     solver("cp '" + directory_.write("good", kPlan) + "' \"$plan\"");
   }
 
-  // A program that does what `script` says when it is asked to write "$plan".
+  // Uses as solver a program that runs `script` when it is called to write "$plan".
   void solver(const std::string& script) {
     options_.program =
         directory_.write("solver", "#!/bin/sh\nlog='" + (directory_ / "log") +
@@ -80,7 +80,7 @@ class Benches : public ::testing::Test {
   std::atomic<bool> stopped_ = false;
 };
 
-TEST_F(Benches, HaveOneRowForEveryPairWhateverTheNumberOfWorkers) {
+TEST_F(Benches, WriteOneRowPerPairWithAnyNumberOfWorkers) {
   instances(7);
   methods(3);
   options_.jobs = 5;
@@ -101,7 +101,7 @@ TEST_F(Benches, HaveOneRowForEveryPairWhateverTheNumberOfWorkers) {
   EXPECT_FALSE(fs::exists(directory_ / "out/.running"));
 }
 
-TEST_F(Benches, RunAllMethodsOnOneInstanceAfterTheOther) {
+TEST_F(Benches, RunAllMethodsInstanceByInstance) {
   instances(2);
   methods(2);
   run();
@@ -120,7 +120,7 @@ TEST_F(Benches, RunAllMethodsOnOneInstanceAfterTheOther) {
   EXPECT_EQ(lines[3], expected(1, 1));
 }
 
-TEST_F(Benches, CountWhatComesTooLateAsUnsolved) {
+TEST_F(Benches, CountLatePlansAsUnsolved) {
   instances(1);
   methods(1);
   methods_[0].settings.time_limit_s = 1e-6;  // the start of a process takes longer
@@ -133,7 +133,7 @@ TEST_F(Benches, CountWhatComesTooLateAsUnsolved) {
   EXPECT_EQ(rows()[0].runtime_s(), 1e-6);
 }
 
-TEST_F(Benches, TakeNothingOverFromTheRunBefore) {
+TEST_F(Benches, UseNoFilesOfThePreviousRun) {
   instances(2);
   methods(1);
   solver("[ $(wc -l < \"$log\") -eq 1 ] && cp '" + (directory_ / "good") + "' \"$plan\"; exit 0");
@@ -146,7 +146,7 @@ TEST_F(Benches, TakeNothingOverFromTheRunBefore) {
   EXPECT_EQ(rows()[1].outcome.version, "mine");
 }
 
-TEST_F(Benches, RefuseWrongPlans) {
+TEST_F(Benches, RefuseInvalidPlans) {
   instances(1);
   methods(1);
   std::string plan = kPlan;
@@ -158,7 +158,7 @@ TEST_F(Benches, RefuseWrongPlans) {
       << rows().at(0).outcome.error;
 }
 
-TEST_F(Benches, KillWhatDoesNotEnd) {
+TEST_F(Benches, KillSolversThatDoNotEnd) {
   instances(1);
   methods(1);
   methods_[0].settings.time_limit_s = 0;
@@ -179,12 +179,12 @@ TEST_F(Benches, KeepPlansOnRequest) {
   EXPECT_EQ(file_content(directory_ / "out/plans/m1/set/i.plan.json"), kPlan);
   EXPECT_EQ(rows()[1].plan_file, "plans/m1/set/i.plan.json");
   fs::remove(fs::path(options_.folder) / rows()[1].plan_file);
-  run();  // what is gone
+  run();  // repeats the run whose plan is missing
   EXPECT_EQ(file_content(directory_ / "out/plans/m1/set/i.plan.json"), kPlan);
   EXPECT_EQ(rows().size(), 2U);
 }
 
-TEST_F(Benches, LeaveNoRowOfWhatWasUnderWayWhenStopped) {
+TEST_F(Benches, WriteNoRowsOfRunsInProgressWhenStopped) {
   instances(3);
   methods(1);
   options_.jobs = 2;
@@ -200,12 +200,12 @@ TEST_F(Benches, LeaveNoRowOfWhatWasUnderWayWhenStopped) {
   EXPECT_EQ(rows().size(), 3U);
 }
 
-TEST_F(Benches, AreRehearsedOnEveryKind) {
+TEST_F(Benches, CheckMethodSupportOnEachKindOfInstance) {
   instances(3);
   methods(2);
   instances_[2].kind = "mg";
   solver("");
-  rehearse(instances_, methods_, options_);
+  check_method_support(instances_, methods_, options_);
   const std::string text = file_content(directory_ / "log");
   ASSERT_EQ(split_lines(text).size(), 2U);  // 2 methods, each accepted at once
   for (const std::string_view line : split_lines(text))
@@ -213,18 +213,18 @@ TEST_F(Benches, AreRehearsedOnEveryKind) {
 
   for (const char* other : {"exit 1", "kill $$"}) {  // not a refusal
     solver(other);
-    EXPECT_NO_THROW(rehearse(instances_, methods_, options_));
+    EXPECT_NO_THROW(check_method_support(instances_, methods_, options_));
   }
   solver("case $(tail -n 1 \"$log\") in *i0.cts.json*--k\\ 1*) echo 'grove: error: " +
          instances_[0].entry.path + ": not for me'; exit 2;; esac");
-  EXPECT_NO_THROW(rehearse(instances_, methods_, options_));
+  EXPECT_NO_THROW(check_method_support(instances_, methods_, options_));
   solver("echo 'grove: error: not for me'; exit 2");
-  EXPECT_EQ(refusal([&] { rehearse(instances_, methods_, options_); }).substr(2),
-            ".cts.json: is not for the run 'm0': not for me");
+  EXPECT_EQ(refusal([&] { check_method_support(instances_, methods_, options_); }).substr(2),
+            ".cts.json: the method of run 'm0' does not accept it: not for me");
   EXPECT_FALSE(fs::exists(options_.folder));
 }
 
-TEST_F(Benches, ARefusedInstanceIsUnsuitable) {
+TEST_F(Benches, RefusedInstanceIsUnsuitable) {
   instances(2);
   methods(1);
   solver("case $(tail -n 1 \"$log\") in *i1.cts.json*) echo 'grove: error: " +
@@ -234,11 +234,11 @@ TEST_F(Benches, ARefusedInstanceIsUnsuitable) {
   EXPECT_EQ(state.counts.at("m0").unsuitable, 1);
   EXPECT_EQ(state.counts.at("m0").errors, 0);
   ASSERT_EQ(rows().size(), 2U);
-  EXPECT_EQ(rows()[1].outcome.status, batch::kUnsuitable);
+  EXPECT_EQ(rows()[1].outcome.status, batch::kUnsupported);
   EXPECT_EQ(rows()[1].outcome.error, "not for me");
 }
 
-TEST_F(Benches, AnUnreadableInstanceIsARow) {
+TEST_F(Benches, UnreadableInstanceGetsARow) {
   instances(2);
   methods(1);
   instances_[0].error = "i0.cts.json: is broken";
@@ -249,7 +249,7 @@ TEST_F(Benches, AnUnreadableInstanceIsARow) {
   EXPECT_EQ(rows()[0].outcome.error, "i0.cts.json: is broken");
 }
 
-TEST_F(Benches, EndWhenTheyCannotGoOn) {
+TEST_F(Benches, EndOnFileErrors) {
   instances(4);
   methods(1);
   options_.jobs = 3;

@@ -24,8 +24,7 @@ class Children : public ::testing::Test {
                       .cancelled = [cancelled] { return cancelled; },
                       .clock = [this] { return now_; }});
   }
-  // Of a child that ends when it has been looked after three times, each some seconds after the
-  // last.
+  // The end of a child that ends at the third poll, each poll `seconds` / 3 after the previous one.
   ChildEnd run_for(double seconds) {
     const std::string go = directory_ / "go";
     EXPECT_EQ(::mkfifo(go.c_str(), 0600), 0);
@@ -47,14 +46,14 @@ class Children : public ::testing::Test {
 
 constexpr const char* kWithoutEnd = "exec sleep 600";
 
-TEST_F(Children, EndByThemselves) {
+TEST_F(Children, ReportExitCodeAndSignal) {
   ChildEnd end = run("exit 3");
   EXPECT_EQ(end.kind, ChildEnd::Kind::kExited);
   EXPECT_EQ(end.code, 3);
   end = run("kill -SEGV $$");
   EXPECT_EQ(end.kind, ChildEnd::Kind::kSignalled);
   EXPECT_EQ(end.code, SIGSEGV);
-  end = run("kill -KILL $$");  // not by us
+  end = run("kill -KILL $$");  // not sent by Grove
   EXPECT_EQ(end.kind, ChildEnd::Kind::kSignalled);
 }
 
@@ -65,7 +64,7 @@ TEST_F(Children, AreTimed) {
   EXPECT_LT(end.wall_s, 60);
 }
 
-TEST_F(Children, AreKilledWhenTheyLastTooLong) {
+TEST_F(Children, AreKilledAtTheTimeLimit) {
   const auto look = [this] {
     now_ += 25;
     return false;
@@ -81,14 +80,14 @@ TEST_F(Children, AreKilledOnRequest) {
   EXPECT_EQ(run(kWithoutEnd, true).kind, ChildEnd::Kind::kCancelled);
 }
 
-TEST_F(Children, SpeakIntoAFileAndHearNothing) {
+TEST_F(Children, WriteToAFileAndHaveNoInput) {
   run("echo out; echo err >&2; cat");
   EXPECT_EQ(file_content(directory_ / "said"), "out\nerr\n");
   run("true");
   EXPECT_EQ(file_content(directory_ / "said"), "");
 }
 
-TEST_F(Children, ThatCannotBeStartedSaySo) {
+TEST_F(Children, ReportThatTheyCannotBeStarted) {
   const ChildEnd end = run_child({directory_ / "missing"}, directory_ / "said",
                                  {.seconds = 60, .cancelled = [] { return false; }});
   EXPECT_EQ(end.kind, ChildEnd::Kind::kExited);
@@ -98,8 +97,8 @@ TEST_F(Children, ThatCannotBeStartedSaySo) {
                std::system_error);
 }
 
-// Ctrl-C reaches the group of the caller.
-TEST_F(Children, AreInAGroupOfTheirOwn) {
+// Ctrl-C sends SIGINT only to the process group of the caller.
+TEST_F(Children, HaveTheirOwnProcessGroup) {
   run("ps -o pgid= -p $$ | tr -d ' '; echo $$");
   const std::string said = file_content(directory_ / "said");
   const std::size_t line = said.find('\n');
@@ -107,21 +106,21 @@ TEST_F(Children, AreInAGroupOfTheirOwn) {
 }
 
 TEST_F(Children, DieWithTheirParent) {
-  const std::string told = directory_ / "told";
-  ASSERT_EQ(::mkfifo(told.c_str(), 0600), 0);
+  const std::string fifo = directory_ / "fifo";
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
   const pid_t parent = ::fork();
   ASSERT_GE(parent, 0);
   if (parent == 0) {
-    run("exec 3> '" + told + "'; echo $$ >&3; " + kWithoutEnd);
+    run("exec 3> '" + fifo + "'; echo $$ >&3; " + kWithoutEnd);
     ::_exit(0);
   }
-  std::ifstream from_child(told);
+  std::ifstream from_child(fifo);
   pid_t child = 0;
   from_child >> child;
   ::kill(parent, SIGKILL);
   ::waitpid(parent, nullptr, 0);
   EXPECT_GT(child, 0);
-  // It holds the other end of the pipe as long as it lives.
+  // The child holds the other end of the pipe while it runs.
   from_child >> child;
   EXPECT_TRUE(from_child.eof());
 }

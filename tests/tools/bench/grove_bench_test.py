@@ -235,7 +235,7 @@ class Refusals(Program):
         running = self.start(*self.bench(runs=["x: --omega 0"]))
         _, err = running.communicate(timeout=HANG_S)
         self.assertEqual(running.returncode, 0, err)
-        self.assertRegex(err, r"(?m)^grove: warning: instances/broken\.cts\.json: .*; its rows are errors$")
+        self.assertRegex(err, r"(?m)^grove: warning: instances/broken\.cts\.json: .*; its rows have an error$")
         row = self.rows()["broken", "x"]
         self.assertEqual(row["status"], "error")
         self.assertIn("broken.cts.json", row["error"])
@@ -251,7 +251,7 @@ class Refusals(Program):
         said = self.run_well(*self.bench(runs=["x: --method hcbs"]))
         self.assertRegex(said, r"(?m)^method .* errors +unsuitable$")
         self.assertRegex(said, r"(?m)^x +1/1 .* 0 +2$")
-        self.assertEqual([self.rows()[name, "x"]["status"] for name in ("a_turns", "c_turns")], ["unsuitable"] * 2)
+        self.assertEqual([self.rows()[name, "x"]["status"] for name in ("a_turns", "c_turns")], ["unsupported"] * 2)
 
     def test_another_bench_in_the_same_folder(self):
         self.hard(2)
@@ -298,7 +298,7 @@ class Resuming(Program):
         file.write_text(text)
         running = self.start(*self.bench("--quiet"))
         self.assertRegex(running.communicate(timeout=HANG_S)[1],
-                         r"\Agrove: warning: out holds rows of grove -1[^\n]*; they stay\n\Z")
+                         r"\Agrove: warning: out holds rows of grove -1[^\n]*; they are kept\n\Z")
         self.assertEqual(file.read_text(), text)
 
     def test_killed_again_and_again(self):

@@ -28,30 +28,30 @@ BenchState counted() {
   return state;
 }
 
-TEST(BenchProgress, SaysHowFarAndHowGood) {
+TEST(BenchProgress, ShowsProgressAndSolvedCounts) {
   EXPECT_EQ(progress_text(counted()).line,
             "4/10 done; 1:05 elapsed, about 0:08 left; solved: auto 3/3, paper 0/1; 1 error");
   EXPECT_EQ(progress_text(counted()).done, 4);
   EXPECT_EQ(progress_text(counted()).total, 10);
 }
 
-TEST(BenchSummary, CountsWhatIsNotSolvedAsTheLimit) {
+TEST(BenchSummary, CountsUnsolvedRunsAsTheTimeLimit) {
   BenchState state = counted();
   EXPECT_EQ(summary_table(state),
             "method  solved/run  median s  errors\n"
             "auto           3/3      3.00       0\n"
             "paper          0/1     60.00       1\n"
-            "median s: of all runs; one that is not solved counts as its time limit\n");
+            "median s: over all runs; a run that is not solved counts as its time limit\n");
   Row row = solved_row("i", "auto");
   row.wall_s = 5;
   state.count(row);
   EXPECT_NE(summary_table(state).find("4/4      3.50"), std::string::npos) << summary_table(state);
 }
 
-TEST(BenchSummary, TellsWhatElseThereIs) {
+TEST(BenchSummary, ShowsOtherOutcomesOnlyIfPresent) {
   BenchState state = counted();
   for (const char* status :
-       {batch::kWrongPlan, batch::kClaimed, batch::kClaimed, batch::kUnsuitable}) {
+       {batch::kInvalidPlan, batch::kClaimed, batch::kClaimed, batch::kUnsupported}) {
     Row row = failed_row("i", "paper");
     row.outcome.status = status;
     state.count(row);

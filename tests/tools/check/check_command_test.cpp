@@ -7,7 +7,7 @@
 namespace grove::detail {
 namespace check_command_test {
 
-// . . .   a goes from (0, 0) to (2, 0), b from (2, 1) by task t (1, 1) to (0, 1).
+// . . .   a: from (0, 0) to (2, 0); b: from (2, 1) by task t (1, 1) to (0, 1).
 // . . .
 class CheckCommand : public ::testing::Test {
  protected:
@@ -20,12 +20,12 @@ class CheckCommand : public ::testing::Test {
       {"id": "b", "start": [2, 1], "goal": [0, 1]}], "tasks": [{"id": "t", "cell": [1, 1], "agents": ["b"]}]})");
   }
 
-  // A plan whose claims and agents are given as JSON.
+  // Checks a plan with the given claims and agents (JSON).
   ProcessResult check(const std::string& claims, const std::string& agents) const {
     directory_.write("p.json", "{" + claims + ", \"agents\": [" + agents + "]}");
     return run_grove({"check", directory_ / "i.json", directory_ / "p.json"});
   }
-  // What is said on stderr, without the folder.
+  // The text on stderr, without the directory.
   std::string said(const ProcessResult& result) const {
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_EQ(result.out, "");
@@ -63,7 +63,7 @@ TEST_F(CheckCommand, AcceptsAPlanForAScenario) {
   EXPECT_EQ(result.out, "valid: cost 4, lower bound 4, gap 0.00 %, 2 agents\n") << result.err;
 }
 
-TEST_F(CheckCommand, NamesEveryViolationOnALineOfItsOwn) {
+TEST_F(CheckCommand, PrintsEachViolationOnItsOwnLine) {
   const std::string collides =
       R"({"id": "b", "sequence": [], "cost": 3, "path": [[2,1],[1,1],[1,0],[0,1]]})";
   EXPECT_EQ(said(check(kClaims, kAgentA + ", " + collides)),
@@ -91,7 +91,7 @@ TEST_F(CheckCommand, RefusesAPlanForAnotherInstance) {
             "grove: error: p.json: /agents/0/id: there is no agent 'z' in the instance\n");
 }
 
-// The paths of other solvers: what they do not claim cannot be checked, and that is said.
+// Paths of other solvers make no claims: only the paths are checked, and the output states this.
 TEST_F(CheckCommand, ChecksBarePathLists) {
   directory_.write("paths.txt", "Agent 0: (0,0)->(0,1)->(0,2)->\nAgent 1: (1,2)->(1,1)->(1,0)->\n");
   EXPECT_EQ(run_grove({"check", directory_ / "i.json", directory_ / "paths.txt"}).out,
@@ -120,12 +120,12 @@ TEST_F(CheckCommand, RefusesUnknownKeys) {
             std::string::npos);
 }
 
-TEST_F(CheckCommand, SaysThatTheInstanceComesFirst) {
-  check(kClaims, kAgentA + ", " + kAgentB);  // writes both
+TEST_F(CheckCommand, ReportsSwappedArguments) {
+  check(kClaims, kAgentA + ", " + kAgentB);  // writes both files
   const ProcessResult result = run_grove({"check", directory_ / "p.json", directory_ / "i.json"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(said(result),
-            "grove: error: p.json: found a plan; expected an instance, and its plan after it: "
+            "grove: error: p.json: found a plan; expected an instance before its plan: "
             "'grove check INSTANCE PLAN'\n");
 }
 

@@ -122,7 +122,7 @@ class Confined(Hostile):
             with self.subTest(command=command[0]):
                 self.assertEqual(self.run_it(*command).returncode, 0)  # who does not ask may name any file
                 said = self.refused(*command, "--confine")
-                self.assertRegex(said, "/map: '../ours.map' leads out of the folder.*--confine")
+                self.assertRegex(said, "/map: '../ours.map' leads outside the folder.*--confine")
         for command in commands(self.instance({"map": "inside.map"}), plan):
             with self.subTest(command=command[0]):
                 done = self.run_it(*command, "--confine")

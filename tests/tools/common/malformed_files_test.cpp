@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every kind of malformed file, given to the program: exit code 2 and exactly one line that names
-// the file and the place. What each message says in full is tested with the readers.
+// For each kind of malformed file the program ends with exit code 2 and one line that names the
+// file and the place. The tests of the readers compare the full messages.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ using ::testing::StartsWith;
 struct Malformed {
   std::string name;     // of the case
   std::string content;  // of the file
-  std::string place;    // that the complaint must begin with, after the file
+  std::string place;    // the message begins with the file, then this
 };
 
 void PrintTo(const Malformed& malformed, std::ostream* out) {
@@ -57,7 +57,7 @@ class MalformedFiles : public ::testing::TestWithParam<Malformed> {
     return complaint(run_grove({"check", directory_ / "m.scen", "--map", directory_ / "m.map",
                                 "--agents", agents, directory_ / "p.json"}));
   }
-  // Gives the parameter's content to the file `name` and runs `act`.
+  // Writes the parameter's content to the file `name` and calls `act`.
   template <typename Act>
   void expect_refused(const std::string& name, Act act) const {
     directory_.write(name, GetParam().content);
@@ -69,11 +69,11 @@ class MalformedFiles : public ::testing::TestWithParam<Malformed> {
   TemporaryDirectory directory_;
 };
 
-TEST_F(MalformedFiles, TheFilesAreRightBeforeTheyAreBroken) {
+TEST_F(MalformedFiles, UnchangedFilesAreAccepted) {
   EXPECT_EQ(run_grove({"check", directory_ / "i.json", directory_ / "p.json"}).err, "");
 }
 
-TEST_F(MalformedFiles, WhatIsNoFileIsRefused) {
+TEST_F(MalformedFiles, UnreadableFileIsRefused) {
   const auto expect_refused = [&](const std::string& wrong, const std::string& why) {
     EXPECT_THAT(complaint(run_grove({"check", wrong, directory_ / "p.json"})),
                 StartsWith(wrong + why));

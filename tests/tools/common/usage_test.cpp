@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Help, version, and the exit code and single line that wrong usage gets.
+// Help, version, and the exit code and message of wrong usage.
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_directory.h"
@@ -10,7 +10,7 @@ namespace usage_test {
 
 using Arguments = std::vector<std::string>;
 
-TEST(Usage, HelpIsWorthReading) {
+TEST(Usage, HelpHasUsageExitCodesAndExamples) {
   for (const Arguments& arguments : {Arguments{"--help"},
                                      {"-h"},
                                      {"check", "--help"},
@@ -48,7 +48,7 @@ TEST(Usage, VersionNamesTheCommit) {
   EXPECT_TRUE(result.out.starts_with("grove 0.1.0 (git ")) << result.out;
 }
 
-TEST(Usage, WrongUsageGetsOneLineAndAHint) {
+TEST(Usage, WrongUsagePrintsOneLineAndAHint) {
   const auto said = [](const Arguments& arguments) { return complaint(run_grove(arguments)); };
   EXPECT_EQ(said({}), "A subcommand is required (see 'grove --help')");
   EXPECT_EQ(said({"frob"}), "unknown command 'frob' (see 'grove --help')");
@@ -69,14 +69,14 @@ TEST(Usage, WrongUsageGetsOneLineAndAHint) {
   EXPECT_EQ(said({"check", "a.scen", "b", "--map", "m"}),
             "--agents: required with a .scen file (see 'grove check --help')");
   EXPECT_EQ(said({"check", "a.json", "b", "--map", "m"}),
-            "--map, --agents: expected only with a .scen file (see 'grove check --help')");
+            "--map, --agents: allowed only with a .scen file (see 'grove check --help')");
   EXPECT_EQ(said({"generate", "map", "empty"}),
             "--output is required (see 'grove generate map empty --help')");
   EXPECT_EQ(said({"generate", "map", "empty", "-o", "x", "a\nb"}),
             "unexpected argument 'a\\nb' (see 'grove generate map empty --help')");
 }
 
-TEST(Usage, TheCommandComesFirst) {
+TEST(Usage, OptionsBeforeTheCommandAreRefused) {
   const auto said = [](const Arguments& arguments) { return complaint(run_grove(arguments)); };
   EXPECT_EQ(said({"my.cts.json", "solve"}),
             "found 'my.cts.json' before the command; expected 'grove solve ...', options and files "
@@ -90,8 +90,8 @@ TEST(Usage, TheCommandComesFirst) {
   EXPECT_EQ(said({"help", "solve", "frob"}), "unknown command 'frob' (see 'grove --help')");
 }
 
-// As with compilers: a script's own options can so be overruled.
-TEST(Usage, OfAnOptionGivenTwiceTheLastCounts) {
+// As with compilers: a caller can override the options of a script.
+TEST(Usage, LastOfARepeatedOptionCounts) {
   const TemporaryDirectory directory;
   const std::string map = directory / "m.map";
   EXPECT_EQ(run_grove({"generate", "map", "empty", "-o", "/nowhere/m.map", "--width", "9",
@@ -101,7 +101,7 @@ TEST(Usage, OfAnOptionGivenTwiceTheLastCounts) {
   EXPECT_EQ(file_content(map), "type octile\nheight 2\nwidth 3\nmap\n...\n...\n");
 }
 
-TEST(Usage, NumbersAreCheckedWithFriendlyWords) {
+TEST(Usage, InvalidNumberMessageNamesTheRange) {
   const auto said = [](const std::string& option, const std::string& value) {
     return complaint(run_grove({"generate", "map", "random", "-o", "/dev/null", option, value}));
   };
@@ -114,18 +114,20 @@ TEST(Usage, NumbersAreCheckedWithFriendlyWords) {
     EXPECT_EQ(said("--obstacles", wrong), "--obstacles: found '" + std::string(wrong) +
                                               "'; expected a number from 0 to 1" + hint);
   EXPECT_EQ(said("--seed", "-1"), "--seed: found '-1'; expected an integer of at least 0" + hint);
-  EXPECT_EQ(said("--obstacles", "1"),
-            "map: 1024 obstacles on 1024 cells leave fewer than 2 passable ones" + hint);
+  EXPECT_EQ(
+      said("--obstacles", "1"),
+      "map: 1024 obstacles on 1024 cells leave fewer than 2 passable cells; expected at least 2" +
+          hint);
 }
 
-TEST(Usage, OutputThatCannotBeWrittenIsAFailure) {
+TEST(Usage, UnwritableStandardOutputIsAnError) {
   const ProcessResult result =
       run_program({"/bin/sh", "-c", "exec \"$0\" --help >/dev/full", GROVE_PROGRAM});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err, "grove: error: standard output: cannot be written\n");
 }
 
-TEST(Usage, AFullDiskLeavesNothingBehind) {
+TEST(Usage, FullDiskLeavesNoFile) {
   const TemporaryDirectory directory;
   ProcessOptions options;
   options.largest_file = 500;

@@ -11,7 +11,7 @@ namespace convert_command_test {
 
 using Arguments = std::vector<std::string>;
 
-// . @ . . .   Wider than high, and the same neither mirrored nor turned round.
+// . @ . . .   Wider than high, and different from all its mirrored and rotated versions.
 // . . . . .
 // . . . @ @
 const std::string kMap = "type octile\nheight 3\nwidth 5\nmap\n.@...\n.....\n...@@\n";
@@ -59,14 +59,14 @@ class ConvertCommand : public ::testing::Test {
     arguments.insert(arguments.begin(), "convert");
     return run_grove(arguments, {.directory = directory_.path().string()});
   }
-  // What is printed when all goes well.
+  // Converts, expects success, and returns the output.
   std::string converted(const Arguments& arguments) const {
     const ProcessResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.err, "");
     return result.out;
   }
-  // What is complained about; nothing must be written or changed then.
+  // Expects a refusal that writes or changes no file, and returns the message.
   std::string refused(const Arguments& arguments) const {
     const auto files = directory_.files();
     const std::string text = complaint(run(arguments));
@@ -112,27 +112,26 @@ TEST_F(ConvertCommand, GroveToScenAndBack) {
             "wrote one.cts.json: 1 agents, 0 tasks\n");
 }
 
-TEST_F(ConvertCommand, YamlToScenWritesTheMapBeside) {
+TEST_F(ConvertCommand, YamlToScenWritesTheMapNextToIt) {
   EXPECT_EQ(converted({"plain.yaml", "o.scen"}),
             "wrote o.map: 5 x 3 cells\nwrote o.scen: 2 agents, 0 tasks\n");
   EXPECT_EQ(content("o.map"), kMap);
   EXPECT_EQ(content("o.scen"), replaced(replaced(kScen, "m.map", "o.map"), "m.map", "o.map"));
 }
 
-TEST_F(ConvertCommand, TheInstancesMapIsNamedAsSeenFromTheOutput) {
+TEST_F(ConvertCommand, MapPathIsRelativeToTheOutput) {
   std::filesystem::create_directory(directory_.path() / "below");
   converted({"plain.cts.json", "below/o.cts.json"});
   EXPECT_EQ(content("below/o.cts.json"), replaced(kPlain, "m.map", "../m.map"));
 }
 
-TEST_F(ConvertCommand, NoMapIsOverwritten) {
-  converted({"plain.yaml", "m.cts.json"});  // m.map is this very map, so it is taken
+TEST_F(ConvertCommand, MapsAreNotOverwritten) {
+  converted({"plain.yaml", "m.cts.json"});  // m.map has the same cells, so it is used
   EXPECT_EQ(content("m.cts.json"), kPlain);
   const std::string other = replaced(kMap, ".@...", "..@..");
   directory_.write("o.map", other);
   EXPECT_EQ(refused({"plain.yaml", "o.cts.json"}),
-            "o.map: is another map than that of 'plain.yaml'; expected the same 5 x 3 cells, "
-            "passable and blocked alike");
+            "o.map: is not the map of 'plain.yaml'; expected the same 5 x 3 cells");
   EXPECT_EQ(content("o.map"), other);
   EXPECT_EQ(refused({"plain.yaml", "x.cts.json", "--map", "o.map"}).substr(0, 21),
             "o.map: is another map");
@@ -140,16 +139,17 @@ TEST_F(ConvertCommand, NoMapIsOverwritten) {
             "o.map: is another map");
 }
 
-TEST_F(ConvertCommand, TerrainIsTakenAsTheSolverTakesIt) {
+TEST_F(ConvertCommand, TerrainIsReadAsBySolve) {
   directory_.write("m.map", replaced(replaced(kMap, ".@...", "GTSE."), "...@@", "...OW"));
   EXPECT_EQ(run({"plain.cts.json", "o.yaml"}).exit_code, 0);
   EXPECT_EQ(content("o.yaml"), kPlainYaml);
 }
 
-TEST_F(ConvertCommand, TasksAreNotLostUnasked) {
+TEST_F(ConvertCommand, TasksAreDroppedOnlyOnRequest) {
   const std::string problem =
-      "tasks.cts.json: /tasks/0: task 't0' cannot be said in a .scen file; expected no tasks "
-      "(--drop tasks gives the tasks up)";
+      "tasks.cts.json: /tasks/0: task 't0' cannot be represented in a .scen file; expected no "
+      "tasks "
+      "(--drop tasks leaves the tasks out)";
   EXPECT_EQ(refused({"tasks.cts.json", "o.scen"}), problem);
   EXPECT_EQ(refused({"tasks.cts.json", "o.scen", "--drop", "ids"}), problem);
   EXPECT_EQ(converted({"tasks.cts.json", "o.scen", "--drop", "tasks"}),
@@ -157,16 +157,16 @@ TEST_F(ConvertCommand, TasksAreNotLostUnasked) {
   EXPECT_EQ(content("o.scen"), kScen);
   converted({"--drop", "tasks", "tasks.cts.json", "o.yaml"});
   EXPECT_EQ(content("o.yaml"), kPlainYaml);
-  // What the format can hold is kept.
+  // Everything that the format can represent is kept.
   converted({"tasks.cts.json", "o.cts.json", "--drop", "ids,tasks"});
   EXPECT_EQ(content("o.cts.json"), kTasks);
 }
 
-TEST_F(ConvertCommand, IdsAreNotLostUnasked) {
+TEST_F(ConvertCommand, IdsAreDroppedOnlyOnRequest) {
   directory_.write("red.cts.json", replaced(kPlain, "a1", "red"));
   EXPECT_EQ(refused({"red.cts.json", "o.scen"}),
             "red.cts.json: /agents/1: a .scen file has no ids: read back, agent 'red' would be "
-            "'a1'; expected that id (--drop ids gives the ids up)");
+            "'a1'; expected this id (--drop ids leaves the ids out)");
   converted({"red.cts.json", "o.scen", "--drop", "ids"});
   EXPECT_EQ(content("o.scen"), kScen);
   converted({"red.cts.json", "o.yaml", "--drop", "ids"});
@@ -174,12 +174,12 @@ TEST_F(ConvertCommand, IdsAreNotLostUnasked) {
   directory_.write("shelf.cts.json", replaced(kMg, "t0", "shelf"));
   EXPECT_EQ(refused({"shelf.cts.json", "o.yaml", "--to", "mgcbs"}),
             "shelf.cts.json: /tasks/0: MGCBS's YAML has no ids of tasks: read back, task 'shelf' "
-            "(number 0) would be 't0' (number 0); expected that (--drop ids gives the ids up)");
+            "(number 0) would be 't0' (number 0); expected that (--drop ids leaves the ids out)");
   converted({"shelf.cts.json", "o.yaml", "--to", "mgcbs", "--drop", "ids"});
   EXPECT_NE(content("o.yaml").find("name: red"), std::string::npos);
 }
 
-TEST_F(ConvertCommand, TellsWhereInEachFormatTheTroubleIs) {
+TEST_F(ConvertCommand, MessageNamesThePlaceInEachFormat) {
   converted({"mg.cts.json", "mg.yaml", "--to", "mgcbs"});
   converted({"tasks.cts.json", "tasks.mapfw.json"});
   const auto starts = [&](const Arguments& arguments, const std::string& start) {
@@ -199,19 +199,19 @@ TEST_F(ConvertCommand, TellsWhereInEachFormatTheTroubleIs) {
          "plain.scen: line 2: agent 'a0' has a goal to end on, ");
 }
 
-TEST_F(ConvertCommand, LeavesNoMapBehindWhenTheInstanceFails) {
+TEST_F(ConvertCommand, WritesNoMapIfTheInstanceFails) {
   directory_.write("cut.yaml",
                    "map: {dimensions: [3, 1], obstacles: [[1, 0]]}\n"
                    "agents: [{name: a0, start: [0, 0], goal: [2, 0]}]\n");
   EXPECT_EQ(refused({"cut.yaml", "o.scen"}),
-            "cut.yaml: /agents/0: agent 'a0' cannot reach its goal; expected a way there, for a "
-            ".scen file tells how long it is");
+            "cut.yaml: /agents/0: agent 'a0' cannot reach its goal; expected a path, because a "
+            ".scen file has its length");
   EXPECT_EQ(refused({"plain.yaml", "none/o.cts.json"}),
             "none/o.cts.json: cannot be written: No such file or directory");
   directory_.write("two words.yaml", kPlainYaml);
   EXPECT_EQ(refused({"plain.yaml", "two words.scen"}),
-            "two words.scen: the map's name 'two words.map' has blanks in it; expected none, for "
-            "they separate the columns of a .scen file");
+            "two words.scen: the map's name 'two words.map' contains blanks; expected none, "
+            "because they separate the columns of a .scen file");
 }
 
 TEST_F(ConvertCommand, OverwritesNoneOfItsInputs) {
@@ -224,44 +224,47 @@ TEST_F(ConvertCommand, OverwritesNoneOfItsInputs) {
   EXPECT_EQ(content("m.map"), kMap);
 }
 
-TEST_F(ConvertCommand, FormatsAreGuessedOnlyWhereTheNameTells) {
+TEST_F(ConvertCommand, FormatsAreDerivedOnlyFromKnownFileNames) {
   directory_.write("x.json", kTasks);
-  EXPECT_EQ(refused({"x.json", "o.yaml"}),
-            "--from: required, for the name 'x.json' does not tell the format; expected one of "
-            "grove, libmrp, mgcbs, mapfw, scen" +
-                kHint);
+  EXPECT_EQ(
+      refused({"x.json", "o.yaml"}),
+      "--from: required, because the suffix of 'x.json' is not that of a format; expected one of "
+      "grove, libmrp, mgcbs, mapfw, scen" +
+          kHint);
   EXPECT_EQ(refused({"plain.yaml", "o.txt"}),
-            "--to: required, for the name 'o.txt' does not tell the format; expected one of grove, "
+            "--to: required, because the suffix of 'o.txt' is not that of a format; expected one "
+            "of grove, "
             "libmrp, mgcbs, mapfw, scen" +
                 kHint);
-  EXPECT_EQ(refused({"--plan", "p.json", "plain.yaml", "o.txt"}),
-            "--to: required, for the name 'o.txt' does not tell the format; expected one of "
-            "libmrp, mapf-visualizer, eecbs, tracker, tracker-csv, waypoints, nav-path, planviz" +
-                kHint);
+  EXPECT_EQ(
+      refused({"--plan", "p.json", "plain.yaml", "o.txt"}),
+      "--to: required, because the suffix of 'o.txt' is not that of a format; expected one of "
+      "libmrp, mapf-visualizer, eecbs, tracker, tracker-csv, waypoints, nav-path, planviz" +
+          kHint);
   EXPECT_EQ(refused({"--from", "grv", "x.json", "o.yaml"}),
             "--from: found 'grv'; expected one of grove, libmrp, mgcbs, mapfw, scen" + kHint);
   EXPECT_EQ(converted({"--from", "grove", "x.json", "--to", "mapfw", "o.txt"}),
             "wrote o.txt: 2 agents, 2 tasks\n");
 }
 
-TEST_F(ConvertCommand, OptionsThatDoNothingAreMistakes) {
+TEST_F(ConvertCommand, OptionsWithoutEffectAreRefused) {
   const auto said = [&](const Arguments& arguments) {
     const std::string text = refused(arguments);
     return text.substr(0, text.size() - std::min(text.size(), kHint.size()));
   };
   EXPECT_EQ(said({"plain.scen", "o.yaml"}), "--map: required with a .scen INSTANCE");
   EXPECT_EQ(said({"plain.yaml", "o.cts.json", "--agents", "1"}),
-            "--agents: expected only with a .scen INSTANCE");
+            "--agents: allowed only with a .scen INSTANCE");
   EXPECT_EQ(said({"plain.yaml", "o.mapfw.json", "--map", "m.map"}),
-            "--map: expected only with a .scen INSTANCE, or an OUT with a map");
+            "--map: allowed only with a .scen INSTANCE, or an OUT with a map");
   EXPECT_EQ(said({"plain.yaml", "o.cts.json", "--scenario", "even-1"}),
-            "--scenario: expected only with --plan and --to tracker");
+            "--scenario: allowed only with --plan and --to tracker");
   EXPECT_EQ(said({"plain.yaml", "o.cts.json", "--flip-up-down"}),
-            "--flip-up-down: expected only with --plan and --to tracker");
+            "--flip-up-down: allowed only with --plan and --to tracker");
   EXPECT_EQ(said({"--plan", "p.json", "plain.yaml", "o.yaml", "--drop", "ids"}),
-            "--drop: expected only with instances, not with --plan");
+            "--drop: allowed only with instances, not with --plan");
   EXPECT_EQ(said({"--plan", "p.json", "plain.yaml", "o.yaml", "--map", "m.map"}),
-            "--map: expected only with a .scen INSTANCE");
+            "--map: allowed only with a .scen INSTANCE");
   EXPECT_EQ(said({"plain.yaml", "o.cts.json", "--drop", "agents"}),
             "--drop: found 'agents'; expected ids, tasks or ids,tasks");
   EXPECT_EQ(said({"--plan", "p.json", "plain.yaml", "o.csv", "--scenario", "even-1"}),
@@ -298,7 +301,7 @@ TEST_F(ConvertCommand, ConvertsPlans) {
             "\n");
 }
 
-TEST_F(ConvertCommand, TheNameOfAScenarioTellsTheTrackerWhichItIs) {
+TEST_F(ConvertCommand, TrackerScenarioComesFromTheFileName) {
   directory_.write("m-even-12.scen", kScen);
   converted({"--plan", "p.json", "m-even-12.scen", "--map", "m.map", "o.csv"});
   EXPECT_EQ(
@@ -307,7 +310,7 @@ TEST_F(ConvertCommand, TheNameOfAScenarioTellsTheTrackerWhichItIs) {
       "\"m\",\"even\",12,2,10,10,FALSE,\"d4ru\nl2dl\"\n");
 }
 
-TEST_F(ConvertCommand, NoWrongPlanIsPassedOn) {
+TEST_F(ConvertCommand, InvalidPlansAreRefused) {
   directory_.write("wrong.json", replaced(kPlan, "[2,0],[2,1]", "[2,1],[2,1]"));
   EXPECT_EQ(refused({"--plan", "wrong.json", "plain.cts.json", "o.yaml"}),
             "wrong.json: /agents/1/path/1: agent 'a1' jumps from [3, 0] to [2, 1]; expected a wait "
@@ -320,11 +323,11 @@ TEST_F(ConvertCommand, NoWrongPlanIsPassedOn) {
     "agents": [{"id": "red", "sequence": ["t0"], "cost": 5,
                 "path": [[0,0],[0,1],[1,1],[2,1],[3,1],[4,1]]}]})");
   EXPECT_EQ(refused({"--plan", "t.json", "mg.cts.json", "o.csv"}),
-            "mg.cts.json: /agents/0: agent 'red' has no goal; expected one for every agent, for a "
-            "row of MAPF Tracker cannot do without");
+            "mg.cts.json: /agents/0: agent 'red' has no goal; expected one for every agent, "
+            "because a row of MAPF Tracker requires it");
 }
 
-// The readers are fuzzed one by one; here is what becomes of what they throw.
+// Other tests fuzz the readers; this one tests the messages for their exceptions.
 TEST_F(ConvertCommand, BrokenFilesAreRefusedInOneLine) {
   converted({"tasks.cts.json", "tasks.mapfw.json"});
   std::mt19937 random(7);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// grove convert from GraphML and LIF to roadmaps, as one would use it.
+// grove convert from GraphML and LIF to roadmaps, as users call it.
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_directory.h"
@@ -10,7 +10,7 @@ namespace convert_roadmap_test {
 
 using Arguments = std::vector<std::string>;
 
-// Written by hand as networkx would: an aisle of 4 m, a ramp of 2.6 m.
+// Written by hand in the style of networkx: an aisle of 4 m, a ramp of 2.6 m.
 const std::string kGraphml = R"(<?xml version='1.0' encoding='utf-8'?>
 <graphml xmlns="http://graphml.graphdrawing.org/xmlns">
   <key id="d2" for="edge" attr.name="length" attr.type="double" />
@@ -38,7 +38,7 @@ std::string lif_edge(const std::string& from, const std::string& to, const std::
          R"("maxSpeed": )" +
          speed + "}]}";
 }
-// A street from in to out, and a press that is off it; each road in both directions.
+// A street from "in" to "out", and a press next to it; each road in both directions.
 const std::string kLif =
     R"({"metaInformation": {"projectIdentification": "plant", "creator": "us",
   "exportTimestamp": "2024-03-01T10:00:00.00Z", "lifVersion": "1.0.0"},
@@ -82,7 +82,7 @@ class ConvertRoadmap : public ::testing::Test {
     EXPECT_EQ(directory_.files(), files);
     return text;
   }
-  // What grove check says of an optimal plan of the instance.
+  // Returns the output of grove check for an optimal plan of the instance.
   std::string solved() const {
     const Arguments solve = {"solve", "i.cts.json", "--omega", "0", "--quiet", "--output", "plan"};
     EXPECT_EQ(grove(solve).exit_code, 0);
@@ -94,7 +94,7 @@ class ConvertRoadmap : public ::testing::Test {
 
 const std::string kHint = " (see 'grove convert --help')";
 
-TEST_F(ConvertRoadmap, GraphmlBecomesARoadmapThatIsSolved) {
+TEST_F(ConvertRoadmap, GraphmlIsConvertedToASolvableRoadmap) {
   EXPECT_EQ(converted({"g.graphml", "o.roadmap.json", "--metres-per-step", "0.5"}),
             "wrote o.roadmap.json: 3 vertices, 3 roads, 1 of them one way, 26 places\n"
             "rounding: at most 0.8 steps (0.4 m): 5.2 became 6, line 11, column 5 from 'mid' to "
@@ -112,7 +112,7 @@ TEST_F(ConvertRoadmap, GraphmlBecomesARoadmapThatIsSolved) {
   EXPECT_EQ(solved(), "valid: cost 14, lower bound 14, gap 0.00 %, 1 agent\n");
 }
 
-TEST_F(ConvertRoadmap, WithoutRoundingItSaysSo) {
+TEST_F(ConvertRoadmap, ReportsThatNothingWasRounded) {
   EXPECT_EQ(converted({"g.graphml", "o", "--to", "roadmap", "--metres-per-step", "0.2"}),
             "wrote o: 3 vertices, 3 roads, 1 of them one way, 63 places\n"
             "rounding: none; every road takes a whole number of steps\n");
@@ -120,9 +120,9 @@ TEST_F(ConvertRoadmap, WithoutRoundingItSaysSo) {
 
 const std::string kLanes =
     "grove: warning: p.lif.json: 3 pairs of opposite edges are two lanes each, on which robots "
-    "pass one another; where robots share one lane: --merge-lanes\n";
+    "pass one another; use --merge-lanes if robots share one lane\n";
 
-TEST_F(ConvertRoadmap, LifBecomesARoadmapOfTwoLanesOrOne) {
+TEST_F(ConvertRoadmap, LifIsConvertedWithTwoLanesOrOne) {
   const Arguments convert = {"p.lif.json", "o.roadmap.json",     "--metres-per-step",
                              "1",          "--seconds-per-step", "1"};
   EXPECT_EQ(converted(convert, kLanes),
@@ -130,27 +130,27 @@ TEST_F(ConvertRoadmap, LifBecomesARoadmapOfTwoLanesOrOne) {
             "rounding: at most 0.8 steps (0.8 s): 5.2 became 6, /layouts/0/edges/0 from 'in' to "
             "'fork'\n"
             "rounding: at most 15.38 %: 5.2 became 6, /layouts/0/edges/0 from 'in' to 'fork'\n");
-  // a: 6 + 14 + 14 + 6, b: 7 + 6; on lanes of their own.
+  // a: 6 + 14 + 14 + 6, b: 7 + 6; each on its own lane.
   EXPECT_EQ(solved(), "valid: cost 53, lower bound 53, gap 0.00 %, 2 agents\n");
 
   Arguments merge = convert;
   merge.emplace_back("--merge-lanes");
   EXPECT_EQ(converted(merge,
                       "grove: warning: p.lif.json: 1 pairs of opposite edges take different "
-                      "numbers of steps and stay two lanes each\n")
+                      "numbers of steps and remain two lanes each\n")
                 .substr(0, 72),
             "wrote o.roadmap.json: 4 vertices, 4 roads, 2 of them one way, 33 places\n");
   EXPECT_EQ(solved(), "valid: cost 53, lower bound 53, gap 0.00 %, 2 agents\n");
 }
 
-TEST_F(ConvertRoadmap, OnOneLaneRobotsDoNotPassOneAnother) {
+TEST_F(ConvertRoadmap, RobotsCannotPassEachOtherOnOneLane) {
   directory_.write("i.cts.json",
                    R"({"roadmap": "o.roadmap.json", "tasks": [], "agents": [
   {"id": "a", "start": "in", "goal": "fork"}, {"id": "b", "start": "fork", "goal": "in"}]})");
   Arguments convert = {"p.lif.json", "o.roadmap.json", "--metres-per-step", "2"};
   EXPECT_EQ(run(convert).exit_code, 0);
   EXPECT_EQ(solved(), "valid: cost 6, lower bound 6, gap 0.00 %, 2 agents\n");
-  // Each goes aside for the other, and an exhaustive search knows no less.
+  // Each robot moves aside for the other; exhaustive search finds the same cost.
   convert.emplace_back("--merge-lanes");
   EXPECT_EQ(run(convert).exit_code, 0);
   EXPECT_EQ(solved(), "valid: cost 12, lower bound 12, gap 0.00 %, 2 agents\n");
@@ -166,25 +166,25 @@ TEST_F(ConvertRoadmap, RoadsWithoutAnEdgeAreRefused) {
             "one.graphml: has no edge; expected at least one");
   std::string lif = kLif;
   for (std::size_t at = 0; (at = lif.find("\"T\", \"rot", at)) != std::string::npos;)
-    lif.replace(at, 3, "\"U\"");  // the edges are for another type than the nodes
+    lif.replace(at, 3, "\"U\"");  // the edges are for a different vehicle type than the nodes
   directory_.write("u.lif.json", lif);
   EXPECT_EQ(
       refused({"u.lif.json", "o.roadmap.json", "--metres-per-step", "1", "--vehicle-type", "T"}),
       "u.lif.json: has no edge that vehicle type 'T' may use; expected at least one");
 }
 
-TEST_F(ConvertRoadmap, SpeedsThatDoNotCountAreTold) {
+TEST_F(ConvertRoadmap, WarnsOfIgnoredSpeeds) {
   const ProcessResult result = run({"p.lif.json", "o.roadmap.json", "--metres-per-step", "6"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err,
-            "grove: warning: p.lif.json: tells the speed or the duration of 6 edges, which counts "
-            "only with --seconds-per-step\n" +
+            "grove: warning: p.lif.json: has a speed or a duration for 6 edges; expected "
+            "--seconds-per-step to use them\n" +
                 kLanes +
-                "grove: warning: p.lif.json: on 3 of these pairs, of one step, robots cannot pass "
-                "one another; for that: shorter steps\n");
+                "grove: warning: p.lif.json: robots cannot pass one another on 3 of these "
+                "pairs, which take one step; use shorter steps to allow it\n");
 }
 
-TEST_F(ConvertRoadmap, OptionsThatDoNotFitAreRefused) {
+TEST_F(ConvertRoadmap, UnsuitableOptionsAreRefused) {
   const Arguments good = {"g.graphml", "o.roadmap.json", "--metres-per-step", "1"};
   const auto with = [&](const Arguments& more) {
     Arguments all = good;
@@ -192,7 +192,7 @@ TEST_F(ConvertRoadmap, OptionsThatDoNotFitAreRefused) {
     return refused(all);
   };
   EXPECT_EQ(refused({"g.graphml", "o.roadmap.json"}),
-            "--metres-per-step: required; expected how far a robot goes in a step, or "
+            "--metres-per-step: required; expected metres per step, or "
             "--seconds-per-step" +
                 kHint);
   for (const std::string wrong : {"0", "-1", "nan", "inf", "x", ""})
@@ -200,22 +200,23 @@ TEST_F(ConvertRoadmap, OptionsThatDoNotFitAreRefused) {
               "--seconds-per-step: found '" + wrong + "'; expected a number from 1e-06 to 1000000" +
                   kHint);
   EXPECT_EQ(refused({"g.graphml", "o.json", "--metres-per-step", "1"}),
-            "--to: found 'o.json'; graphml holds roads: expected roadmap, or a file "
+            "--to: found 'o.json'; graphml contains roads; expected roadmap, or a file "
             "*.roadmap.json" +
                 kHint);
   EXPECT_EQ(refused({"g.graphml", "o.yaml", "--to", "libmrp"}),
-            "--to: found 'libmrp'; graphml holds roads: expected roadmap, or a file "
+            "--to: found 'libmrp'; graphml contains roads; expected roadmap, or a file "
             "*.roadmap.json" +
                 kHint);
-  EXPECT_EQ(refused({"plant.json", "o.roadmap.json"}),
-            "--from: required, for the name 'plant.json' does not tell the format; expected "
-            "graphml or lif, for OUT is a roadmap" +
-                kHint);
+  EXPECT_EQ(
+      refused({"plant.json", "o.roadmap.json"}),
+      "--from: required, because the suffix of 'plant.json' is not that of a format; expected "
+      "graphml or lif, because OUT is a roadmap" +
+          kHint);
   EXPECT_EQ(refused({"i.cts.json", "o.roadmap.json", "--from", "grove"}),
-            "--from: found 'grove'; expected graphml or lif, for OUT is a roadmap" + kHint);
-  EXPECT_EQ(with({"--layout", "x"}), "--layout: expected only with LIF" + kHint);
-  EXPECT_EQ(with({"--vehicle-type", "x"}), "--vehicle-type: expected only with LIF" + kHint);
-  const std::string only = ": expected only with instances and plans" + kHint;
+            "--from: found 'grove'; expected graphml or lif, because OUT is a roadmap" + kHint);
+  EXPECT_EQ(with({"--layout", "x"}), "--layout: allowed only with LIF" + kHint);
+  EXPECT_EQ(with({"--vehicle-type", "x"}), "--vehicle-type: allowed only with LIF" + kHint);
+  const std::string only = ": allowed only with instances and plans" + kHint;
   EXPECT_EQ(with({"--plan", "p"}), "--plan" + only);
   EXPECT_EQ(with({"--map", "m"}), "--map" + only);
   EXPECT_EQ(with({"--agents", "3"}), "--agents" + only);
@@ -223,7 +224,7 @@ TEST_F(ConvertRoadmap, OptionsThatDoNotFitAreRefused) {
   EXPECT_EQ(with({"--scenario", "even-1"}), "--scenario" + only);
   EXPECT_EQ(with({"--flip-up-down"}), "--flip-up-down" + only);
   const std::string roads =
-      ": expected only with roads: a *.graphml or *.lif.json INSTANCE, or --from graphml or lif";
+      ": allowed only with roads: a *.graphml or *.lif.json INSTANCE, or --from graphml or lif";
   for (const Arguments& option : {Arguments{"--metres-per-step", "1"},
                                   {"--layout", "l"},
                                   {"--vehicle-type", "t"},
@@ -236,7 +237,7 @@ TEST_F(ConvertRoadmap, OptionsThatDoNotFitAreRefused) {
             "--seconds-per-step" + roads + "; or --to waypoints or nav-path" + kHint);
 }
 
-TEST_F(ConvertRoadmap, FilesThatDoNotFitAreRefused) {
+TEST_F(ConvertRoadmap, UnsuitableFilesAreRefused) {
   EXPECT_EQ(refused({"p.lif.json", "o.roadmap.json", "--from", "graphml", "--metres-per-step", "1"})
                 .substr(0, 12),
             "p.lif.json: ");
@@ -250,9 +251,8 @@ TEST_F(ConvertRoadmap, FilesThatDoNotFitAreRefused) {
       refused({"p.lif.json", "o.roadmap.json", "--metres-per-step", "1", "--layout", "attic"}),
       "p.lif.json: /layouts: there is no layout 'attic'; expected one of 'hall'");
   EXPECT_EQ(refused({"g.graphml", "o.roadmap.json", "--seconds-per-step", "1"}),
-            "g.graphml: line 10, column 5: nothing tells how long this edge takes; expected its "
-            "highest speed (LIF) or its duration (GraphML), or --metres-per-step for the robots' "
-            "own speed");
+            "g.graphml: line 10, column 5: this edge has no time; expected a maximum speed (LIF), "
+            "a duration (GraphML), or --metres-per-step for the speed of the robots");
 }
 
 }  // namespace convert_roadmap_test

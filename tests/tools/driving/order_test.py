@@ -85,7 +85,7 @@ class Reading(unittest.TestCase):
         self.check(lambda o, r, a: o["robots"][1].update(start=[0, 0]), "/robots/1/actions/0/to")
 
     def test_actions_that_wait_for_each_other(self):
-        self.check(lambda o, r, a: a[0].update(after={"robot": "blue", "action": 0}), "/robots/0/actions/0", "circle")
+        self.check(lambda o, r, a: a[0].update(after={"robot": "blue", "action": 0}), "/robots/0/actions/0", "cycle")
 
     def test_no_json(self):
         for text in ("", "{", "[" * 100000, "[]", "null"):

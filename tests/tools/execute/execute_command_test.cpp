@@ -41,12 +41,13 @@ class ExecuteCommand : public ::testing::Test {
   const std::string plan_ = plan_of(instance_);
 };
 
-TEST_F(ExecuteCommand, DrivesAreValidPlans) {
-  for (const std::vector<std::string>& troubles : {std::vector<std::string>{},
-                                                   {"--delays", "0.5", "--seed", "3"},
-                                                   {"--slow", "a1=2.5"},
-                                                   {"--stop", "a2@10=60", "--stop", "a3@0=5"}}) {
-    std::vector<std::string> words = troubles;
+TEST_F(ExecuteCommand, ExecutedPlansAreValid) {
+  for (const std::vector<std::string>& disturbances :
+       {std::vector<std::string>{},
+        {"--delays", "0.5", "--seed", "3"},
+        {"--slow", "a1=2.5"},
+        {"--stop", "a2@10=60", "--stop", "a3@0=5"}}) {
+    std::vector<std::string> words = disturbances;
     words.insert(words.end(), {"--output", directory_ / "driven.plan.json"});
     const ProcessResult done = execute(words);
     ASSERT_EQ(done.exit_code, 0) << done.err;
@@ -56,7 +57,7 @@ TEST_F(ExecuteCommand, DrivesAreValidPlans) {
   }
 }
 
-TEST_F(ExecuteCommand, ADriveKeepsToNoFollowing) {
+TEST_F(ExecuteCommand, ExecutionKeepsNoFollowing) {
   std::filesystem::remove(plan_);
   ASSERT_EQ(
       run_grove({"solve", instance_, "--quiet", "--no-following", "--output", plan_}).exit_code, 0);
@@ -68,8 +69,8 @@ TEST_F(ExecuteCommand, ADriveKeepsToNoFollowing) {
   EXPECT_EQ(checked.exit_code, 0) << checked.err;
 }
 
-// As plan files say it.
-TEST_F(ExecuteCommand, WorkBegunBeforeThePlanIsPlannedBelowZero) {
+// As in plan files.
+TEST_F(ExecuteCommand, TaskBegunBeforeThePlanHasNegativePlannedTime) {
   std::ofstream(directory_ / "row.map") << "type octile\nheight 1\nwidth 3\nmap\n...\n";
   const std::string row = directory_ / "row.cts.json";
   std::ofstream(row) << R"({"map": "row.map",
@@ -83,13 +84,13 @@ TEST_F(ExecuteCommand, WorkBegunBeforeThePlanIsPlannedBelowZero) {
   EXPECT_EQ(actions[1]["planned"], 3);
 }
 
-TEST_F(ExecuteCommand, AStopTakesAsLongAsItIs) {
+TEST_F(ExecuteCommand, StopDelaysAtMostItsDuration) {
   ASSERT_EQ(execute({"--output", directory_ / "calm.json"}).exit_code, 0);
   ASSERT_EQ(execute({"--stop", "a2@10=60", "--output", directory_ / "late.json"}).exit_code, 0);
   const auto cost = [&](const char* file) { return int(read(file)["agents"][2]["cost"]); };
   EXPECT_GT(cost("late.json"), cost("calm.json"));
   EXPECT_LE(cost("late.json"), cost("calm.json") + 60);
-  // It stands somewhere for more than 60 steps: the stop, and the action that comes after it.
+  // The robot rests somewhere for at least 60 steps: the stop, and the next action.
   const json path = read("late.json")["agents"][2]["path"];
   std::size_t longest = 0;
   for (std::size_t t = 1, since = 0; t < path.size(); ++t) {
@@ -99,7 +100,8 @@ TEST_F(ExecuteCommand, AStopTakesAsLongAsItIs) {
   EXPECT_GE(longest, 60u);
 }
 
-// By the file alone: each robot goes from its start step by step, and waits for what is there.
+// Follows only the file: each robot goes from its start action by action and waits for the
+// dependencies listed there.
 TEST_F(ExecuteCommand, WritesThePassingOrder) {
   ASSERT_EQ(execute({"--order", directory_ / "order.json"}).exit_code, 0);
   const json order = read("order.json");
@@ -136,23 +138,23 @@ TEST_F(ExecuteCommand, WritesThePassingOrder) {
   EXPECT_THAT(visited, UnorderedElementsAreArray(tasks));
 }
 
-TEST_F(ExecuteCommand, SaysWhoWaitsForWhom) {
+TEST_F(ExecuteCommand, ReportsBlockedRobots) {
   const ProcessResult done = execute({"--dies", "a3@12", "--view", directory_ / "page.html"});
   EXPECT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_THAT(done.out, HasSubstr("a3 does not move any more"));
+  EXPECT_THAT(done.out, HasSubstr("a3 has failed"));
   EXPECT_THAT(done.out, HasSubstr("waits for a3"));
   EXPECT_TRUE(std::filesystem::exists(directory_ / "page.html"));
 }
 
-TEST_F(ExecuteCommand, TheSameSeedDrivesTheSame) {
-  const auto drive = [&](const char* seed) {
+TEST_F(ExecuteCommand, SameSeedGivesTheSameExecution) {
+  const auto output_with = [&](const char* seed) {
     return execute({"--delays", "0.3", "--seed", seed}).out;
   };
-  EXPECT_EQ(drive("1"), drive("1"));
-  EXPECT_NE(drive("1"), drive("2"));
+  EXPECT_EQ(output_with("1"), output_with("1"));
+  EXPECT_NE(output_with("1"), output_with("2"));
 }
 
-TEST_F(ExecuteCommand, RefusesWhatCannotBe) {
+TEST_F(ExecuteCommand, RefusesInvalidOptionsAndPlans) {
   const auto complaint = [](const ProcessResult& result) {
     EXPECT_EQ(result.exit_code, 2) << result.out;
     return result.err;
@@ -163,7 +165,7 @@ TEST_F(ExecuteCommand, RefusesWhatCannotBe) {
   EXPECT_THAT(complaint(execute({"--stop", "a1@x=3"})), HasSubstr("--stop"));
   EXPECT_THAT(complaint(execute({"--dies", "a1"})), HasSubstr("ROBOT@TIME"));
   EXPECT_THAT(complaint(execute({"--delays", "2"})), HasSubstr("--delays"));
-  EXPECT_THAT(complaint(execute({"--delay-steps", "2"})), HasSubstr("expected only with --delays"));
+  EXPECT_THAT(complaint(execute({"--delay-steps", "2"})), HasSubstr("allowed only with --delays"));
   json plan = json::parse(std::ifstream(plan_));
   plan["agents"][0]["path"][1] = {0, 0};
   std::ofstream(directory_ / "bad.json") << plan;

@@ -27,7 +27,7 @@ std::vector<std::string> words_of(const std::string& text) {
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-// Runs the arguments, written as one string, in `directory`.
+// Runs grove in `directory` with the arguments, separated by blanks.
 ProcessResult generate(const TemporaryDirectory& directory, const std::string& arguments) {
   ProcessOptions options;
   options.directory = directory.path().string();
@@ -35,7 +35,7 @@ ProcessResult generate(const TemporaryDirectory& directory, const std::string& a
   return run_grove(std::move(words), options);
 }
 
-TEST(ShippedData, IsWhatTheCommandsInItsReadmeMake) {
+TEST(ShippedData, IsTheOutputOfTheCommandsInItsReadme) {
   const TemporaryDirectory directory;
   const fs::path data = GROVE_DATA;
   const std::string command_start = "grove generate ";
@@ -49,14 +49,14 @@ TEST(ShippedData, IsWhatTheCommandsInItsReadmeMake) {
     EXPECT_EQ(file_content(directory / name), file_content(data / name)) << name;
 }
 
-TEST(ShippedData, HoldsNothingThatTheReadmeDoesNotName) {
+TEST(ShippedData, ContainsOnlyFilesNamedInItsReadme) {
   const std::string readme = file_content(fs::path(GROVE_DATA) / "README.md");
   for (const auto& entry : fs::directory_iterator(GROVE_DATA))
     EXPECT_NE((readme + "README.md").find(entry.path().filename().string()), std::string::npos)
         << entry.path();
 }
 
-TEST(ShippedData, CanBeReadWithoutAWarning) {
+TEST(ShippedData, IsReadWithoutWarnings) {
   int instances = 0;
   for (const auto& entry : fs::directory_iterator(GROVE_DATA)) {
     if (!entry.path().string().ends_with(".cts.json")) continue;
@@ -66,7 +66,7 @@ TEST(ShippedData, CanBeReadWithoutAWarning) {
   EXPECT_GE(instances, 5);
 }
 
-TEST(GenerateCommand, MakesAnInstanceFromAMapAlone) {
+TEST(GenerateCommand, MakesAnInstanceFromOnlyAMap) {
   const TemporaryDirectory directory;
   EXPECT_EQ(generate(directory, "map random --seed 3 -o my.map").out,
             "wrote my.map: 32 x 32 cells, 819 passable\n");
@@ -112,7 +112,7 @@ TEST(GenerateCommand, MakesADatasetWithItsManifest) {
             file_content(directory / "out/set/my_s1_n10_m30.cts.json"));
 }
 
-TEST(GenerateCommand, DrawsScenariosForADatasetFromAMapAlone) {
+TEST(GenerateCommand, DrawsScenariosForADatasetFromOnlyAMap) {
   const TemporaryDirectory directory;
   generate(directory, "map empty -o my.map");
   EXPECT_EQ(generate(directory,
@@ -155,7 +155,7 @@ TEST(GenerateCommand, MakesRoadmapsAndInstancesOnThem) {
   }
 }
 
-TEST(GenerateCommand, MakesTheSameRoadmapOfTheSameSeed) {
+TEST(GenerateCommand, SameSeedGivesTheSameRoadmap) {
   const TemporaryDirectory directory;
   const std::string start = "roadmap --kind planar --vertices 30 --one-way 20 ";
   for (const char* rest : {"--seed 4 -o 4.json", "--seed 4 -o again.json", "--seed 5 -o 5.json"})
@@ -164,7 +164,7 @@ TEST(GenerateCommand, MakesTheSameRoadmapOfTheSameSeed) {
   EXPECT_NE(file_content(directory / "4.json"), file_content(directory / "5.json"));
 }
 
-TEST(GenerateCommand, MakesAgentsThatTurnAndTasksThatTakeTime) {
+TEST(GenerateCommand, MakesTurningAgentsAndTasksWithDurations) {
   const TemporaryDirectory directory;
   generate(directory, "map rooms --seed 1 -o my.map");
   const std::string start = "instance --map my.map --agents 5 --tasks 10 --seed 1 ";
@@ -181,7 +181,7 @@ TEST(GenerateCommand, MakesAgentsThatTurnAndTasksThatTakeTime) {
   for (const Task& task : instance.tasks()) EXPECT_EQ(task.duration, 3);
 }
 
-TEST(GenerateCommand, TellsExtrasInTheNamesOfASet) {
+TEST(GenerateCommand, MarksExtrasInTheNamesOfADataset) {
   const TemporaryDirectory directory;
   generate(directory, "map empty -o my.map");
   const std::string start = "dataset --map my.map --agents 5 --tasks 10 --output-dir set ";
@@ -198,7 +198,7 @@ TEST(GenerateCommand, TellsExtrasInTheNamesOfASet) {
                 "my_s1_n5_m10_d0-10.cts.json", "my_s1_n5_m10_turning3_headings_d2-5.cts.json"}));
 }
 
-TEST(GenerateCommand, RefusesOptionsThatDoNotFitTogether) {
+TEST(GenerateCommand, RefusesIncompatibleOptions) {
   const TemporaryDirectory directory;
   generate(directory, "map empty -o my.map");
   generate(directory, "roadmap --kind warehouse -o w.json");
@@ -208,8 +208,8 @@ TEST(GenerateCommand, RefusesOptionsThatDoNotFitTogether) {
   };
   EXPECT_EQ(said("roadmap"), "--kind is required");
   EXPECT_EQ(said("roadmap --kind x"), "--kind: found 'x'; expected one of planar, warehouse");
-  EXPECT_EQ(said("roadmap --kind warehouse --seed 1"), "--seed: expected only with --kind planar");
-  EXPECT_EQ(said("roadmap --kind planar --bays 1"), "--bays: expected only with --kind warehouse");
+  EXPECT_EQ(said("roadmap --kind warehouse --seed 1"), "--seed: allowed only with --kind planar");
+  EXPECT_EQ(said("roadmap --kind planar --bays 1"), "--bays: allowed only with --kind warehouse");
   EXPECT_EQ(said("roadmap --kind planar --one-way 101"),
             "--one-way: found '101'; expected an integer from 0 to 100");
   EXPECT_TRUE(said("roadmap --kind planar --vertices 9000")
@@ -220,18 +220,17 @@ TEST(GenerateCommand, RefusesOptionsThatDoNotFitTogether) {
             "--metres-per-step: found '0'; expected a number from 0.01 to 1000");
   const std::string sizes = "instance --agents 5 --tasks 5 ";
   EXPECT_EQ(said(sizes), "--map or --roadmap is required");
-  EXPECT_EQ(said(sizes + "--map my.map --roadmap w.json"),
-            "--map: expected only without --roadmap");
-  EXPECT_EQ(said(sizes + "--scen s --roadmap w.json"), "--scen: expected only with --map");
+  EXPECT_EQ(said(sizes + "--map my.map --roadmap w.json"), "--map: allowed only without --roadmap");
+  EXPECT_EQ(said(sizes + "--scen s --roadmap w.json"), "--scen: allowed only with --map");
   EXPECT_EQ(said(sizes + "--turning --roadmap w.json"),
-            "--turning: expected only with --map: headings are those of a grid");
-  EXPECT_EQ(said(sizes + "--map my.map --tasks-on a"), "--tasks-on: expected only with --roadmap");
+            "--turning: allowed only with --map, because only agents on grids have headings");
+  EXPECT_EQ(said(sizes + "--map my.map --tasks-on a"), "--tasks-on: allowed only with --roadmap");
   EXPECT_EQ(said(sizes + "--map my.map --turn-steps 2"),
-            "--turn-steps: expected only with --turning");
+            "--turn-steps: allowed only with --turning");
   EXPECT_EQ(said(sizes + "--map my.map --goal-headings"),
-            "--goal-headings: expected only with --turning");
+            "--goal-headings: allowed only with --turning");
   EXPECT_EQ(said(sizes + "--map my.map --turning --goal-headings --mg"),
-            "--goal-headings: expected only where some agents have destinations");
+            "--goal-headings: allowed only if some agents have destinations");
   EXPECT_EQ(said(sizes + "--map my.map --durations 3-1"),
             "--durations: found '3-1'; expected the smaller number first");
   EXPECT_EQ(said(sizes + "--map my.map --durations 3-"),
@@ -270,7 +269,7 @@ TEST(GeneratePaper, MakesTheSameSetForRobotsThatTurn) {
   EXPECT_EQ(turning.task(3).cell, plain.task(3).cell);
 }
 
-TEST(GeneratePaper, MakesOneSetOfThreeMapsAndBothProblems) {
+TEST(GeneratePaper, MakesOneSetOfThreeMapsAndTwoProblems) {
   const TemporaryDirectory directory;
   const ProcessResult result = generate(
       directory, "paper --scenarios 1-2,4 --agents 5,10 --tasks 10,30 --output-dir out/paper");
@@ -289,7 +288,7 @@ TEST(GeneratePaper, MakesOneSetOfThreeMapsAndBothProblems) {
   const auto mg = lines_of(file_content(directory / "out/paper/manifest-mg.txt"));
   EXPECT_EQ(mg.size(), 36U);
   for (const std::string& name : mg) EXPECT_TRUE(name.ends_with("_mg.cts.json")) << name;
-  // Maps and instances are those of the data that comes with Grove.
+  // Maps and instances equal the data shipped with Grove.
   const fs::path data = GROVE_DATA;
   for (const char* map : {"empty-32x32.map", "random-32x32-20.map", "rooms-32x32.map"})
     EXPECT_EQ(file_content(directory.path() / "out/paper" / map), file_content(data / map)) << map;
@@ -322,23 +321,23 @@ TEST(GeneratePaper, TakesScenariosOfBothKindsFromMovingAi) {
     return complaint(generate(directory, start + more + " --output-dir no"));
   };
   EXPECT_EQ(said("--scenarios 3-4"),
-            "ai/m-1-random-4.scen: is not there; expected it, or --scenarios 3");
-  EXPECT_EQ(said("--scenarios 26"), "ai/m-1-even-1.scen: is not there; expected it");
+            "ai/m-1-random-4.scen: does not exist; expected it, or --scenarios 3");
+  EXPECT_EQ(said("--scenarios 26"), "ai/m-1-even-1.scen: does not exist; expected it");
   generate(directory, "scenario --map ai/m-1.map --rows 40 --seed 3 -o ai/m-1-random-2.scen");
   EXPECT_EQ(said("--scenarios 1-27"),
-            "ai/m-1-random-1.scen: is not there; expected it, or --scenarios 2-3,27");
-  EXPECT_TRUE(said("--scenarios 51").starts_with("--scenarios: expected at most 50"));
-  EXPECT_TRUE(said("--maps m-1").starts_with("--maps: expected 'm-1' once"));
+            "ai/m-1-random-1.scen: does not exist; expected it, or --scenarios 2-3,27");
+  EXPECT_TRUE(said("--scenarios 51").starts_with("--scenarios: found more than 50"));
+  EXPECT_TRUE(said("--maps m-1").starts_with("--maps: found 'm-1' more than once"));
   EXPECT_FALSE(fs::exists(directory / "no"));
 }
 
-TEST(GeneratePaper, RefusesWhatMakesNoSense) {
+TEST(GeneratePaper, RefusesInvalidOptions) {
   const TemporaryDirectory directory;
   const auto said = [&](const std::string& more) {
     return complaint(generate(directory, "paper --output-dir out " + more));
   };
   const std::string hint = " (see 'grove generate paper --help')";
-  EXPECT_EQ(said("--maps a"), "--maps: expected only with --movingai" + hint);
+  EXPECT_EQ(said("--maps a"), "--maps: allowed only with --movingai" + hint);
   EXPECT_EQ(said("--problem x"), "--problem: found 'x'; expected one of both, cts, mg" + hint);
   EXPECT_EQ(said("--scenarios 3-1"),
             "--scenarios: found '3-1'; expected the smaller number first" + hint);
@@ -351,7 +350,7 @@ TEST(GeneratePaper, RefusesWhatMakesNoSense) {
   EXPECT_FALSE(fs::exists(directory / "out"));
 }
 
-TEST(GenerateCommand, RefusesCountsThatDoNotFitAndLeavesNothing) {
+TEST(GenerateCommand, RefusesTooLargeCountsAndWritesNothing) {
   const TemporaryDirectory directory;
   generate(directory, "map empty --width 10 --height 10 -o my.map");
   generate(directory, "scenario --map my.map --rows 40 -o my.scen");
@@ -385,12 +384,12 @@ TEST(GenerateCommand, RefusesAScenarioForAnotherMap) {
             "a.scen: line 2: the row is for map 'a.map'; expected 'b.map'");
 }
 
-TEST(GenerateCommand, RefusesOutputsThatCannotBeWritten) {
+TEST(GenerateCommand, RefusesUnwritableOutputs) {
   const TemporaryDirectory directory;
   EXPECT_EQ(complaint(generate(directory, "map empty -o none/my.map")),
             "none/my.map: cannot be written: No such file or directory");
   EXPECT_EQ(complaint(generate(directory, "map empty -o .")),
-            ".: cannot be written: is a directory; expected a file name");
+            ".: is a directory; expected a file name");
   EXPECT_EQ(complaint(generate(directory, "map empty -o /dev/full")),
             "/dev/full: cannot be written: No space left on device");
   directory.write("file", "");

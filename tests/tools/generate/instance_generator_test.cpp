@@ -55,7 +55,7 @@ TEST(GenerateInstance, GivesTasksToOneTwoAndThreeAgents) {
   for (int k = 1; k <= 3; ++k) EXPECT_GT(counts[k], 10);
 }
 
-TEST(GenerateInstance, GivesASingleAgentEverything) {
+TEST(GenerateInstance, GivesASingleAgentAllTasks) {
   EXPECT_EQ(generate({.agents = 1, .tasks = 20}).agent(0).tasks.size(), 20U);
 }
 
@@ -73,11 +73,11 @@ TEST(GenerateInstance, WithMgTurnsGoalsIntoTasks) {
     EXPECT_NE(std::ranges::find(cells, *with_goals.agent(i).goal), cells.end());
     for (const Task& task : with_goals.tasks()) joined += task.cell == *with_goals.agent(i).goal;
   }
-  EXPECT_GT(joined, 0);  // some goal is on a task: then there is one task fewer
+  EXPECT_GT(joined, 0);  // if a goal is on a task, there is one task fewer
   EXPECT_EQ(mg.task_count(), 80 + 20 - joined);
 }
 
-TEST(GenerateInstance, WithExtrasIsTheSameApartFromThem) {
+TEST(GenerateInstance, ExtrasChangeNothingElse) {
   InstanceRequest request{.agents = 20, .tasks = 40, .seed = 1};
   const Instance plain = generate(request);
   request.extras = {.turn_steps = 2, .goal_headings = true, .durations = {.least = 1, .most = 3}};
@@ -107,7 +107,7 @@ TEST(GenerateInstance, WithExtrasIsTheSameApartFromThem) {
   EXPECT_GT(*std::ranges::min_element(of_duration.begin() + 1, of_duration.end()), 5);
 }
 
-TEST(GenerateInstance, DrawsHeadingsAndDurationsApart) {
+TEST(GenerateInstance, DrawsHeadingsAndDurationsIndependently) {
   InstanceRequest request{.agents = 10, .tasks = 30, .seed = 7, .extras = {.turn_steps = 1}};
   const Instance turning = generate(request);
   request.extras.goal_headings = true;
@@ -123,7 +123,7 @@ TEST(GenerateInstance, DrawsHeadingsAndDurationsApart) {
   for (TaskIndex k = 0; k < 30; ++k) EXPECT_EQ(slow.task(k).duration, both.task(k).duration);
 }
 
-TEST(Extras, AreToldApartByTheirSuffixes) {
+TEST(Extras, HaveDistinctSuffixes) {
   EXPECT_EQ(Extras{}.suffix(), "");
   EXPECT_EQ((Extras{.turn_steps = 1}).suffix(), "_turning");
   EXPECT_EQ((Extras{.turn_steps = 2, .goal_headings = true}).suffix(), "_turning2_headings");
@@ -131,7 +131,7 @@ TEST(Extras, AreToldApartByTheirSuffixes) {
             "_turning_d0-10");
 }
 
-TEST(GenerateInstance, PassesOverRepeatedTaskCells) {
+TEST(GenerateInstance, SkipsRepeatedTaskCells) {
   Scenario repeated = scenario(24);
   repeated.rows[21].start = repeated.rows[20].start;
   const Instance instance = generate_instance(grid(), repeated, {.agents = 2, .tasks = 3});
@@ -139,7 +139,7 @@ TEST(GenerateInstance, PassesOverRepeatedTaskCells) {
 }
 
 TEST(GenerateInstance, GivesTasksOnlyToAgentsThatCanReachThem) {
-  // Left and right of a wall.
+  // Agents and tasks left and right of a wall.
   std::vector<bool> passable(30, true);
   for (int y = 0; y < 10; ++y) passable[3 * y + 1] = false;
   const Grid split(3, 10, passable);
@@ -156,7 +156,7 @@ TEST(GenerateInstance, GivesTasksOnlyToAgentsThatCanReachThem) {
       EXPECT_EQ(split.position(task.cell).x, split.position(instance.agent(agent).start).x);
 }
 
-TEST(GenerateInstance, RefusesWhatDoesNotFit) {
+TEST(GenerateInstance, RefusesTooLargeCounts) {
   const auto refused = [](const Scenario& from, const InstanceRequest& request) -> std::string {
     try {
       generate_instance(grid(), from, request);
@@ -165,7 +165,8 @@ TEST(GenerateInstance, RefusesWhatDoesNotFit) {
       return error.what();
     }
   };
-  EXPECT_EQ(refused(scenario(4), {.agents = 5}), "m.scen: has 4 rows; 5 agents need as many");
+  EXPECT_EQ(refused(scenario(4), {.agents = 5}),
+            "m.scen: has 4 rows; expected at least 5, one for each agent");
   EXPECT_EQ(refused(scenario(25), {.agents = 5, .tasks = 6}),
             "m.scen: has 25 rows, enough for 5 of 6 tasks; they are taken from row 21 on");
   EXPECT_EQ(refused(scenario(), {.agents = 1, .tasks = 70}),

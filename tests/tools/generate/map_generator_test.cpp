@@ -29,7 +29,7 @@ TEST(EmptyMap, HasNoObstacles) {
   EXPECT_EQ(text(empty_map(3, 2)), "...\n...\n");
 }
 
-TEST(RandomMap, BlocksTheExactShareAndCutsNothingOff) {
+TEST(RandomMap, BlocksTheExactShareAndStaysConnected) {
   for (double share : {0.0, 0.1, 0.2, 0.4, 0.6, 0.9}) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       const Grid grid = random_map(17, 11, share, seed);
@@ -39,7 +39,7 @@ TEST(RandomMap, BlocksTheExactShareAndCutsNothingOff) {
   }
 }
 
-TEST(RandomMap, DependsOnTheSeedAlone) {
+TEST(RandomMap, DependsOnlyOnTheSeed) {
   EXPECT_EQ(text(random_map(9, 9, 0.3, 5)), text(random_map(9, 9, 0.3, 5)));
   EXPECT_NE(text(random_map(9, 9, 0.3, 5)), text(random_map(9, 9, 0.3, 6)));
 }
@@ -58,17 +58,17 @@ TEST(RoomsMap, IsConnectedWithAnyDoors) {
   }
 }
 
-// The doors are what is passable beyond the rooms.
-TEST(RoomsMap, HasTheDoorsAskedFor) {
+// The doors are the passable cells outside the rooms.
+TEST(RoomsMap, HasTheRequestedNumberOfDoors) {
   constexpr int kRooms = 4 * 4 * 3 * 3;  // 4 x 4 rooms of 3 x 3 cells; 24 walls between two
   EXPECT_EQ(rooms_map(15, 15, 3, 0, 1).passable_count(), kRooms + 15);
   EXPECT_EQ(rooms_map(15, 15, 3, 0.75, 1).passable_count(), kRooms + 18);
   EXPECT_EQ(rooms_map(15, 15, 3, 1, 1).passable_count(), kRooms + 24);
 }
 
-TEST(RoomsMap, EndsWithoutAWallThatSeparatesNothing) {
+TEST(RoomsMap, HasNoWallAtTheEdge) {
   EXPECT_EQ(text(rooms_map(4, 1, 3, 1, 0)), "....\n");
-  EXPECT_EQ(text(rooms_map(5, 1, 3, 1, 0)), ".....\n");  // the wall's only cell is the door
+  EXPECT_EQ(text(rooms_map(5, 1, 3, 1, 0)), ".....\n");  // the only cell of the wall is the door
 }
 
 }  // namespace map_generator_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where ways lead.
+// Reachability, for tests of generators.
 #pragma once
 
 #include <set>
@@ -9,7 +9,7 @@
 
 namespace grove::detail {
 
-// The places to which ways lead from `place`, by `next`.
+// Returns the places reachable from `place` by the edges `next`.
 template <class Next>
 std::set<Place> closure_of(Place place, Next next) {
   std::set<Place> seen{place};

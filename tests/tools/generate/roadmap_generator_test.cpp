@@ -58,7 +58,7 @@ Segment segment(const Roadmap& roadmap, const Road& road) {
           std::llround(b.y * 100)};
 }
 
-// On which side of the segment's line: 1, 0, -1.
+// Side of the segment's line on which the point lies: 1, 0 or -1.
 int side(const Segment& s, std::int64_t x, std::int64_t y) {
   const std::int64_t turn = (s.bx - s.ax) * (y - s.ay) - (s.by - s.ay) * (x - s.ax);
   return turn > 0 ? 1 : turn < 0 ? -1 : 0;
@@ -73,7 +73,7 @@ bool is_on(const Segment& s, std::int64_t x, std::int64_t y) {
   return side(s, x, y) == 0 && is_within_box(s, x, y);
 }
 
-// Of segments without a common end.
+// For segments without a common end.
 bool meet(const Segment& s, const Segment& t) {
   if (is_on(s, t.ax, t.ay) || is_on(s, t.bx, t.by) || is_on(t, s.ax, s.ay) || is_on(t, s.bx, s.by))
     return true;
@@ -93,14 +93,14 @@ bool is_planar(const Roadmap& roadmap) {
     }
     for (std::size_t j = 0; j < i; ++j) {
       const std::set<int> ends{roads[i].from, roads[i].to, roads[j].from, roads[j].to};
-      if (ends.size() < 3) return false;  // the same road twice
+      if (ends.size() < 3) return false;  // a parallel road
       if (ends.size() == 4 && meet(s, segment(roadmap, roads[j]))) return false;
     }
   }
   return true;
 }
 
-// Without it, seen as two-way like all others, its ends are cut off from each other.
+// True if removing the road, with all roads taken as two-way, disconnects its ends.
 bool is_bridge(const Roadmap& roadmap, std::size_t road) {
   std::vector<Road> others = roadmap.roads();
   const Road removed = others[road];
@@ -109,7 +109,7 @@ bool is_bridge(const Roadmap& roadmap, std::size_t road) {
   return !reached_from(Roadmap(roadmap.vertices(), others), removed.from).contains(removed.to);
 }
 
-TEST(PlanarRoadmap, HasItsVerticesInTheRectangleAStepApart) {
+TEST(PlanarRoadmap, VerticesAreInTheRectangleAtLeastAStepApart) {
   const Roadmap roadmap = planar_roadmap(
       {.vertices = 150, .width = 40, .height = 20, .metres_per_step = 1.5, .seed = 3});
   ASSERT_EQ(roadmap.vertices().size(), 150U);
@@ -124,7 +124,7 @@ TEST(PlanarRoadmap, HasItsVerticesInTheRectangleAStepApart) {
   }
 }
 
-TEST(PlanarRoadmap, TakesTheLengthOfARoadInWholeStepsRoundedUp) {
+TEST(PlanarRoadmap, RoundsRoadLengthsUpToSteps) {
   const Roadmap roadmap = planar_roadmap({.vertices = 60, .metres_per_step = 0.7, .seed = 1});
   for (const Road& road : roadmap.roads()) {
     EXPECT_GE(road.steps * 0.7, length(roadmap, road) - 1e-6);
@@ -145,8 +145,8 @@ TEST(PlanarRoadmap, IsPlanarAndStronglyConnected) {
   }
 }
 
-// On few centimetres, where points on one line and on one circle are frequent.
-TEST(PlanarRoadmap, IsPlanarAndConnectedWhereManyPointsLieOnOneCircle) {
+// Within a few centimetres, where collinear and cocircular points are frequent.
+TEST(PlanarRoadmap, IsPlanarAndConnectedWithCocircularPoints) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const Roadmap roadmap = planar_roadmap(
         {.vertices = 12, .width = 0.05, .height = 0.04, .metres_per_step = 0.01, .seed = seed});
@@ -155,7 +155,7 @@ TEST(PlanarRoadmap, IsPlanarAndConnectedWhereManyPointsLieOnOneCircle) {
   }
 }
 
-TEST(PlanarRoadmap, HasTheOneWayRoadsAskedFor) {
+TEST(PlanarRoadmap, HasTheRequestedShareOfOneWayRoads) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Roadmap roadmap = planar_roadmap({.vertices = 80, .one_way = 30, .seed = seed});
     const auto roads = static_cast<double>(roadmap.roads().size());
@@ -164,7 +164,7 @@ TEST(PlanarRoadmap, HasTheOneWayRoadsAskedFor) {
   EXPECT_EQ(one_way_count(planar_roadmap({.one_way = 0})), 0);
 }
 
-TEST(PlanarRoadmap, LeavesBridgesAloneTwoWay) {
+TEST(PlanarRoadmap, KeepsOnlyBridgesTwoWay) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Roadmap roadmap = planar_roadmap({.vertices = 40, .one_way = 100, .seed = seed});
     for (std::size_t k = 0; k < roadmap.roads().size(); ++k)
@@ -172,7 +172,7 @@ TEST(PlanarRoadmap, LeavesBridgesAloneTwoWay) {
   }
 }
 
-TEST(PlanarRoadmap, DependsOnTheSeedAlone) {
+TEST(PlanarRoadmap, DependsOnlyOnTheSeed) {
   const PlanarRequest request{.vertices = 30, .one_way = 20, .seed = 5};
   PlanarRequest another = request;
   another.seed = 6;
@@ -199,7 +199,7 @@ bool leads(const Roadmap& roadmap, const std::string& from, const std::string& t
          roadmap.roads()[between[0]].one_way;
 }
 
-TEST(WarehouseRoadmap, HasTheSlotsAndBaysAskedFor) {
+TEST(WarehouseRoadmap, HasTheRequestedSlotsAndBays) {
   const Roadmap roadmap =
       warehouse_roadmap({.aisles = 6, .slots = 7, .cross_aisles = 3, .bays = 2});
   EXPECT_EQ(ids_with(roadmap, 'a'), 6 * 7);
@@ -217,7 +217,7 @@ TEST(WarehouseRoadmap, IsStronglyConnected) {
             {.aisles = aisles, .slots = 9, .cross_aisles = cross_aisles, .bays = bays})));
 }
 
-TEST(WarehouseRoadmap, LeadsThroughAislesAndLanesOneWay) {
+TEST(WarehouseRoadmap, AislesAndLanesAreOneWay) {
   const Roadmap roadmap =
       warehouse_roadmap({.aisles = 4, .slots = 4, .cross_aisles = 3, .bays = 1});
   EXPECT_TRUE(leads(roadmap, "a1s0", "a1s1"));
@@ -253,13 +253,13 @@ TEST(WarehouseRoadmap, IsMeasuredInMetres) {
     EXPECT_EQ(road.steps, std::lround(std::ceil(length(roadmap, road) / 0.5 - 1e-6)));
 }
 
-TEST(WarehouseRoadmap, RefusesWhatMakesNoWarehouse) {
+TEST(WarehouseRoadmap, RefusesInvalidSizes) {
   EXPECT_THROW(warehouse_roadmap({.aisles = 7}), std::invalid_argument);
   EXPECT_THROW(warehouse_roadmap({.slots = 2, .cross_aisles = 4}), std::invalid_argument);
   EXPECT_NO_THROW(warehouse_roadmap({.slots = 3, .cross_aisles = 4}));
 }
 
-TEST(StepsOf, AreWholeOnesRoundedUp) {
+TEST(StepsOf, RoundUp) {
   EXPECT_EQ(steps_of(3, 1), 3);
   EXPECT_EQ(steps_of(3.01, 1), 4);
   EXPECT_EQ(steps_of(0.3, 0.1), 3);

@@ -89,7 +89,7 @@ TEST(RoadmapInstance, DependsOnTheSeed) {
   EXPECT_NE(starts_of(request, 1), starts_of(request, 2));
 }
 
-TEST(RoadmapInstance, PutsAgentsOnDeadEndsAndTasksElsewhereIfThereAreEnough) {
+TEST(RoadmapInstance, PutsAgentsOnDeadEndsIfThereAreEnough) {
   const Instance instance = generate_instance(hall(), {.agents = 30, .tasks = 60});
   EXPECT_TRUE(all_begin_with(instance, starts(instance), 'p'));
   EXPECT_TRUE(all_begin_with(instance, goals(instance), 'p'));
@@ -99,7 +99,7 @@ TEST(RoadmapInstance, PutsAgentsOnDeadEndsAndTasksElsewhereIfThereAreEnough) {
   EXPECT_FALSE(all_begin_with(more, starts(more), 'p'));
 }
 
-TEST(RoadmapInstance, TakesVerticesByTheirIds) {
+TEST(RoadmapInstance, SelectsVerticesByTheirIds) {
   Site site = hall();
   site.agents_on = "c";
   site.tasks_on = "a";
@@ -130,8 +130,8 @@ TEST(RoadmapInstance, DrawsDurations) {
   EXPECT_EQ(durations, (std::set<Time>{2, 3, 4}));
 }
 
-TEST(RoadmapInstance, StaysWhereAllCanBeReachedFromAll) {
-  // A ring of four, one of three that leads to it, and one that it leads to.
+TEST(RoadmapInstance, UsesTheLargestStrongComponent) {
+  // A ring of four, a ring of three with a road to it, and a vertex reached from it.
   std::vector<Vertex> vertices;
   for (int k = 0; k < 10; ++k)
     vertices.push_back({fmt::format("{}{}", k < 3 ? "in" : k < 7 ? "ring" : "out", k), {}});
@@ -148,7 +148,7 @@ TEST(RoadmapInstance, StaysWhereAllCanBeReachedFromAll) {
             "for 5 agents");
 }
 
-TEST(RoadmapInstance, RefusesWhatDoesNotFit) {
+TEST(RoadmapInstance, RefusesTooLargeCounts) {
   Site site = hall();
   site.agents_on = "p";
   EXPECT_EQ(refusal(site, {.agents = 31}),
@@ -163,8 +163,8 @@ TEST(RoadmapInstance, RefusesWhatDoesNotFit) {
             "tasks; expected at most 64");
 }
 
-// Against what can be reached from where, vertex by vertex.
-TEST(LargestStrongComponent, IsTheFirstLargestPart) {
+// Compared with reachability, vertex by vertex.
+TEST(LargestStrongComponent, IsTheFirstOfTheLargest) {
   Random random(1);
   for (int round = 0; round < 200; ++round) {
     const int count = 1 + random.below(9);

@@ -11,12 +11,12 @@
 namespace grove::detail {
 namespace scenario_generator_test {
 
-// Two parts: 6 cells on the left, 2 on the right.
+// Two components: 6 cells on the left, 2 on the right.
 Grid two_parts() {
   return Grid(5, 2, {true, true, true, false, true, true, true, true, false, true});
 }
 
-TEST(RandomScenario, UsesEveryCellOfTheLargestPartOnce) {
+TEST(RandomScenario, UsesEachCellOfTheLargestComponentOnce) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const Grid grid = two_parts();
     std::set<Cell> starts;
@@ -40,7 +40,7 @@ TEST(RandomScenario, RefusesMoreRowsThanCells) {
   EXPECT_THROW(random_scenario(Grid(1, 1, {false}), "m.map", 1, 0, "rows"), InputError);
 }
 
-TEST(ScenarioLengths, AreDistancesOnTheGrid) {
+TEST(ScenarioLengths, AreGridDistances) {
   const std::vector<ScenarioRow> rows{{2, "m.map", 5, 2, {0, 0}, {2, 1}},
                                       {3, "m.map", 5, 2, {1, 1}, {1, 1}}};
   EXPECT_EQ(scenario_lengths(two_parts(), rows), (std::vector<Time>{3, 0}));

@@ -37,7 +37,7 @@ class ReplanCommand : public ::testing::Test {
     words.insert(words.end(), more.begin(), more.end());
     return run_grove(words);
   }
-  // Done, and the checker agrees with all that was written.
+  // Expects that the run succeeds and that the checker accepts the files written.
   void expect_valid(const std::vector<std::string>& words) {
     const ProcessResult done = replan(words);
     ASSERT_EQ(done.exit_code, 0) << done.err;
@@ -70,7 +70,7 @@ class ReplanCommand : public ::testing::Test {
   const std::string plan_ = plan_of(instance_);
 };
 
-TEST_F(ReplanCommand, WhatIsLeftIsAnInstanceWithAPlan) {
+TEST_F(ReplanCommand, RemainderIsAValidInstanceWithAPlan) {
   expect_valid({"--at", "20"});
   EXPECT_LT(read("then.cts.json")["tasks"].size(), 30u);
   const json before = read("p.plan.json")["agents"];
@@ -80,7 +80,7 @@ TEST_F(ReplanCommand, WhatIsLeftIsAnInstanceWithAPlan) {
               before[i]["path"][std::min<std::size_t>(20, before[i]["path"].size() - 1)]);
 }
 
-TEST_F(ReplanCommand, WhoIsLateIsWhereItWas) {
+TEST_F(ReplanCommand, DelayedRobotIsAtItsEarlierPlace) {
   expect_valid({"--at", "20", "--late", "a3=5", "--late", "a1=2"});
   const json before = read("p.plan.json")["agents"];
   const json agents = read("then.cts.json")["agents"];
@@ -99,14 +99,14 @@ TEST_F(ReplanCommand, OptionsMayComeBeforeTheFiles) {
     const ProcessResult done = run_grove(words);
     EXPECT_EQ(done.exit_code, 0) << done.err;
   }
-  const std::string told = read("then.plan.json")["stats"]["options"];
-  EXPECT_THAT(told, testing::HasSubstr("--drop-task " + first_task()));
+  const std::string options = read("then.plan.json")["stats"]["options"];
+  EXPECT_THAT(options, testing::HasSubstr("--drop-task " + first_task()));
   expect_valid({"--at", "20", "--late", "a3=5", "--late", "a1=2"});
   EXPECT_THAT(std::string(read("then.plan.json")["stats"]["options"]),
               testing::HasSubstr("--late a3=5 --late a1=2"));
 }
 
-TEST_F(ReplanCommand, WhatIsCommittedIsKept) {
+TEST_F(ReplanCommand, CommittedStepsAreKept) {
   const json path = read("p.plan.json")["agents"][0]["path"];
   const json ahead = path[30];
   const std::string blocked = std::to_string(int(ahead[0])) + "," + std::to_string(int(ahead[1]));
@@ -114,12 +114,12 @@ TEST_F(ReplanCommand, WhatIsCommittedIsKept) {
   const json now = read("then.plan.json")["agents"][0]["path"];
   for (std::size_t t = 0; t <= 4; ++t) EXPECT_EQ(now[t], path[t + 10]);
   EXPECT_EQ(std::ranges::count(now, ahead), 0);
-  // The map on which it is closed lies beside the instance.
+  // The map with the blocked cell lies next to the instance.
   EXPECT_EQ(read("then.cts.json")["map"], "then.map");
 }
 
-// A cheaper plan that is there goes another way.
-TEST_F(ReplanCommand, WhatIsCommittedReplacesACheaperPlan) {
+// The existing, cheaper plan deviates from the committed steps.
+TEST_F(ReplanCommand, CommittedStepsReplaceACheaperPlan) {
   const json path = read("p.plan.json")["agents"][3]["path"];
   expect_valid({"--at", "20", "--late", "a3=6", "--omega", "0"});
   const int without = read("then.plan.json")["cost"];
@@ -129,13 +129,13 @@ TEST_F(ReplanCommand, WhatIsCommittedReplacesACheaperPlan) {
   EXPECT_GE(int(now["cost"]), without);
 }
 
-TEST_F(ReplanCommand, TellsThatAnotherInstanceIsReplaced) {
+TEST_F(ReplanCommand, WarnsIfItReplacesAnotherInstance) {
   expect_valid({"--at", "20"});
   EXPECT_THAT(replan({"--at", "20"}).err, Not(HasSubstr("another instance")));
-  EXPECT_THAT(replan({"--at", "21"}).err, HasSubstr("then.cts.json held another instance"));
+  EXPECT_THAT(replan({"--at", "21"}).err, HasSubstr("then.cts.json had another instance"));
 }
 
-TEST_F(ReplanCommand, TasksComeAndGo) {
+TEST_F(ReplanCommand, AddsAndDropsTasks) {
   const std::string one =
       write("one.json", R"({"id": "n1", "cell": [1, 1], "agents": ["a0", "a4"]})");
   const std::string more = write(
@@ -149,8 +149,8 @@ TEST_F(ReplanCommand, TasksComeAndGo) {
   EXPECT_EQ(std::ranges::count(tasks, left), 0);
 }
 
-// The plan file says so; --no-following need not be said again.
-TEST_F(ReplanCommand, APlanWithoutFollowingIsReplacedByOne) {
+// The plan file records it; --no-following need not be given again.
+TEST_F(ReplanCommand, PlanWithoutFollowingStaysSo) {
   std::filesystem::remove(plan_);
   ASSERT_EQ(run_grove({"solve", instance_, "--quiet", "--omega", "inf", "--no-following",
                        "--output", plan_})
@@ -167,7 +167,7 @@ TEST_F(ReplanCommand, APlanWithoutFollowingIsReplacedByOne) {
     std::filesystem::remove(directory_ / "then.plan.json");
     expect_valid(words);
     EXPECT_EQ(read("then.plan.json")["following"], false);
-    // And once more, from what it wrote.
+    // Re-plan again, from the files written.
     ASSERT_EQ(run_grove({"replan", directory_ / "then.cts.json", directory_ / "then.plan.json",
                          "--at", "3", "--quiet", "--output", next})
                   .exit_code,
@@ -177,7 +177,7 @@ TEST_F(ReplanCommand, APlanWithoutFollowingIsReplacedByOne) {
   }
 }
 
-TEST_F(ReplanCommand, APlanWithFollowingIsRefusedWithNoFollowing) {
+TEST_F(ReplanCommand, RefusesAPlanWithFollowingIfNoFollowing) {
   const std::string map = write("row.map", "type octile\nheight 1\nwidth 4\nmap\n....\n");
   const std::string row = write("row.cts.json", R"({"map": "row.map", "tasks": [], "agents": [
       {"id": "a", "start": [0, 0], "goal": [2, 0]}, {"id": "b", "start": [1, 0], "goal": [3, 0]}]})");
@@ -191,7 +191,7 @@ TEST_F(ReplanCommand, APlanWithFollowingIsRefusedWithNoFollowing) {
                 "without it, so it cannot be driven: "));
 }
 
-TEST_F(ReplanCommand, TheInstanceIsCalledLikeThePlan) {
+TEST_F(ReplanCommand, InstanceIsNamedAfterThePlan) {
   const auto run = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words{"replan", instance_, plan_, "--quiet", "--at", "20"};
     words.insert(words.end(), more.begin(), more.end());
@@ -209,7 +209,7 @@ TEST_F(ReplanCommand, TheInstanceIsCalledLikeThePlan) {
   EXPECT_TRUE(std::filesystem::exists(directory_ / "third.plan.json"));
 }
 
-TEST_F(ReplanCommand, WritesOverNothingThatItReads) {
+TEST_F(ReplanCommand, DoesNotOverwriteItsInputs) {
   const std::string tasks = R"({"id": "n1", "cell": [1, 1], "agents": ["a0"]})";
   const std::string file = write("n1.json", tasks);
   const auto refused = [&](const std::vector<std::string>& more) {
@@ -225,9 +225,9 @@ TEST_F(ReplanCommand, WritesOverNothingThatItReads) {
   EXPECT_THAT(refused({"--output-instance", file}), HasSubstr("is a file of new tasks"));
   EXPECT_THAT(refused({"-o", directory_ / "x.plan.json", "--log", file}),
               HasSubstr("is a file of new tasks"));
-  EXPECT_THAT(refused({"-o", plan_}), HasSubstr("is the plan that is being driven"));
+  EXPECT_THAT(refused({"-o", plan_}), HasSubstr("is the plan that is being executed"));
   EXPECT_THAT(refused({"-o", directory_ / "x.plan.json", "--log", plan_}),
-              HasSubstr("is the plan that is being driven"));
+              HasSubstr("is the plan that is being executed"));
 }
 
 TEST_F(ReplanCommand, RefusesTimesBeyondThePlan) {
@@ -244,17 +244,17 @@ TEST_F(ReplanCommand, RefusesTimesBeyondThePlan) {
               HasSubstr("--late: 'a3' cannot be 21 steps late; expected at most 20"));
 }
 
-TEST_F(ReplanCommand, RefusesToCloseAWall) {
+TEST_F(ReplanCommand, RefusesToBlockABlockedCell) {
   const std::string map = file_content(data("rooms-32x32.map"));
   const std::size_t first = map.find("map\n") + 4;
   const std::size_t wall = map.find('@', first) - first;
   const std::string cell = std::to_string(wall % 33) + "," + std::to_string(wall / 33);
   EXPECT_THAT(complaint({"--at", "3", "--blocked", cell}),
-              HasSubstr("--blocked: '" + cell + "': it is blocked on the map already"));
+              HasSubstr("--blocked: '" + cell + "': the map is blocked there already"));
 }
 
-// Without a destination a robot may end on any task that is left.
-TEST_F(ReplanCommand, GivesNoDestinationToWhoHasNone) {
+// A robot without a destination may end on any of its remaining tasks.
+TEST_F(ReplanCommand, KeepsRobotsWithoutDestination) {
   write("row.map", "type octile\nheight 1\nwidth 5\nmap\n.....\n");
   const std::string row = write("row.cts.json", R"({"map": "row.map",
       "agents": [{"id": "a", "start": [2, 0]}],
@@ -270,7 +270,7 @@ TEST_F(ReplanCommand, GivesNoDestinationToWhoHasNone) {
   EXPECT_FALSE(read("now.cts.json")["agents"][0].contains("goal"));
 }
 
-TEST_F(ReplanCommand, RefusesWhatCannotBe) {
+TEST_F(ReplanCommand, RefusesInvalidOptions) {
   EXPECT_THAT(complaint({}), HasSubstr("--at"));
   EXPECT_THAT(complaint({"--at", "-1"}), HasSubstr("--at"));
   EXPECT_THAT(complaint({"--at", "3", "--late", "a3"}), HasSubstr("--late: found 'a3'"));

@@ -81,7 +81,7 @@ class Reading(Folder):
         for name in ("a.jsonl", "a.csv"):
             results = read_results([self.file(name, NEEDED, lost)])
             self.assertEqual((len(results.rows), results.unreadable), (1, ["broken"]))
-        self.assertIn("column map: nothing there", self.complaint(self.file("a.jsonl", lost | {"status": "unknown"})))
+        self.assertIn("column map: empty", self.complaint(self.file("a.jsonl", lost | {"status": "unknown"})))
 
     def test_a_last_line_that_is_cut_off_is_left_out(self):
         good = json.dumps(NEEDED)
@@ -152,13 +152,14 @@ class Formulas(Folder):
 
 class Refusals(Folder):
     def test_files(self):
-        self.assertEqual(self.complaint(self.folder / "no"), "no: there is no such file or folder")
+        self.assertEqual(self.complaint(self.folder / "no"), "no: no such file or directory")
         self.assertEqual(self.complaint(self.text("a.txt", "")),
-                         "a.txt: unknown kind of file; expected .csv, .jsonl or a folder")
+                         "a.txt: unknown file type; expected .csv, .jsonl or a directory")
         self.assertTrue(self.complaint(self.folder).endswith(
-            ": no results.jsonl and no results.csv in this folder; expected what grove bench or grove-mpi batch writes"))
+            ": no results.jsonl and no results.csv in this directory; "
+            "expected what grove bench or grove-mpi batch writes"))
         self.assertEqual(self.complaint(self.text("a.csv", "")),
-                         "a.csv: empty; expected a line with the columns' names")
+                         "a.csv: empty; expected a line with the names of the columns")
         self.assertEqual(self.complaint(self.text("a.jsonl", "\n")),
                          "a.jsonl: no rows; expected at least one")
         self.assertEqual(self.complaint(self.text("a.jsonl", b"\xff")),
@@ -166,11 +167,11 @@ class Refusals(Folder):
 
     def test_columns(self):
         self.assertEqual(self.complaint(self.text("a.csv", "instance,method,cost\n")),
-                         "a.csv: line 1: no column map, agents, tasks, problem, time_limit_s, solved, "
+                         "a.csv: line 1: missing column map, agents, tasks, problem, time_limit_s, solved, "
                          "status, runtime_s; expected the columns that grove bench writes")
         header = ",".join(NEEDED)
         self.assertEqual(self.complaint(self.text("a.csv", f"{header},map\n")),
-                         "a.csv: line 1: column map is there twice")
+                         "a.csv: line 1: found column map twice; expected it once")
         self.assertEqual(self.complaint(self.text("a.csv", f"{header}\n1,2\n")),
                          "a.csv: row 1 (line 2): 2 columns; expected 11 as in the first line")
         self.assertEqual(self.complaint(self.text("a.csv", f'{header}\n"1,2\n')),
@@ -194,13 +195,13 @@ class Refusals(Folder):
                 ("solved", 1, "true or false"), ("omega", "nan", "a number of at least 0, or inf"),
                 ("omega", "-1", "a number of at least 0, or inf"), ("method", 3, "a text"),
                 ("problem", "tsp", "one of mg, cts, mixed, mapf"),
-                ("counts", "bypasses", "numbers as name=7, with blanks between"),
-                ("counts", {"bypasses": 7}, "numbers as name=7, with blanks between"),
-                ("counts", "bypasses=-1 a=2", "numbers as name=7, with blanks between"),
+                ("counts", "bypasses", "numbers as name=7, separated by blanks"),
+                ("counts", {"bypasses": 7}, "numbers as name=7, separated by blanks"),
+                ("counts", "bypasses=-1 a=2", "numbers as name=7, separated by blanks"),
                 ("status", "timeout", "one of optimal, bounded, feasible, infeasible, unknown, error, wrong, "
                  "claimed, unsuitable"),
-                ("trace", "0.1:5", "plans as seconds:cost:bound, with blanks between"),
-                ("trace", "0.1:x:-", "plans as seconds:cost:bound, with blanks between")):
+                ("trace", "0.1:5", "plans as seconds:cost:bound, separated by blanks"),
+                ("trace", "0.1:x:-", "plans as seconds:cost:bound, separated by blanks")):
             for name, place in (("a.csv", "row 2 (line 3)"), ("a.jsonl", "row 2")):
                 if name == "a.csv" and not isinstance(wrong, str):
                     continue
@@ -212,9 +213,9 @@ class Refusals(Folder):
     def test_what_is_not_there(self):
         for name, place in (("a.csv", "row 1 (line 2)"), ("a.jsonl", "row 1")):
             self.assertEqual(self.complaint(self.file(name, NEEDED | {"map": None})),
-                             f"{name}: {place}, column map: nothing there; expected a value")
+                             f"{name}: {place}, column map: empty; expected a value")
         self.assertEqual(self.complaint(self.file("a.jsonl", NEEDED | {"cost": None})),
-                         "a.jsonl: row 1, column cost: nothing there in a solved row; "
+                         "a.jsonl: row 1, column cost: empty in a solved row; "
                          "expected an integer")
         self.assertEqual(self.complaint(self.file("a.jsonl", NEEDED | {"status": "unknown"})),
                          "a.jsonl: row 1, column status: found 'unknown' in a solved row; "
@@ -607,8 +608,9 @@ class Tracker(Folder):
                                     'random-32-32-20,random,3,2,4,5,FALSE,"rwu\n2d"\n')
         self.assertEqual(sum(done.left_out.values()), 5)
         self.assertEqual(sorted(why.replace(f"{self.folder}/", "") for why in done.left_out), [
-            "b: two agents are on one cell at time 1", "beside a cheaper plan of the same instance",
-            "of no scenario of the Moving AI benchmark, by map and name (MAP-even-N-AGENTS, MAP-random-N-AGENTS)",
+            "b: two agents are on one cell at time 1",
+            "not of a scenario of the Moving AI benchmark (expected the name MAP-even-N-AGENTS or MAP-random-N-AGENTS)",
+            "not the cheapest plan of the instance",
             "without a checked plan (status unknown)", "without a plan file (grove bench --keep-plans)"])
 
     def test_bounds_that_are_refuted_are_not_submitted(self):
@@ -629,9 +631,9 @@ class Tracker(Folder):
         self.assertEqual(said(self.grove_plan([[0, 0], [1, 0]], [[2, 0], [2, 1], [2, 0], [1, 0]])),
                          "two agents are on one cell at time 3")
         self.assertEqual(said(self.grove_plan([[0, 0]])), "paths of 1 agents; expected 2")
-        self.assertEqual(said("nothing"), "no plan is in it; expected a plan file of Grove")
+        self.assertEqual(said("nothing"), "found no plan; expected a plan file of Grove")
         self.assertEqual(said(self.grove_plan([["a"], ["b"]], [[5, 5]])), "agent 0 jumps at time 1")
-        self.assertEqual(said(self.grove_plan(7, [[5, 5]])), "no plan is in it; expected a plan file of Grove")
+        self.assertEqual(said(self.grove_plan(7, [[5, 5]])), "found no plan; expected a plan file of Grove")
         # A rotation is none.
         ring = [[0, 0], [1, 0], [1, 1], [0, 1]]
         turned = self.grove_plan(*([ring[at], ring[(at + 1) % 4]] for at in range(4)))
@@ -656,8 +658,9 @@ class Tracker(Folder):
 
     def test_what_is_no_download(self):
         for name, text, said in (
-                ("a.csv", "x,y\n", "a.csv: line 1: no column agents; expected the columns of a download of MAPF Tracker"),
-                ("a.csv", "agents,lower_cost,solution_cost\n2,4,6\n", "a.csv: line 2: no scen_type; expected"),
+                ("a.csv", "x,y\n",
+                 "a.csv: line 1: missing column agents; expected the columns of a download of MAPF Tracker"),
+                ("a.csv", "agents,lower_cost,solution_cost\n2,4,6\n", "a.csv: line 2: missing scen_type; expected"),
                 ("a-even-1.csv", "agents,lower_cost,solution_cost\n2,x,6\n",
                  "a-even-1.csv: line 2, lower_cost: found 'x'; expected an integer of at least 0"),
                 ("a.json", "[", "a.json: not JSON; expected a list of objects"),

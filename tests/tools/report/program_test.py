@@ -226,14 +226,14 @@ class Reports(Folder):
              "prices_asked": "40", "prices_known": "20", "splits_bar": "8", "splits_new_kind": "1"}])
         table = page.split("Table: other counters</summary>")[1].split("</details>")[0]
         self.assertEqual(re.findall(r'<td>([^<]*)</td><td class="number">([^<]*)', table),
-                         [("bypasses: another way as short", "6.5"),
-                          ("costs under one constraint more: share remembered", "50 %")])
+                         [("bypasses: another path of the same cost", "6.5"),
+                          ("costs with one more constraint (strong branching): share of cache hits", "50 %")])
         self.assertIn('alt="What nodes were split on"', page)
         # Older tables have no such column, and baselines count nothing.
         for counts in ("bypasses=1 splits_bar=0", None):
             page, _ = self.report(self.results([row | {"counts": counts} for row in found]))
             self.assertNotIn("What nodes were split on", page)
-            self.assertEqual("What the search did" in page, counts is not None)
+            self.assertEqual("Search counters" in page, counts is not None)
             self.assertEqual((self.folder / "out/search_mg.csv").exists(), counts is not None)
 
     def test_a_contradiction_is_loud(self):
@@ -261,7 +261,7 @@ class Reports(Folder):
         with path.open("a", encoding="utf-8") as file:
             file.write('{"instance": "room')
         page, _ = self.report(path)
-        for told in ("the last line is cut off", "Under one name stand several instances",
+        for told in ("the last line is cut off", "One name stands for several instances",
                      "several time limits (180 s, 999 s)", "several seeds (0, 7)", "several versions",
                      "mgcbs, limit 999 s"):
             self.assertIn(told, page)
@@ -306,9 +306,10 @@ class Reports(Folder):
                                  "trace": None, "error": "robots that turn"})
         page, stderr = self.report(self.results(found))
         self.assertEqual(stderr, "")
-        for told in ('alt="Success rate over the number of agents"', 'alt="Quality over time"', "<h3>Instances that all solve",
-                     "What other solvers guarantee is not checked here (eecbs, lacam, lns)", "several seeds (1, 2)",
-                     "turns is not for 1 of the instances, which are left out for it: robots that turn."):
+        for told in ('alt="Success rate over the number of agents"', 'alt="Quality over time"',
+                     "<h3>Instances that all methods solve",
+                     "Guarantees of other solvers are not checked here (eecbs, lacam, lns)", "several seeds (1, 2)",
+                     "turns does not support 1 of the instances, which are omitted for it: robots that turn."):
             self.assertIn(told, page)
         for name in ("success_mapf", "anytime_mapf"):
             self.assertTrue((self.folder / f"out/{name}.svg").exists())
@@ -374,7 +375,7 @@ class Reports(Folder):
         self.assert_files_are_there(page)
         self.assertTrue(Elements(page).balanced)
         self.assertIn('alt="Bound and plan of single runs"', page)
-        self.assertNotIn("Where the rows come from", page)
+        self.assertNotIn("Source of the rows", page)
         self.results(few(1, study=False, tasks=(10,)))
         done = run_here(self.folder, "-o", self.folder / "out")
         self.assertRegex(done.stdout, ": [0-9]+ rows, 2 logs\n$")
@@ -388,7 +389,7 @@ class Reports(Folder):
                         "first: --omega 0", "--run", "second: --omega inf", "--keep-plans", "--output-dir", "table",
                         "--time-limit", "10", "--quiet"], cwd=self.folder, check=True, capture_output=True)
         table, out = self.folder / "table", self.folder / "rows.csv"
-        self.assertEqual(self.complaint(table, "--tracker", out), "--tracker: a submission is of one method; expected "
+        self.assertEqual(self.complaint(table, "--tracker", out), "--tracker: found plans of several methods; expected "
                          "--tracker-method first or second")
         done = run_here(table, "--tracker", out, "--tracker-method", "first")
         self.assertEqual((done.returncode, done.stdout), (0, f"wrote {out}: 2 rows of first for MAPF Tracker\n"), done.stderr)
@@ -409,7 +410,7 @@ class Reports(Folder):
         self.assertEqual((first["method"], first["better_plan"], first["higher_bound"], first["closes"]),
                          ("first", "true", "true", "true"))
         self.assertEqual((second["method"], second["cost_ratio"] != ""), ("second", True))
-        self.assertIn("<h3>Better than what is known</h3>", page)
+        self.assertIn("<h3>Improvements on the best known values</h3>", page)
         known.write_text(f"scen_type,type_id,agents,lower_cost,solution_cost\neven,3,8,{cost + 1},{cost - 1}\n", encoding="utf-8")
         page, stderr = self.report(table, "--best-known", known)
         self.assertIn("grove: warning: proofs contradict each other", stderr)
@@ -459,24 +460,25 @@ class Usage(Folder):
         out = ("-o", self.folder / "out")
         self.assertEqual(self.complaint(*out), "the following arguments are required: RESULTS" + hint)
         self.assertEqual(self.complaint(path), "the following arguments are required: -o/--output" + hint)
-        self.assertEqual(self.complaint(path, *out, "--tracker-method", "auto"), "--tracker-method: goes with --tracker" + hint)
-        self.assertIn("--method: nothing in the results is called 'frob'; expected one of Grove, auto, ",
+        self.assertEqual(self.complaint(path, *out, "--tracker-method", "auto"),
+                         "--tracker-method: requires --tracker" + hint)
+        self.assertIn("--method: found 'frob', which is not in the results; expected one of Grove, auto, ",
                       self.complaint(path, *out, "--method", "frob"))
         self.assertEqual(self.complaint(path, *out, "--bogus"), "unrecognized arguments: --bogus" + hint)
         self.assertEqual(self.complaint(path, *out, "--baseline", "a,,b"),
-                         "--baseline: found 'a,,b'; expected names with commas between" + hint)
+                         "--baseline: found 'a,,b'; expected a comma-separated list of names" + hint)
         self.assertEqual(self.complaint(path, *out, "--study-agents", "x"),
                          "--study-agents: found 'x'; expected an integer of at least 0" + hint)
         self.assertEqual(self.complaint(path, *out, "--problem=mapf"),
-                         "--problem: nothing in the results is called 'mapf'; expected one of cts, mg")
-        self.assertIn("--baseline: nothing in the results is called 'frob'; expected one of Grove, auto, ",
+                         "--problem: found 'mapf', which is not in the results; expected one of cts, mg")
+        self.assertIn("--baseline: found 'frob', which is not in the results; expected one of Grove, auto, ",
                       self.complaint(path, *out, "--baseline", "frob"))
         for study in (("--study", "auto"), ("--study-agents", "20")):
             self.assertIn("--study, --study-map, --study-agents: no rows with several omegas are left",
                           self.complaint(path, *out, *study))
         shutil.rmtree(self.folder / "out")
         # Names of commands are names of files here.
-        self.assertEqual(self.complaint("solve", "check", *out), "solve: there is no such file or folder")
+        self.assertEqual(self.complaint("solve", "check", *out), "solve: no such file or directory")
         self.assertFalse((self.folder / "out").exists())
 
     def test_wrong_rows(self):
@@ -507,9 +509,8 @@ class Usage(Folder):
 
     def test_without_its_other_half(self):
         program = self.copy()
-        self.assertEqual(self.complaint(run=run, program=program), "bin/grove-report: there is no such file; "
-                         "expected it beside grove (build the target grove), or in "
-                         "../libexec/grove where the Debian package grove is installed")
+        self.assertEqual(self.complaint(run=run, program=program), "bin/grove-report: there is no such program; "
+                         "expected it beside grove (build target grove), or in ../libexec/grove (Debian package grove)")
 
     def test_without_python(self):
         program = self.copy()
@@ -524,7 +525,7 @@ class Usage(Folder):
         path = self.results(few(1))
         environment = {**os.environ, "PYTHONPATH": str(self.folder)}
         self.assertEqual(self.complaint(path, "-o", self.folder / "out", run=run, env=environment),
-                         "/usr/bin/python3 has no matplotlib, which draws the figures; "
+                         "/usr/bin/python3 has no module matplotlib, which draws the figures; "
                          "expected the Debian package python3-matplotlib")
         self.assertEqual(run("--help", env=environment).returncode, 0)
 

@@ -195,7 +195,7 @@ class WhatIsWritten(Case):
 
     def test_runs_that_a_limit_ends(self):
         crowd = self.crowd()
-        plan, _ = self.solve(crowd, "--time-limit", 0.2, "--without", "primal,configurations", name="unknown")
+        plan, _ = self.solve(crowd, "--time-limit", 0.2, "--without", "primal,lacam", name="unknown")
         self.assertEqual(plan["status"], "unknown")
         self.solve(crowd, "--time-limit", 0.3, "--checkpoint", "kept", "--resume", "never", name="kept")
         plan, log = self.solve(crowd, "--time-limit", 0.6, "--checkpoint", "kept", "--resume", "auto", name="resumed")
@@ -265,7 +265,7 @@ class WhatIsWritten(Case):
         self.assertGreaterEqual(len(rows), 6)
         for row in rows:
             self.assert_valid("results-row", row, row)
-        self.assertIn("unsuitable", {row["status"] for row in rows})
+        self.assertIn("unsupported", {row["status"] for row in rows})
         self.assertTrue(any(row["solved"] for row in rows))
         self.assertTrue(any(row["solver"] == "mine" for row in rows))
 

@@ -11,7 +11,7 @@
 namespace grove::detail {
 namespace disk_flusher_test {
 
-std::string told_while(const std::vector<std::string>& files) {
+std::string stderr_of_flushing(const std::vector<std::string>& files) {
   ::testing::internal::CaptureStderr();
   {
     DiskFlusher flusher;
@@ -20,20 +20,20 @@ std::string told_while(const std::vector<std::string>& files) {
   return ::testing::internal::GetCapturedStderr();
 }
 
-TEST(DiskFlusher, EndsWhenAllFilesAreThere) {
+TEST(DiskFlusher, PrintsNothingIfAllFilesExist) {
   const TemporaryDirectory directory;
   std::vector<std::string> files;
   for (int i = 0; i < 20; ++i) files.push_back(directory.write(std::to_string(i), "plan"));
-  EXPECT_EQ(told_while({}), "");
-  EXPECT_EQ(told_while(files), "");
+  EXPECT_EQ(stderr_of_flushing({}), "");
+  EXPECT_EQ(stderr_of_flushing(files), "");
 }
 
-// That it says so shows that it has tried, and that its end has waited.
-TEST(DiskFlusher, TellsOnceWhatFails) {
+// The message shows that it has tried to flush, and that its end has waited for this.
+TEST(DiskFlusher, ReportsTheFirstFailureOnce) {
   const TemporaryDirectory directory;
-  const std::string told = told_while({directory / "a", directory / "b"});
-  EXPECT_NE(told.find("/a: cannot be written: No such file"), std::string::npos) << told;
-  EXPECT_EQ(std::ranges::count(told, '\n'), 1);
+  const std::string output = stderr_of_flushing({directory / "a", directory / "b"});
+  EXPECT_NE(output.find("/a: cannot be written: No such file"), std::string::npos) << output;
+  EXPECT_EQ(std::ranges::count(output, '\n'), 1);
 }
 
 }  // namespace disk_flusher_test

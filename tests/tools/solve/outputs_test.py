@@ -67,7 +67,7 @@ class OneAtATime(Outputs):
             done = self.run_it("solve", QUICK, option, name, *mine)
             self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
             self.assertRegex(done.stderr, rf"^grove: error: x.*: is being written by another run \(process {running.pid} on host .*\); "
-                                          "expected another name, or that run to end first\n$")
+                                          "expected another name, or the end of that run\n$")
         for done in (self.run_it("solve", QUICK, "-o", "link"), self.run_it("replan", QUICK, "q.plan.json", "--at", 0, "-o", "x.plan.json")):
             self.assertEqual(done.returncode, 2)
             self.assertIn("is being written by another run", done.stderr)

@@ -16,7 +16,7 @@ namespace plan_output_test {
 
 using ::testing::HasSubstr;
 
-// One agent, one way: it costs 2, or more if it waits first.
+// One agent with one route: it costs 2, or more if the agent waits first.
 class PlanOutput : public ::testing::Test {
  protected:
   Solution waiting(Time steps) const {
@@ -51,24 +51,24 @@ class PlanOutput : public ::testing::Test {
   TemporaryDirectory directory_;
 };
 
-TEST_F(PlanOutput, ReplacesWhatCostsMoreOrTheSame) {
+TEST_F(PlanOutput, ReplacesPlansOfEqualOrHigherCost) {
   EXPECT_EQ(write(waiting(3)), std::nullopt);
   EXPECT_EQ(write(waiting(1)), std::nullopt);
   EXPECT_EQ(content(), solution_text(instance_, waiting(1)));
   Solution other = waiting(1);
-  other.lower_bound = 1;  // of its own run, and no better for what the file says
+  other.lower_bound = 1;  // of its own run; the bound in the file does not raise it
   EXPECT_EQ(write(other), std::nullopt);
   EXPECT_EQ(content(), solution_text(instance_, other));
 }
 
-TEST_F(PlanOutput, KeepsWhatCostsLess) {
+TEST_F(PlanOutput, KeepsCheaperPlans) {
   write(waiting(1));
   EXPECT_EQ(write(waiting(2)), 3);
   EXPECT_EQ(write(without_plan(Status::kUnknown, 2)), 3);
   EXPECT_EQ(content(), solution_text(instance_, waiting(1)));
 }
 
-TEST_F(PlanOutput, KeepsNoPlanOfAnotherInstance) {
+TEST_F(PlanOutput, ReplacesPlansOfAnotherInstance) {
   const Instance other = testing::instance_of({"...", "..."}, {{{0, 1}, Position{2, 1}}});
   Solution solution = waiting(0);
   for (Cell& cell : solution.plan->agents[0].path) cell += 3;
@@ -77,8 +77,8 @@ TEST_F(PlanOutput, KeepsNoPlanOfAnotherInstance) {
   EXPECT_THAT(content(), HasSubstr("unknown"));
 }
 
-// The rules of the checker and those of the search have separate code: one of the two is wrong.
-TEST_F(PlanOutput, RefutesAWrongProof) {
+// The checker and the search implement the rules independently: one of the two is wrong.
+TEST_F(PlanOutput, RefutesAFalseBoundByTheExistingPlan) {
   write(waiting(0));
   EXPECT_THAT(failure(without_plan(Status::kInfeasible, 0)),
               HasSubstr("proven that there is no plan"));
@@ -90,17 +90,17 @@ TEST_F(PlanOutput, RefutesAWrongProof) {
   EXPECT_EQ(content(), solution_text(instance_, waiting(0)));
 }
 
-TEST_F(PlanOutput, TellsWhatMustNotBeMissed) {
-  const auto told = [](const Solution& solution, std::optional<Cost> kept) {
+TEST_F(PlanOutput, ReportsKeptAndMissingPlans) {
+  const auto output = [](const Solution& solution, std::optional<Cost> kept) {
     ::testing::internal::CaptureStderr();
-    tell_without_plan(solution, "p.json", kept);
+    report_missing_plan(solution, "p.json", kept);
     return ::testing::internal::GetCapturedStderr();
   };
-  EXPECT_EQ(told(waiting(1), {}), "");
-  EXPECT_EQ(told(waiting(1), 2),
+  EXPECT_EQ(output(waiting(1), {}), "");
+  EXPECT_EQ(output(waiting(1), 2),
             "grove: the plan found costs 3 (feasible, lower bound 2); p.json keeps its valid plan "
             "of cost 2\n");
-  EXPECT_EQ(told(without_plan(Status::kInfeasible, 0), {}),
+  EXPECT_EQ(output(without_plan(Status::kInfeasible, 0), {}),
             "grove: no plan was found (infeasible)\n");
 }
 

@@ -31,8 +31,8 @@ std::string data(const std::string& name) {
   return std::string(GROVE_DATA) + "/" + name;
 }
 
-// Each agent can come to where it must rest, but not both: unsolvable in a way that only the search
-// over joint states finds out, so without that a run ends only at a limit.
+// Each agent can reach its destination, but not both. Only search over joint states proves this, so
+// without it a run ends only at a limit.
 constexpr const char* kPuzzleMap = "type octile\nheight 1\nwidth 5\nmap\n.....\n";
 constexpr const char* kPuzzle = R"({"map": "puzzle.map",
   "agents": [{"id": "a", "start": [0, 0]}, {"id": "b", "start": [4, 0]}],
@@ -50,7 +50,7 @@ class SolveCommand : public ::testing::Test {
     arguments.insert(arguments.begin(), "solve");
     return run_grove(arguments, options_);
   }
-  // In bash: $0 is the program, $1 the instance.
+  // Runs a bash command: $0 is the program, $1 the instance.
   ProcessResult in_shell(const std::string& instance, const std::string& command) const {
     return run_program({"/bin/bash", "-c", command, GROVE_PROGRAM, data(instance)}, options_);
   }
@@ -59,8 +59,8 @@ class SolveCommand : public ::testing::Test {
     return json::parse(file);
   }
   bool exists(const std::string& name) const { return std::filesystem::exists(directory_ / name); }
-  // Does a log, which may not be there yet, hold this text?
-  bool said_so_far(const std::string& log, const std::string& text) const {
+  // True if a log file exists and contains this text.
+  bool log_contains(const std::string& log, const std::string& text) const {
     return exists(log) && file_content(directory_ / log).find(text) != std::string::npos;
   }
 
@@ -88,12 +88,12 @@ TEST_F(SolveCommand, SolvesTheFirstRowsOfAScenario) {
   EXPECT_EQ(plan("p.json")["agents"].size(), 10u);
 }
 
-TEST_F(SolveCommand, TakesTheMapThatLiesBesideAScenario) {
+TEST_F(SolveCommand, FindsTheMapNextToAScenario) {
   const ProcessResult solved = solve({data("empty-32x32.scen"), "--agents", "3"});
   EXPECT_THAT(solved.out, HasSubstr("empty-32x32.map: 32 x 32"));
   std::filesystem::copy(data("empty-32x32.scen"), directory_.path());
   EXPECT_THAT(complaint(solve({"empty-32x32.scen", "--agents", "3"})),
-              HasSubstr("does not lie beside the map that it names"));
+              HasSubstr("is not beside the map that it names"));
 }
 
 TEST_F(SolveCommand, ReadsAnInstanceFromStandardInput) {
@@ -106,7 +106,7 @@ TEST_F(SolveCommand, ReadsAnInstanceFromStandardInput) {
   EXPECT_THAT(complaint(solve({"-"})), HasSubstr("standard input: line 1, column 2"));
 }
 
-TEST_F(SolveCommand, CountsTheLastOfTwoOptions) {
+TEST_F(SolveCommand, UsesTheLastOfARepeatedOption) {
   const ProcessResult solved =
       solve({data("first.cts.json"), "--omega", "inf", "--output", "nowhere/p", "--without",
              "primal", "--output", "p.json", "--without", "bypass,target", "--omega", "0"});
@@ -115,7 +115,7 @@ TEST_F(SolveCommand, CountsTheLastOfTwoOptions) {
             "--omega 0 --without primal,bypass,target --output p.json");
 }
 
-TEST_F(SolveCommand, TunesNumbersOfTheSearch) {
+TEST_F(SolveCommand, SetsTunables) {
   const auto nodes = [&](std::vector<std::string> tune) {
     std::vector<std::string> arguments = {data("rooms-32x32_n10_m30.cts.json"),
                                           "--omega",
@@ -132,16 +132,17 @@ TEST_F(SolveCommand, TunesNumbersOfTheSearch) {
   };
   const int defaults = nodes({});
   EXPECT_EQ(nodes({"--tune", "pair-expansions=16"}), defaults);
-  EXPECT_LT(nodes({"--tune", "pair-expansions=1,order-spread=0", "--tune", "bypasses=3"}),
+  EXPECT_LT(nodes({"--tune", "pair-expansions=1,large-gap=0", "--tune", "bound-work=3000"}),
             defaults);
   EXPECT_THAT(plan("p.json")["stats"]["options"].get<std::string>(),
-              HasSubstr("--tune pair-expansions=1,order-spread=0,bypasses=3"));
-  EXPECT_EQ(complaint(solve({data("first.cts.json"), "--tune", "bypass=3"})),
-            "--tune: found 'bypass'; expected one of those that '--tune help' lists; did you mean "
-            "'bypasses'? (see 'grove solve --help')");
-  EXPECT_THAT(complaint(solve({data("first.cts.json"), "--tune", "bypasses=-1"})),
-              HasSubstr("--tune: bypasses: found '-1'; expected an integer from 0 to 1000000"));
-  EXPECT_THAT(complaint(solve({data("first.cts.json"), "--tune", "bypasses"})),
+              HasSubstr("--tune pair-expansions=1,large-gap=0,bound-work=3000"));
+  EXPECT_EQ(
+      complaint(solve({data("first.cts.json"), "--tune", "mdd-node=3"})),
+      "--tune: found 'mdd-node'; expected one of those that '--tune help' lists; did you mean "
+      "'mdd-nodes'? (see 'grove solve --help')");
+  EXPECT_THAT(complaint(solve({data("first.cts.json"), "--tune", "mdd-nodes=0"})),
+              HasSubstr("--tune: mdd-nodes: found '0'; expected an integer from 1 to 1000000000"));
+  EXPECT_THAT(complaint(solve({data("first.cts.json"), "--tune", "mdd-nodes"})),
               HasSubstr("expected NAME=VALUE"));
   const ProcessResult help = solve({"--tune", "help"});
   EXPECT_EQ(help.exit_code, 0);
@@ -173,7 +174,7 @@ TEST_F(SolveCommand, LogsHeadTableAndSummary) {
   EXPECT_EQ(log.str(), solved.out);
 }
 
-TEST_F(SolveCommand, QuietSaysNothing) {
+TEST_F(SolveCommand, QuietPrintsNothing) {
   const ProcessResult solved = solve({data("first.cts.json"), "--quiet"});
   EXPECT_EQ(solved.out + solved.err, "");
   EXPECT_TRUE(exists("first.plan.json"));
@@ -211,7 +212,7 @@ TEST_F(SolveCommand, EndsAtTheTimeLimitWithABound) {
   EXPECT_EQ(result["stats"]["stopped_by"], "time limit");
 }
 
-TEST_F(SolveCommand, SeesThatAPuzzleHasNoPlan) {
+TEST_F(SolveCommand, ProvesThatAPuzzleHasNoPlan) {
   const ProcessResult solved = solve({"puzzle.json", "--output", "p.json"});
   EXPECT_THAT(solved.out, HasSubstr("Status        infeasible"));
   EXPECT_THAT(solved.out, Not(HasSubstr("1152921504606846976")));
@@ -219,8 +220,8 @@ TEST_F(SolveCommand, SeesThatAPuzzleHasNoPlan) {
   EXPECT_EQ(plan("p.json")["lower_bound"], 0);
 }
 
-// The puzzle's tree would outgrow this in a second.
-TEST_F(SolveCommand, GoesOnAtTheMemoryLimit) {
+// The tree of the puzzle would exceed this limit within a second.
+TEST_F(SolveCommand, ContinuesAtTheMemoryLimit) {
   const ProcessResult solved = solve({"puzzle.json", "--policy", "fixed", "--memory-limit", "0.03",
                                       "--time-limit", "4", "--output", "p.json"});
   EXPECT_EQ(solved.exit_code, 0) << solved.err;
@@ -232,7 +233,7 @@ TEST_F(SolveCommand, GoesOnAtTheMemoryLimit) {
   EXPECT_THAT(solved.out, HasSubstr("bytes per node"));
 }
 
-TEST_F(SolveCommand, EndsWhereTheMemoryLimitCannotBeKept) {
+TEST_F(SolveCommand, EndsIfTheMemoryLimitCannotBeKept) {
   const ProcessResult solved =
       solve({"puzzle.json", "--memory-limit", "0.001", "--time-limit", "30", "--output", "p.json"});
   EXPECT_EQ(solved.exit_code, 0) << solved.err;
@@ -242,7 +243,7 @@ TEST_F(SolveCommand, EndsWhereTheMemoryLimitCannotBeKept) {
 TEST_F(SolveCommand, SignalsEndARunCleanly) {
   for (const int signal : {SIGINT, SIGTERM}) {
     options_.signal = signal;
-    options_.signal_when = [this] { return said_so_far("run.log", "\nB "); };
+    options_.signal_when = [this] { return log_contains("run.log", "\nB "); };
     const ProcessResult solved = solve(
         {"puzzle.json", "--without", "joint-search", "--log", "run.log", "--output", "p.json"});
     EXPECT_EQ(solved.exit_code, 0) << solved.err;
@@ -254,7 +255,7 @@ TEST_F(SolveCommand, SignalsEndARunCleanly) {
   }
 }
 
-TEST_F(SolveCommand, SaysWhyThereIsNoPlan) {
+TEST_F(SolveCommand, ReportsWhyThereIsNoPlan) {
   directory_.write("wall.map", "type octile\nheight 1\nwidth 3\nmap\n.@.\n");
   directory_.write(
       "wall.json",
@@ -265,21 +266,20 @@ TEST_F(SolveCommand, SaysWhyThereIsNoPlan) {
   EXPECT_EQ(plan("p.json")["status"], "infeasible");
 }
 
-TEST_F(SolveCommand, WithInfiniteOmegaSaysSo) {
+TEST_F(SolveCommand, ReportsInfiniteOmega) {
   solve({data("first.cts.json"), "--omega", "inf", "--output", "p.json"});
   EXPECT_EQ(plan("p.json")["omega"], "inf");
   EXPECT_EQ(plan("p.json")["stats"]["roots_generated"], 1);
 }
 
-// The log without what must differ: times and memory.
-// A log without times, memory, and what was asked for.
+// The log without times, memory and options.
 std::string timeless(const std::string& log) {
   return std::regex_replace(
       log, std::regex(R"( +[0-9]+ MB +[0-9.]+s|[0-9.]+ s\n|Memory .*\n|Options .*\n|Threads .*\n)"),
       "");
 }
 
-TEST_F(SolveCommand, DeterministicRunsLogAndPlanTheSameOnAnyNumberOfThreads) {
+TEST_F(SolveCommand, DeterministicRunDoesNotDependOnTheNumberOfThreads) {
   for (const std::string policy : {"fixed", "free"}) {
     std::vector<std::string> logs;
     std::vector<json> agents;
@@ -298,7 +298,7 @@ TEST_F(SolveCommand, DeterministicRunsLogAndPlanTheSameOnAnyNumberOfThreads) {
   }
 }
 
-TEST_F(SolveCommand, FindsUnwritableFilesBeforeItSearches) {
+TEST_F(SolveCommand, RefusesUnwritableFilesBeforeTheSearch) {
   EXPECT_THAT(complaint(solve({"puzzle.json", "--output", "nowhere/p.json"})),
               HasSubstr("nowhere"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--output", directory_.path().string()})),
@@ -307,7 +307,7 @@ TEST_F(SolveCommand, FindsUnwritableFilesBeforeItSearches) {
   EXPECT_FALSE(exists("puzzle.plan.json"));
 }
 
-TEST_F(SolveCommand, DoesNotWriteOverItsInputs) {
+TEST_F(SolveCommand, DoesNotOverwriteItsInputs) {
   for (const char* name : {"first.map", "first.cts.json"})
     std::filesystem::copy(data(name), directory_.path());
   EXPECT_THAT(complaint(solve({"first.cts.json", "--output", "first.cts.json"})),
@@ -320,7 +320,7 @@ TEST_F(SolveCommand, DoesNotWriteOverItsInputs) {
   EXPECT_EQ(solve({"first.cts.json"}).exit_code, 0);
 }
 
-TEST_F(SolveCommand, KeepsThePlanWhenNobodyReadsTheLog) {
+TEST_F(SolveCommand, WritesThePlanIfTheLogPipeIsClosed) {
   const ProcessResult solved = in_shell(
       "rooms-32x32_n10_m30.cts.json",
       R"("$0" solve "$1" --omega 0 --policy fixed --output p.json | true; exit ${PIPESTATUS[0]})");
@@ -329,13 +329,13 @@ TEST_F(SolveCommand, KeepsThePlanWhenNobodyReadsTheLog) {
   EXPECT_EQ(plan("p.json")["status"], "optimal");
 }
 
-TEST_F(SolveCommand, GoesOnWhenNothingCanBeSaidAtAll) {
+TEST_F(SolveCommand, WritesThePlanIfAllOutputFails) {
   const char* command = R"("$0" solve "$1" --output p.json >/dev/full 2>/dev/full)";
   EXPECT_EQ(in_shell("first.cts.json", command).exit_code, 0);
   EXPECT_EQ(plan("p.json")["status"], "optimal");
 }
 
-TEST_F(SolveCommand, SaysWhenTheLogFileIsFull) {
+TEST_F(SolveCommand, WarnsIfTheLogFileCannotBeWritten) {
   const ProcessResult solved = solve({data("first.cts.json"), "--quiet", "--log", "/dev/full"});
   EXPECT_EQ(solved.exit_code, 0);
   EXPECT_THAT(solved.err, HasSubstr("warning: the log file cannot be written"));
@@ -346,8 +346,8 @@ TEST_F(SolveCommand, NamesAScenariosPlanAfterItsAgents) {
   EXPECT_TRUE(exists("empty-32x32-3.plan.json"));
 }
 
-// A table of time times cells would hold gigabytes here.
-TEST_F(SolveCommand, KeepsWithinTheMemoryLimitOnALargeMap) {
+// A table indexed by time and cell would take gigabytes here.
+TEST_F(SolveCommand, KeepsTheMemoryLimitOnALargeMap) {
   ASSERT_EQ(run_grove({"generate", "map", "empty", "--width", "600", "--height", "600", "-o",
                        directory_ / "m.map"})
                 .exit_code,
@@ -363,7 +363,7 @@ TEST_F(SolveCommand, KeepsWithinTheMemoryLimitOnALargeMap) {
   EXPECT_LT(plan("p.json")["stats"]["peak_memory_mb"], 250);
 }
 
-TEST_F(SolveCommand, RefusesWhatItDoesNotUnderstand) {
+TEST_F(SolveCommand, RefusesInvalidArguments) {
   EXPECT_THAT(complaint(solve({"puzzle.json", "--omega", "-1"})), HasSubstr("--omega"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--omega", "1%"})), HasSubstr("--omega"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--time-limit", "soon"})), HasSubstr("--time-limit"));
@@ -388,7 +388,7 @@ TEST_F(SolveCommand, RefusesWhatItDoesNotUnderstand) {
               HasSubstr("900"));
 }
 
-// --- the plan file of an earlier run ---
+// --- plan file of an earlier run ---
 
 TEST_F(SolveCommand, WithoutAPlanKeepsAValidOne) {
   solve({data("first.cts.json"), "--output", "p.json"});
@@ -409,7 +409,7 @@ TEST_F(SolveCommand, WithoutAPlanKeepsAValidOne) {
   }
 }
 
-TEST_F(SolveCommand, WithoutAPlanReplacesWhatIsNoneOfThisInstance) {
+TEST_F(SolveCommand, WithoutAPlanReplacesInvalidAndForeignPlans) {
   solve({data("first.cts.json"), "--output", "p.json"});
   json changed = plan("p.json");
   changed["agents"][0]["path"].erase(0);
@@ -424,7 +424,7 @@ TEST_F(SolveCommand, WithoutAPlanReplacesWhatIsNoneOfThisInstance) {
   EXPECT_EQ(plan("p.json")["status"], "unknown");
 }
 
-TEST_F(SolveCommand, EndsWithThreeWhereAPlanIsRequired) {
+TEST_F(SolveCommand, ReturnsThreeIfARequiredPlanIsMissing) {
   EXPECT_EQ(solve({data("first.cts.json"), "--require-plan"}).exit_code, 0);
   EXPECT_EQ(solve({data("first.cts.json"), "--require-plan", "--time-limit", "0"}).exit_code, 3);
   EXPECT_EQ(plan("first.plan.json")["cost"], 33);
@@ -440,7 +440,7 @@ TEST_F(SolveCommand, WritesThePlanToStandardOutput) {
   EXPECT_EQ(in_shell("first.cts.json", command).exit_code, 1);
 }
 
-// --- the log for programs ---
+// --- JSON log ---
 
 std::vector<json> events(const std::string& log) {
   std::vector<json> found;
@@ -449,7 +449,7 @@ std::vector<json> events(const std::string& log) {
   return found;
 }
 
-TEST_F(SolveCommand, LogsForPrograms) {
+TEST_F(SolveCommand, WritesAJsonLog) {
   const ProcessResult solved =
       solve({data("rooms-32x32_n10_m30.cts.json"), "--omega", "0", "--threads", "1", "--log-format",
              "jsonl", "--log", "log.jsonl", "--output", "p.json"});
@@ -476,29 +476,29 @@ TEST_F(SolveCommand, LogsForPrograms) {
       EXPECT_THAT(what, AnyOf("sequences", "groups", "splits"));
       bound += std::int64_t(gain);
     }
-    EXPECT_EQ(bound, row["lower_bound"]);  // it rises by nothing that is not told
+    EXPECT_EQ(bound, row["lower_bound"]);  // each rise of the bound is logged
     incumbents += row["event"] == "incumbent" ? 1 : 0;
     EXPECT_EQ(row["gap"].is_null(), row["incumbent"].is_null());
   }
   EXPECT_GT(incumbents, 0);
   EXPECT_EQ(log[log.size() - 3]["gap"], 0);
-  // What was counted up to the end is what was counted.
+  // The last counts equal the stats.
   const json& counts = log[log.size() - 2];
   ASSERT_EQ(counts["event"], "counts");
   for (const auto& [name, count] : counts["counts"].items())
     EXPECT_TRUE(name == "nodes_generated" || count == log.back()["stats"][name]) << name;
-  EXPECT_TRUE(counts["counts"].contains("prices_asked"));
+  EXPECT_TRUE(counts["counts"].contains("branching_cost_queries"));
   EXPECT_GT(counts["memory_mb"]["process"], 0);
   EXPECT_FALSE(counts.contains("ranks"));
 }
 
-// What the events `root` and `node` of a log say, put together.
+// The tree as logged by the events `root` and `node`.
 struct LoggedTree {
   std::map<std::int64_t, json> open;  // nodes not expanded yet
   std::int64_t expanded = 0;
   std::map<std::string, std::int64_t> splits;  // by kind
 
-  // Each node is expanded once, after it was made; children are new, and no bound falls.
+  // Each node is expanded once, after its creation; children are new, and no bound falls.
   void add(const json& event) {
     if (event["event"] == "root") open[event["node"]] = event;
     if (event["event"] != "node") return;
@@ -511,8 +511,8 @@ struct LoggedTree {
     if (event.contains("split")) ++splits["splits_" + std::string(event["split"])];
     for (const json& child : event["children"]) {
       EXPECT_TRUE(open.emplace(child["node"], child).second) << event;
-      EXPECT_EQ(event["outcome"] == "split", child.contains("demand"));
-      EXPECT_GE(child["bound"], bound + (event["outcome"] == "raise" ? 1 : 0));
+      EXPECT_EQ(event["outcome"] == "split", child.contains("constraint"));
+      EXPECT_GE(child["bound"], bound + (event["outcome"] == "bound_raised" ? 1 : 0));
     }
   }
 };
@@ -538,7 +538,7 @@ TEST_F(SolveCommand, LogsTheTreeOnRequest) {
   }
 }
 
-// Times and memory aside.
+// The events without times, memory, threads, options and stats.
 std::vector<json> timeless_events(std::vector<json> log) {
   for (json& event : log)
     for (const char* key : {"time_s", "memory_mb", "threads", "options", "stats"}) event.erase(key);
@@ -556,7 +556,7 @@ TEST_F(SolveCommand, DeterministicRunsLogTheSameTreeAndCounts) {
   EXPECT_GT(logs[0].size(), 10u);
 }
 
-TEST_F(SolveCommand, LogsAsMuchOfTheTreeAsIsAskedFor) {
+TEST_F(SolveCommand, LogsTheRequestedNumberOfNodes) {
   const std::vector<std::string> words{data("rooms-32x32_n10_m30.cts.json"),
                                        "--omega",
                                        "0",
@@ -570,10 +570,10 @@ TEST_F(SolveCommand, LogsAsMuchOfTheTreeAsIsAskedFor) {
   const std::vector<json> log = events(solve(words).out);
   EXPECT_EQ(std::ranges::count(log, "node", [](const json& e) { return e["event"]; }), 5);
   EXPECT_THAT(complaint(solve({"puzzle.json", "--log-tree", "5"})),
-              HasSubstr("--log-tree: expected --log-format jsonl with it"));
+              HasSubstr("--log-tree: requires --log-format jsonl"));
 }
 
-TEST_F(SolveCommand, LogsForProgramsWhateverHappens) {
+TEST_F(SolveCommand, WritesAJsonLogWithoutPlanAndOnResume) {
   const ProcessResult nothing =
       solve({"puzzle.json", "--time-limit", "0", "--log-format", "jsonl"});
   EXPECT_EQ(events(nothing.out).back()["status"], "unknown");
@@ -590,9 +590,9 @@ TEST_F(SolveCommand, LogsForProgramsWhateverHappens) {
   EXPECT_THAT(complaint(solve({"puzzle.json", "--log-format", "xml"})), HasSubstr("text, jsonl"));
 }
 
-// --- checkpoint folders ---
+// --- checkpoint directories ---
 
-TEST_F(SolveCommand, RefusesACheckpointFolderInUse) {
+TEST_F(SolveCommand, RefusesACheckpointDirectoryInUse) {
   std::filesystem::create_directory(directory_ / "kept");
   const std::vector<std::string> words{data("first.cts.json"), "--checkpoint", "kept", "--resume",
                                        "auto"};
@@ -604,20 +604,20 @@ TEST_F(SolveCommand, RefusesACheckpointFolderInUse) {
   EXPECT_EQ(solve(words).exit_code, 0);
 }
 
-TEST_F(SolveCommand, GoesOnWithoutAPlanThatACrashHasTorn) {
+TEST_F(SolveCommand, IgnoresAPlanTruncatedByACrash) {
   const std::vector<std::string> words{data("first.cts.json"), "--checkpoint", "kept", "--resume",
                                        "auto"};
   ASSERT_EQ(solve(words).exit_code, 0);
   directory_.write("kept/incumbent.plan.json", R"({"status": "opt)");
   const ProcessResult solved = solve(words);
   EXPECT_EQ(solved.exit_code, 0);
-  EXPECT_THAT(solved.err, HasSubstr("kept/incumbent.plan.json: ends in the middle"));
+  EXPECT_THAT(solved.err, HasSubstr("kept/incumbent.plan.json: is incomplete"));
   EXPECT_EQ(plan("first.plan.json")["status"], "optimal");
 }
 
-// --- plans from the heuristics, from files, to files ---
+// --- incumbents: from heuristics, from files, to files ---
 
-// Ten agents through two doors: many better plans in a second.
+// Ten agents and two doors: many better plans within a second.
 std::string doors_instance() {
   std::string agents;
   for (int i = 0; i < 8; ++i)
@@ -655,8 +655,8 @@ TEST_F(Incumbents, AreFilesThatTheCheckerAccepts) {
   EXPECT_EQ(plan(fmt::format("best-{}.plan.json", k - 1))["cost"], plan("p.json")["cost"]);
 }
 
-// What B proves of the ends it chose it does not prove of the instance: 4 is the optimum.
-TEST_F(Incumbents, OfBClaimNoMoreThanHoldsForTheInstance) {
+// The bound of B holds only for its destinations, not for the instance, whose optimum is 4.
+TEST_F(Incumbents, OfMethodBClaimOnlyBoundsOfTheInstance) {
   directory_.write("line.map", "type octile\nheight 1\nwidth 4\nmap\n....\n");
   directory_.write("line.json", R"({"map": "line.map", "agents": [
     {"id": "a", "start": [0, 0]}, {"id": "b", "start": [3, 0]}], "tasks": [
@@ -671,15 +671,15 @@ TEST_F(Incumbents, OfBClaimNoMoreThanHoldsForTheInstance) {
   EXPECT_LE(plan("b-1.plan.json")["lower_bound"], 4);
 }
 
-TEST_F(Incumbents, AreMarkedInTheLogByWhereTheyCameFrom) {
+TEST_F(Incumbents, HaveTheirSourceInTheLog) {
   options_.signal = SIGINT;
-  options_.signal_when = [this] { return said_so_far("l", "\nL  "); };
+  options_.signal_when = [this] { return log_contains("l", "\nL  "); };
   const ProcessResult solved =
       solve({"doors.json", "--omega", "0", "--threads", "1", "--log", "l", "--output", "p.json"});
   options_.signal = 0;
   EXPECT_THAT(solved.out, HasSubstr("\nH  "));
   EXPECT_THAT(solved.out, HasSubstr("\nL  "));
-  EXPECT_GT(plan("p.json")["stats"]["primal_neighborhoods"], 0);
+  EXPECT_GT(plan("p.json")["stats"]["primal_lns_iterations"], 0);
   EXPECT_THAT(solve({data("first.cts.json"), "--threads", "1"}).out, HasSubstr("\n*  "));
   EXPECT_THAT(solve({"doors.json", "--omega", "inf", "--start", "p.json"}).out, HasSubstr("\nS  "));
 }
@@ -692,7 +692,7 @@ TEST_F(Incumbents, CanStartTheNextRun) {
   EXPECT_LE(plan("q.json")["cost"], plan("p.json")["cost"]);
 }
 
-TEST_F(Incumbents, AreRefusedAsAStartUnlessValid) {
+TEST_F(Incumbents, AreRefusedAsStartIfInvalid) {
   solve({"doors.json", "--omega", "inf", "--output", "p.json"});
   const auto complaint_about = [&](const json& changed) {
     directory_.write("bad.json", changed.dump());
@@ -701,7 +701,7 @@ TEST_F(Incumbents, AreRefusedAsAStartUnlessValid) {
   json changed = plan("p.json");
   changed["agents"][1]["path"][0] = {1, 1};
   EXPECT_THAT(complaint_about(changed), HasSubstr("bad.json: /agents/1/path/0: "));
-  EXPECT_THAT(complaint_about(changed), HasSubstr("not a plan of this instance"));
+  EXPECT_THAT(complaint_about(changed), HasSubstr("not a valid plan of this instance"));
   changed = plan("p.json");
   changed["cost"] = plan("p.json")["cost"].get<int>() - 1;
   EXPECT_THAT(complaint_about(changed), HasSubstr("bad.json: /cost: "));
@@ -715,14 +715,14 @@ TEST_F(Incumbents, AreRefusedAsAStartUnlessValid) {
   changed.erase("agents");
   changed.erase("cost");
   changed["status"] = "unknown";
-  EXPECT_THAT(complaint_about(changed), HasSubstr("no plan (status unknown)"));
+  EXPECT_THAT(complaint_about(changed), HasSubstr("found no plan (status unknown)"));
   EXPECT_THAT(complaint(solve({"doors.json", "--start", "nowhere.json"})),
               HasSubstr("nowhere.json"));
   EXPECT_FALSE(exists("doors.plan.json"));
 }
 
-// What a start plan claims beside its paths does not count.
-TEST_F(Incumbents, BringNoBound) {
+// The claims of a start plan are ignored; only its paths count.
+TEST_F(Incumbents, DoNotSetABoundAsStart) {
   solve({"doors.json", "--omega", "inf", "--output", "p.json"});
   json changed = plan("p.json");
   changed["lower_bound"] = changed["cost"];

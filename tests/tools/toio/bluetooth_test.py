@@ -12,7 +12,7 @@ from grove_driving.bad_input import BadInput
 from grove_toio.driver import Driver
 from grove_toio.mat import BODY
 from grove_toio.simulate import make_world
-from grove_toio.simulated import Troubles
+from grove_toio.simulated import Disturbances
 
 
 class Device:
@@ -79,7 +79,7 @@ def fake_bleak(devices):
 
 async def drive(named=(), hide=(), name="crowd", meanwhile=None):
     order, grid = plans.order(name), plans.grid(name)
-    world, simulated = make_world(order, grid, Troubles(), 1)
+    world, simulated = make_world(order, grid, Disturbances(), 1)
     devices = [Device(f"toio-{robot}", f"00:0{i}", cube) for i, (robot, cube) in enumerate(simulated.items())
                if robot not in hide]
     with mock.patch.dict(sys.modules, {"bleak": fake_bleak(devices[::-1])}):
@@ -120,7 +120,7 @@ class Bluetooth(unittest.TestCase):
         self.assertIn(text, str(caught.exception))
 
     def test_what_is_refused(self):
-        self.refused("found no cube called 'toio-x'", named=[("a0", "toio-x")])
+        self.refused("found no cube 'toio-x'", named=[("a0", "toio-x")])
         self.refused("the start of a2; expected one", hide=("a2",))
 
     def test_without_bleak(self):

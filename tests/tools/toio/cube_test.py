@@ -5,7 +5,7 @@ import unittest
 
 from grove_toio import protocol
 from grove_toio.protocol import Target
-from grove_toio.simulated import SimulatedCube, Troubles
+from grove_toio.simulated import Disturbances, SimulatedCube
 from grove_toio.world import World
 
 import plans
@@ -16,9 +16,9 @@ MAT = (0, 0, 500, 500)
 class Alone:
     """A cube, what it said, and a clock."""
 
-    def __init__(self, troubles=Troubles(noise=0.0)):
+    def __init__(self, disturbances=Disturbances(noise=0.0)):
         self.world = World(MAT)
-        self.cube = SimulatedCube("a", self.world, 100, 100, 0, troubles)
+        self.cube = SimulatedCube("a", self.world, 100, 100, 0, disturbances)
         self.responses, self.positions = [], []
         self.cube.on_motor = lambda data: self.responses.append(tuple(data))
         self.cube.on_id = lambda data: self.positions.append(protocol.read_id_notification(data))
@@ -139,5 +139,5 @@ class Sight(unittest.TestCase):
     def test_lost_messages(self):
         nowhere = Target(protocol.SAME, protocol.SAME, 0, protocol.SAME_ANGLE)
         writes = [protocol.one_target(n, nowhere, 40, 5) for n in range(200)]
-        done = play(10, *writes, cube=Alone(Troubles(loss=0.2)))
+        done = play(10, *writes, cube=Alone(Disturbances(loss=0.2)))
         self.assertTrue(90 <= len(done.responses) <= 160, len(done.responses))

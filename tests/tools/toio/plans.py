@@ -8,7 +8,7 @@ from grove_toio.clock import VirtualLoop
 from grove_toio.driver import Driver
 from grove_toio.mat import MATS, make_grid
 from grove_toio.simulate import simulate
-from grove_toio.simulated import Troubles
+from grove_toio.simulated import Disturbances
 from orders import order_file
 
 PATIENCE = 240                  # virtual seconds
@@ -34,7 +34,8 @@ def run(coroutine):
 
 def drive(name, loss=0.0, seed=0, lifts=(), seconds=PATIENCE, kind=Driver, slip=0.05, noise=1.0, **options):
     """(outcome, world)"""
-    return run(simulate(order(name), grid(name), Troubles(loss, slip, noise), seed, lifts, seconds, kind, **options))
+    return run(simulate(order(name), grid(name), Disturbances(loss, slip, noise), seed, lifts, seconds, kind,
+                        **options))
 
 
 @functools.cache

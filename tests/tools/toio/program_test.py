@@ -83,7 +83,7 @@ class Program(unittest.TestCase):
         plan = orders.folder() / "crowd.plan.json"
         for text, *arguments in (
                 ("none.json: cannot be read", missing), ("/format: found null", plan),
-                ("/ring: found 4 robots that go round", ring),
+                ("/ring: found a ring of 4 robots on cells", ring),
                 ("ORDER.json", ), ("ORDER.json", order, "--demo"), ("--moon", order, "--moon"),
                 ("--mat: found 'moon'", order, "--mat", "moon"), ("--mat: found '5,5,1,1'", order, "--mat", "5,5,1,1"),
                 ("--mat: found 304 x 216 units for 9 x 9", order, "--cells", "9x9"),
@@ -93,7 +93,7 @@ class Program(unittest.TestCase):
                 ("--speed: found '9'", order, "--speed", "9"), ("--seed", order, "--seed", "-1"),
                 ("--lift: found 'a0@1'", order, "--lift", "a0@1"), ("expected one of a0", order, "--lift", "x@1=1"),
                 ("--cube", order, "--cube", "a0=toio-x"), ("--cube", order, "--bluetooth", "--cube", "a0"),
-                ("--fast: found with --bluetooth", order, "--bluetooth", "--fast"),
+                ("--fast: requires simulated cubes; found --bluetooth", order, "--bluetooth", "--fast"),
                 ("not allowed with", order, "--bluetooth", "--simulate"),
                 ("cannot be written", order, "--log", orders.folder() / "no" / "log")):
             with self.subTest(arguments=arguments):

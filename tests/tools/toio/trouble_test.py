@@ -9,7 +9,7 @@ from grove_toio.driver import Driver
 from grove_toio.geometry import distance
 from grove_toio.mat import BODY
 from grove_toio.simulate import make_world
-from grove_toio.simulated import SimulatedCube, Troubles
+from grove_toio.simulated import Disturbances, SimulatedCube
 
 RED = "a0"                      # of the order "crowd"
 
@@ -41,7 +41,7 @@ class Lifted(unittest.TestCase):
         said = []
         self.drive([(RED, 2.0, 2.0)], say=said.append)
         self.assertIn(f"{RED} is off the mat", "\n".join(said))
-        self.assertIn(f"{RED} goes on", "\n".join(said))
+        self.assertIn(f"{RED} continues", "\n".join(said))
 
     def test_one_that_never_comes_back(self):
         done = []
@@ -60,7 +60,7 @@ class Lifted(unittest.TestCase):
             (said,) = [text for text in waits if text.startswith(f"{robot.name} waits for ")]
             after = robot.actions[done[robot.name]].after
             if "end its action" in said:
-                self.assertIn(f"waits for {after[0]} to end its action {after[1]}", said)
+                self.assertIn(f"waits for {after[0]} to end action {after[1]}", said)
                 self.assertLessEqual(done[after[0]], after[1])
 
     def test_put_back_far_away_it_is_reported_and_nobody_drives_into_it(self):
@@ -69,7 +69,7 @@ class Lifted(unittest.TestCase):
         outcome, world = self.drive([(RED, 1.5, 1.0, where)], seconds=60, say=said.append)
         cube = next(c for c in world.cubes if c.name == RED)
         if not outcome.completed:
-            self.assertIn("far from its way", "\n".join(said))
+            self.assertIn("far from its lane", "\n".join(said))
             self.assertLess(distance((cube.x, cube.y), where), 1)
 
     def test_put_back_in_the_way_of_another(self):
@@ -118,7 +118,7 @@ class Gone(SimulatedCube):
 async def drive_with(kind, name, seconds, robots=None, said=None, **attributes):
     """All cubes, or those of some robots, are of this kind."""
     order, grid = plans.order(name), plans.grid(name)
-    world, cubes = make_world(order, grid, Troubles(), 1)
+    world, cubes = make_world(order, grid, Disturbances(), 1)
     for cube in cubes.values():
         if robots is None or cube.name in robots:
             cube.__class__ = kind
@@ -151,7 +151,7 @@ class Cubes(unittest.TestCase):
             self.assertGreater(world.least, BODY)
 
     def test_codes_that_end_it_are_said(self):
-        for code, text in ((protocol.BAD_STATE, "switched off"), (protocol.UNSUPPORTED, "does not take the commands")):
+        for code, text in ((protocol.BAD_STATE, "switched off"), (protocol.UNSUPPORTED, "does not accept the commands")):
             said = []
             outcome, _ = plans.run(drive_with(Refusing, "crowd", 10, {RED}, said, code=code))
             self.assertIn(f"{RED} ", "".join(said))
@@ -161,14 +161,14 @@ class Cubes(unittest.TestCase):
     def test_one_that_falls_silent(self):
         said = []
         outcome, world = plans.run(drive_with(Gone, "crowd", 30, {RED}, said))
-        self.assertIn(f"{RED} is not heard of any more", "".join(said))
+        self.assertIn(f"{RED} has stopped sending positions", "".join(said))
         self.assertFalse(outcome.completed)
         self.assertGreater(world.least, BODY)
 
     def test_cubes_stand_after_a_drive_that_was_broken_off(self):
         async def break_off():
             order, grid = plans.order("crowd"), plans.grid("crowd")
-            world, cubes = make_world(order, grid, Troubles(), 1)
+            world, cubes = make_world(order, grid, Disturbances(), 1)
             running = asyncio.create_task(world.run())
             driving = asyncio.create_task(Driver(order, cubes, grid).drive())
             await asyncio.sleep(2)

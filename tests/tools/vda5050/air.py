@@ -17,7 +17,7 @@ from grove_vda5050.protocol import PROTOCOLS, Header, Topics
 from grove_vda5050.release import Releases
 from grove_vda5050.route import THETA, check_order, make_route
 from grove_vda5050.vehicle import SimulatedVehicle
-from grove_vda5050.watch import Watch
+from grove_vda5050.monitor import Monitor
 
 TICK = 0.1
 HEARTBEAT = 10.0
@@ -47,26 +47,26 @@ class Air:
         self.stops = stops or {}                # robot: (begin, end)
         self.topics = Topics(PROTOCOLS[version], "i", "m")
         self.complaints = []
-        self.watch = Watch(self.topics, self.complaints.append)
+        self.monitor = Monitor(self.topics, self.complaints.append)
         self.world = World(1.0)
         those = routes(name, following)
         self.control = Control(releases(order(name, following), those), style(version), "an order",
                                Limits(base, horizon), self.send, Clock(monotonic=lambda: self.now))
         self.headers = {robot: Header(PROTOCOLS[version], "m", robot) for robot in those}
-        self.vehicles, self.told = {}, {}
+        self.vehicles, self.sent_at = {}, {}
         for robot in order(name, following).robots:
             self.add(robot, those[robot.name], version)
 
     def add(self, robot, route, version):
         def tell(topic, message):
-            self.told[robot.name] = self.now
+            self.sent_at[robot.name] = self.now
             self.fly(self.hear, robot.name, topic, message)
 
         speed = self.random.uniform(0.5, 3)
         self.vehicles[robot.name] = SimulatedVehicle(PROTOCOLS[version], robot.name, "m", route.serial, route.nodes[0].at,
                                                      THETA.get(robot.heading, 0.0), self.world, tell, speed, math.pi)
         self.world.holders[route.nodes[0].id] = [self.vehicles[robot.name]]
-        self.vehicles[robot.name].tell_state()
+        self.vehicles[robot.name].publish_state()
 
     # ---- messages
 
@@ -79,7 +79,7 @@ class Air:
 
     def seen(self, serial, name, message):
         """By the one who looks on, in the order in which the broker has them."""
-        self.watch.on_message(self.topics.topic(serial, name), json.dumps(message).encode())
+        self.monitor.on_message(self.topics.topic(serial, name), json.dumps(message).encode())
 
     def send(self, robot, content):
         message = json.loads(json.dumps(self.headers[robot].message(content)))
@@ -103,7 +103,7 @@ class Air:
                 begin, end = self.stops.get(robot, (0, 0))
                 vehicle.stopped = begin <= self.now < end
                 vehicle.tick(TICK)
-                if self.now - self.told[robot] > HEARTBEAT:
-                    vehicle.tell_state()
+                if self.now - self.sent_at[robot] > HEARTBEAT:
+                    vehicle.publish_state()
             self.control.tick()
         return self.control.completed

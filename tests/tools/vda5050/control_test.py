@@ -60,7 +60,7 @@ class Drives(unittest.TestCase):
         one = air.Air("crowd", False)
         one.vehicles["a2"].x += 1
         self.assertFalse(one.drive(200))
-        self.assertTrue(any("a2 has not taken its order" in r and "orderError" in r for r in one.control.reasons()))
+        self.assertTrue(any("a2 has not accepted its order" in r and "orderError" in r for r in one.control.reasons()))
 
     def test_bases_are_no_longer_than_they_may_be(self):
         one = air.Air("many", False, base=3, horizon=2)

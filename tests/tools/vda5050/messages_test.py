@@ -5,7 +5,7 @@ import unittest
 
 import air
 from grove_vda5050.protocol import PROTOCOLS, Header
-from grove_vda5050.watch import load_validators
+from grove_vda5050.monitor import load_validators
 
 
 def messages(name, version, released=4, shown=7):

@@ -65,8 +65,8 @@ class Refusals(unittest.TestCase):
                 ("found robot 'zz'", "trial", order(), "--stop", "zz@1=2"),
                 ("found 'a0@1=never'", "trial", order(), "--stop", "a0@1=never"),
                 ("found '0'; expected an integer of at least 1", "trial", order(), "--base", "0"),
-                ("--ca-file: found without --tls", "drive", order(), "--broker", "localhost", "--ca-file", "x"),
-                ("cannot be made", "orders", order(), "-o", "/dev/null/x")):
+                ("--ca-file: requires --tls", "drive", order(), "--broker", "localhost", "--ca-file", "x"),
+                ("cannot be created", "orders", order(), "-o", "/dev/null/x")):
             with self.subTest(said=said):
                 self.refused(said, *arguments)
 
@@ -103,8 +103,8 @@ class OverABroker(unittest.TestCase):
             code, out, err = run("trial", order("many"), *FAST, "--protocol", "3.0", "--delayed", "0.05", "--delay", "1",
                                  "--stop", "a1@1=2", "--log", log)
             self.assertEqual((code, err), (0, ""), out)
-            for said in ("Vehicles      9 of 9 done", "nobody drove to where another was", "Released      nothing wrong",
-                         "all checked by the schemas of 3.0.0"):
+            for said in ("Vehicles      9 of 9 done", "no vehicle drove to an occupied place",
+                         "Released      nothing wrong", "all checked by the schemas of 3.0.0"):
                 self.assertIn(said, out)
             lines = [json.loads(line) for line in log.read_text().splitlines()]
             self.assertEqual((lines[0]["format"], len(lines[0]["robots"])), ("grove drive 1", 9))
@@ -127,7 +127,7 @@ class OverABroker(unittest.TestCase):
             out, err = drive.communicate(timeout=120)
             self.assertEqual((drive.returncode, err), (0, ""), out)
             self.assertIn("6 of 6 done", out)
-            for process, number, said in ((vehicles, signal.SIGTERM, "nobody drove to where"),
+            for process, number, said in ((vehicles, signal.SIGTERM, "no vehicle drove to an occupied place"),
                                           (watch, signal.SIGINT, "Released      nothing wrong")):
                 process.send_signal(number)
                 out, err = process.communicate(timeout=120)
@@ -139,8 +139,8 @@ class OverABroker(unittest.TestCase):
             code, out, err = run("drive", order("narrow"), "--broker", broker, "--time-limit", "1")
             self.assertEqual(code, 1)
             self.assertIn("0 of 2 done", out)
-            self.assertEqual(err, "grove: error: not done within 1 s: up (up) was not heard of; down (down) was not "
-                                  "heard of\n")
+            self.assertEqual(err, "grove: error: not done within 1 s: up (up) has sent no state; down (down) has "
+                                  "sent no state\n")
 
     def test_signals(self):
         with own_broker() as broker:

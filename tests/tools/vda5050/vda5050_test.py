@@ -12,4 +12,4 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "driving"))
 import suite  # noqa: E402
 
 sys.exit(suite.run(__file__, ["route_test", "release_test", "messages_test", "vehicle_test", "control_test",
-                              "watch_test", "pace_test", "program_test"]))
+                              "monitor_test", "pace_test", "program_test"]))

@@ -102,4 +102,4 @@ class Vehicle(unittest.TestCase):
             one = air.Air("work", False, version)
             self.assertTrue(one.drive())
             self.assertEqual(one.complaints, [])
-            self.assertGreater(one.watch.messages["state"], 100)
+            self.assertGreater(one.monitor.messages["state"], 100)

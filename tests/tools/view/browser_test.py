@@ -131,7 +131,7 @@ class TwoPlans(PageTest):
         self.assertEqual(self.texts(".row"), ["b2 → 4 (+2)", "c1 → 2 (+1)"])
         self.assertEqual(self.texts(".pair .moment"), ["1", "1"])
         self.assertIn("cost 8 (+3, +60 %)", self.texts(".plan .claim"))
-        self.choose_option("In which order", "name")
+        self.choose_option("Sort order", "name")
         self.assertEqual(self.texts(".row")[0], "b2 → 4 (+2)")
 
     def test_a_row_chooses_in_both_and_its_moment_leads_to_the_parting(self):
@@ -168,7 +168,7 @@ class TwoPlans(PageTest):
         self.assertIn("cannot be compared", self.text(".filters"))
         self.assertEqual(self.texts(".row"), ["a2 → no path"])
         self.press("a", ".pair .row")
-        self.assertIn("It has no path.", self.text(".details"))
+        self.assertIn("The plan has no path for this robot.", self.text(".details"))
 
     def test_a_file_without_a_plan(self):
         self.open_both(self.good(), None)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each kind of thing that can be wrong with a plan, and plans with which nothing is.
+// Each kind of violation, and valid plans.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { check, Checker } from "../../../tools/view/page/check";
@@ -20,20 +20,20 @@ test("a valid plan on a grid", () => {
   assert.deepEqual(one("@0;.3E5.", { cost: 4 }), []);
 });
 
-test("collisions", () => {
+test("collisions are found", () => {
   const two: AgentData[] = [{ id: "a", start: 0, goal: 3 }, { id: "b", start: 3, goal: 0 }];
   const meet = (a: string, b: string) => found(kGrid, two, [], [{ path: a }, { path: b }]);
   assert.deepEqual(meet("@0;3E", "@3;3W"), ["swap 2"]);
   assert.deepEqual(meet("@0;E.2E", "@3;3W"), ["vertex 2"]);
-  // At rest on the way of another, for ever.
+  // A robot at rest on the path of another.
   assert.deepEqual(found(kGrid, [{ id: "a", start: 1, goal: 1 }, { id: "b", start: 0, goal: 3 }], [],
     [{ path: "@1;" }, { path: "@0;3E" }]), ["vertex 1"]);
-  // Following and rotating are none.
+  // Following and rotating are not collisions.
   assert.deepEqual(found(kGrid, [{ id: "a", start: 1, goal: 2 }, { id: "b", start: 0, goal: 1 }], [],
     [{ path: "@1;E" }, { path: "@0;E" }]), []);
 });
 
-test("a collision is told once, however long it lasts", () => {
+test("a long collision is reported once", () => {
   const both: AgentData[] = [{ id: "a", start: 0 }, { id: "b", start: 3 }];
   assert.deepEqual(found(kGrid, both, [], [{ path: "@0;2E9." }, { path: "@3;2W8.E" }]), ["swap 2", "vertex 11"]);
   assert.deepEqual(found(kGrid, both, [], [{ path: "@0;2E9." }, { path: "@3;W4.E3.W" }]), ["vertex 2", "vertex 10"]);
@@ -42,22 +42,22 @@ test("a collision is told once, however long it lasts", () => {
     ["vertex 2", "vertex 2"]);
 });
 
-test("starts, jumps and blocked cells", () => {
+test("wrong starts, jumps and blocked cells are found", () => {
   assert.deepEqual(one("@1;2E"), ["start 0"]);
   assert.deepEqual(one("@0;@2;E"), ["jump 1"]);
   assert.deepEqual(one("@0;ESN2E"), ["jump 2"], "into the blocked cell");
-  // From the right edge to the left one: next numbers, no neighbors.
+  // From the right edge to the left edge: consecutive numbers, but not neighbours.
   assert.ok(found(kGrid, [{ id: "a", start: 3, goal: 4 }], [], [{ path: "@3;E" }]).includes("jump 1"));
 });
 
-test("ends", () => {
+test("wrong ends are found", () => {
   assert.deepEqual(one("@0;2E"), ["end 2"]);
   assert.deepEqual(found(kGrid, [{ id: "a", start: 0 }], [{ id: "t", place: 1, agents: [0] }],
     [{ path: "@0;2E" }]), ["end 2"]);
   assert.deepEqual(found(kGrid, [{ id: "a", start: 0 }], [], [{ path: "@0;2E" }]), [], "idle");
 });
 
-test("visits and their order", () => {
+test("missing visits and wrong orders are found", () => {
   const tasks = [{ id: "t", place: 1, agents: [0] }, { id: "u", place: 6, agents: [0] }];
   const visit = (path: string, order: number[]) => found(kGrid, [kOne], tasks, [{ path, tasks: order }]);
   assert.deepEqual(visit("@0;2ESNE", [0, 1]), []);
@@ -66,7 +66,7 @@ test("visits and their order", () => {
   assert.deepEqual(visit("@0;3E", [0, 1]), ["visit 3", "order 3"]);
 });
 
-test("costs and claims", () => {
+test("wrong costs and claims are found", () => {
   assert.deepEqual(one("@0;3E", { cost: 4 }), ["cost 3"]);
   const claim = (claims: object) => found(kGrid, [kOne], [], [{ path: "@0;3E", cost: 3 }], claims);
   assert.deepEqual(claim({ cost: 3, status: "optimal", lower_bound: 3, omega: "0" }), []);
@@ -82,7 +82,7 @@ test("costs and claims", () => {
   assert.deepEqual(claim({ cost: 3, status: "optimal", lower_bound: 4, omega: "0" }), ["claim 3"]);
 });
 
-test("omega is exact, however it is written", () => {
+test("omega is exact in all notations", () => {
   const cost = 100_001; // above a bound of 100,000 by a hundred-thousandth of it
   const claim = (status: string, omega: string) => found(kGrid, [kOne], [],
     [{ path: `@0;${cost - 3}.3E`, cost }], { cost, status, lower_bound: cost - 1, omega });
@@ -93,7 +93,7 @@ test("omega is exact, however it is written", () => {
   assert.deepEqual(claim("bounded", "9.999e-06"), [`claim ${cost}`]);
 });
 
-test("roads and their directions", () => {
+test("moves against one-way roads are found", () => {
   const go = (start: number, goal: number, path: string) =>
     found(kRoads, [{ id: "a", start, goal }], [], [{ path }]);
   assert.deepEqual(go(0, 2, "@0;@3;+@1;@5;@2;"), []);
@@ -107,7 +107,7 @@ const kTurning: AgentData = { id: "a", start: 0, goal: 3, turn: 2, angle: "0" };
 const turning = (path: string, turns: string, more: object = {}) =>
   found(kGrid, [{ ...kTurning, ...more }], [], [{ path, turns }]);
 
-test("turning", () => {
+test("wrong turns are found", () => {
   assert.deepEqual(turning("@0;2.3E", "@0;2r3."), []);
   assert.deepEqual(turning("@0;3E2.", "@0;3.2r"), ["turn 1", "turn 2", "turn 3"], "moves that are not ahead");
   assert.deepEqual(turning("@0;.3E.", "@0;r3.r"), ["turn 2", "turn 3", "turn 4"], "moves within a turn");
@@ -119,7 +119,7 @@ test("turning", () => {
   assert.deepEqual(turning("@0;2.3E2.", "@0;2r3.2r", { goalAngle: 4 }), []);
 });
 
-test("work", () => {
+test("wrong work is found", () => {
   const tasks = [{ id: "t", place: 1, agents: [0], duration: 2 }, { id: "u", place: 2, agents: [0], duration: 1 }];
   const work = (path: string, pieces: number[][], more: object = {}) =>
     found(kGrid, [{ ...kOne, ...more }], tasks, [{ path, work: pieces }]);
@@ -133,15 +133,15 @@ test("work", () => {
   assert.deepEqual(work("@0;E2.E.E", good, { working: [0, 1] }), ["work 0"], "does not go on");
 });
 
-test("agents without a path", () => {
+test("agents without a path are found", () => {
   assert.deepEqual(one(""), ["path 0"]);
 });
 
-test("a long path with many tasks does not hold the page up", (context) => {
+test("a long path with many tasks does not block the page", (context) => {
   const tasks = Array.from({ length: 64 }, (_, k) => ({ id: `t${k}`, place: k % 4, agents: [0] }));
   const m = model(kGrid, [kOne], tasks, [{ path: `@0;${"EW".repeat(200_000)}3E` }]);
   const checker = new Checker(m, m.plans[0]);
-  // By a clock on which each part takes a millisecond: it stops in time, and there are many parts.
+  // With a clock on which each part takes a millisecond, the check stops in time and has many parts.
   let time = 0;
   context.mock.method(performance, "now", () => time++);
   let steps = 1;
@@ -153,7 +153,7 @@ test("a long path with many tasks does not hold the page up", (context) => {
   assert.ok(steps > 50, `${steps} steps`);
 });
 
-test("many robots for long are checked", () => {
+test("many robots with long paths are checked", () => {
   const wide = { kind: "grid", width: 50, height: 10_000, free: "500000" };
   const agents = Array.from({ length: 10_000 }, (_, y) => ({ id: `a${y}`, start: 50 * y, goal: 50 * y }));
   const m = model(wide, agents, [], agents.map(({ start }) => ({ path: `@${start};${"20E5.20W5.".repeat(20)}` })));

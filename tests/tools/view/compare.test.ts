@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What two plans differ in: by how much, from when on, and whether it can be said at all.
+// Differences between two plans: costs, first different moment, missing paths.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { App } from "../../../tools/view/page/app";
@@ -22,7 +22,7 @@ const parts = (one: object, other: object, agent = kFree, tasks: object[] = []) 
   return partingTime(a, b);
 };
 
-test("paths part where they are not on one place any more", () => {
+test("paths differ from the first different place on", () => {
   assert.equal(parts({ path: "@0;3E" }, { path: "@0;3E" }), Infinity);
   assert.equal(parts({ path: "@0;3E" }, { path: "@0;2EE5." }), Infinity, "however it is written");
   assert.equal(parts({ path: "@0;3E" }, { path: "@0;2E.E" }), 3);
@@ -33,26 +33,26 @@ test("paths part where they are not on one place any more", () => {
   assert.equal(parts({ path: "@0;2S2N" }, { path: "@0;2S@4;N" }), Infinity);
 });
 
-test("a path and none part at once; none and none never", () => {
+test("a missing path differs at once from a path", () => {
   assert.equal(parts({ path: "@0;3E" }, { path: "" }), 0);
   assert.equal(parts({ path: "" }, { path: "" }), Infinity);
 });
 
-test("headings part, too", () => {
+test("different headings are differences", () => {
   const turn = (turns: string) => ({ path: "@0;6.", turns });
   assert.equal(parts(turn("@0;6."), turn("@0;4.2r"), kTurning), 5);
   assert.equal(parts(turn("@0;2r4."), turn("@0;2r4."), kTurning), Infinity);
   assert.equal(parts(turn("@0;2r4l"), turn("@0;2r2l2."), kTurning), 5);
 });
 
-test("so does work on the same place", () => {
+test("different work on one place is a difference", () => {
   const tasks = [{ id: "t", place: 0, agents: [0], duration: 2 }];
   const work = (begin: number) => ({ path: "@0;6.", work: [[0, begin, begin + 2]] });
   assert.equal(parts(work(1), work(1), kFree, tasks), Infinity);
   assert.equal(parts(work(1), work(3), kFree, tasks), 1);
 });
 
-test("robots that differ, with their costs and the order of their visits", () => {
+test("differences have costs and the order of visits", () => {
   const agents = [kFree, { id: "b", start: 11 }, { id: "c", start: 8 }];
   const tasks = [{ id: "t", place: 1, agents: [0] }, { id: "u", place: 4, agents: [0] }];
   const found = comparison(agents, tasks,
@@ -66,13 +66,13 @@ test("robots that differ, with their costs and the order of their visits", () =>
   assert.equal(found.by, 4);
 });
 
-test("where a path is missing, costs are not compared", () => {
+test("costs are not compared if a path is missing", () => {
   const found = comparison([kFree, { id: "b", start: 11 }], [],
     [{ path: "@0;E" }, { path: "@11;W" }], [{ path: "" }, { path: "@11;W" }]);
   assert.deepEqual(found.all, [{ agent: 0, costs: [1, NaN], by: NaN, parts: 0, orders: false }]);
   assert.ok(Number.isNaN(found.by));
 });
 
-test("one plan is compared with none", () => {
+test("one plan alone is not compared", () => {
   assert.equal(new App(model(kGrid, [kFree], [], [{ path: "@0;E" }])).comparison, null);
 });

@@ -43,7 +43,7 @@ class Controls(PageTest):
         self.browser.call("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)])
 
     def test_time(self):
-        for title, expected in (("A step on", 1), ("To the end", 35), ("A step back", 34), ("To the beginning", 0)):
+        for title, expected in (("One step forward", 1), ("To the end", 35), ("One step back", 34), ("To the beginning", 0)):
             self.button(title)
             self.assertEqual(self.state("player.time"), expected)
         self.keys("PageDown", "PageDown", "PageUp", "ArrowRight")
@@ -157,12 +157,12 @@ class Controls(PageTest):
 
     def test_a_long_wait_is_an_event_that_can_be_found(self):
         self.press("Events", ".tabs button")
-        self.choose_option("Which events", "wait")
+        self.choose_option("Kind of events", "wait")
         self.assertEqual(self.texts(".row span[dir]"), ["blue waits 4 steps for red to pass"])
         self.keys("n")
-        self.press("only of red", ".filter button")
+        self.press("only robot red", ".filter button")
         self.assertEqual(self.texts(".row"), [])
-        self.press("only of red", ".filter button")
+        self.press("only robot red", ".filter button")
         time = self.text(".row .note")
         self.go(30)
         self.press("blue waits", ".row")
@@ -173,7 +173,7 @@ class Controls(PageTest):
         self.browser.settle()
         self.assertEqual(self.text(".details h2"), "blue")
         self.assertEqual(self.evaluate("document.activeElement.className"), "row")
-        self.choose_option("Which events", "all")
+        self.choose_option("Kind of events", "all")
         self.evaluate("(s => (s.value = 'dock', s.dispatchEvent(new Event('input'))))(document.querySelector('input[type=search]'))")
         self.assertEqual(self.texts(".row span[dir]"), ["dock is done", "4: dock"])
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A drive's columns, its log, and where robots are between two sightings.
+// Columns and log of a drive, and positions of robots between two observations.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -52,7 +52,7 @@ function dice(seed = 1): (below: number) => number {
   return (below) => (state = (state * 48271) % 2147483647) % below;
 }
 
-test("the last sighting by a time, asked for in any order", () => {
+test("the last observation is found for times in any order", () => {
   const sightings = new Sightings();
   const times: number[] = [];
   let time = 0;
@@ -70,7 +70,7 @@ test("the last sighting by a time, asked for in any order", () => {
   }
 });
 
-test("one that moves goes straight, one that stands does so until shortly before it is seen elsewhere", () => {
+test("moving robots go straight, standing robots wait", () => {
   const { model, drive } = read(
     line(0, "a", [0, 0], 0, "moving", 350), line(4, "a", [2, 0], 0, "waiting", 10),
     line(9, "a", [3, 0], 1, "done"));
@@ -89,7 +89,7 @@ test("one that moves goes straight, one that stands does so until shortly before
   assert.deepEqual([now.xs[1], now.ys[1]], [0.5, 1.5]); // not seen yet: at its start
 });
 
-test("lines that share a time: the last one counts from then on, none of them before", () => {
+test("of lines with one time the last one counts", () => {
   const draw = dice();
   for (let round = 0; round < 200; ++round) {
     const events: { t: number; x: number }[] = [];
@@ -111,7 +111,7 @@ test("lines that share a time: the last one counts from then on, none of them be
   }
 });
 
-test("what is visited when, and who waits for whom", () => {
+test("visits and waits have their times and robots", () => {
   const { model, order, drive } = read(
     line(0.5, "a", [0, 0], 0, "moving"), line(1, "a", [1, 0], 1, "waiting"),
     line(2, "b", [0, 1], 0, "lost"), line(6, "b", [1, 1], 1, "moving"), line(8, "a", [2, 0], 2, "moving"));
@@ -124,7 +124,7 @@ test("what is visited when, and who waits for whom", () => {
   assert.equal(order.planTime(0, drive.actionsAt(0, 8)), 2);
 });
 
-test("logs that grow in pieces", () => {
+test("a log may grow in pieces", () => {
   const text = log(kHeader, line(1, "a", [1, 0], 1, "moving"), line(2, "b", [1, 1], 2, "done"));
   const model = readModel(kModel);
   const one = new Log(model, Order.read(kOrder, model));
@@ -133,7 +133,7 @@ test("logs that grow in pieces", () => {
   assert.equal(one.drive.end, 2);
 });
 
-test("lines that are wrong are left out, and counted", () => {
+test("wrong lines are skipped and counted", () => {
   const good = line(1, "a", [1, 0], 1, "moving");
   const after = (...events: object[]) => follow(log(kHeader, ...events, { ...good, t: 9 }));
   const wrong = (expected: RegExp, ...events: object[]) => {
@@ -155,7 +155,7 @@ test("lines that are wrong are left out, and counted", () => {
   assert.equal(troubleText(two), "⚠ 2 lines of the log left out: line 2: t: expected seconds from 0 on");
 });
 
-test("without its first line a log is none", () => {
+test("a log without its first line is refused", () => {
   const none = (expected: RegExp, text: string) => {
     const one = follow(text + log(line(1, "a", [1, 0], 1, "moving")));
     assert.match(troubleText(one), expected);
@@ -180,7 +180,7 @@ function columns(first: object = {}, all: object = {}) {
   return readDrive(JSON.stringify({ ...kColumns, robots, ...all }), model, Order.read(kOrder, model));
 }
 
-test("columns of differences", () => {
+test("columns of differences are read", () => {
   const drive = columns();
   const [robot] = drive.robots;
   assert.equal(drive.secondsPerStep, 2);
@@ -194,7 +194,7 @@ test("columns of differences", () => {
   assert.deepEqual(drive.completedAt[0], [2, 2, 2]);
 });
 
-test("columns that are wrong say where", () => {
+test("wrong columns are refused with their position", () => {
   assert.throws(() => columns({ x: [1] }), /robots\[0\].x: expected a list of 2/);
   assert.throws(() => columns({ y: [1, 0.5] }), /robots\[0\].y: expected a list of whole numbers/);
   assert.throws(() => columns({ t: [5, -1] }), /robots\[0\].t: expected times in their order/);
@@ -204,7 +204,7 @@ test("columns that are wrong say where", () => {
   assert.throws(() => columns({}, { robots: [] }), /robots: expected a list of 2/);
 });
 
-test("how late robots are, and for what", () => {
+test("delays refer to the next action", () => {
   const { model, order, drive } = read(
     line(0, "a", [0, 0], 0, "moving"), line(2.5, "a", [1, 0], 1, "moving"), line(9, "a", [3, 0], 3, "done"));
   const app = new DriveApp(model, order, drive, false);
@@ -214,7 +214,7 @@ test("how late robots are, and for what", () => {
   assert.equal(lateSentence(app, 0, 20), "0:06 late: at 1 s a step, the plan ends its last action at 0:03.");
 });
 
-test("live time keeps near to what comes, and is left by going back", () => {
+test("live time follows the log until the user goes back", () => {
   const player = new DrivePlayer(true);
   player.end = 100;
   player.advance(0.1);
@@ -241,7 +241,7 @@ test("live time keeps near to what comes, and is left by going back", () => {
   assert.equal(player.live, true);
 });
 
-test("times as they are read", () => {
+test("times have a readable format", () => {
   assert.deepEqual([0, 59.9, 61, 3661].map(clockText), ["0:00", "0:59", "1:01", "1:01:01"]);
   assert.equal(new Drive(readModel(kModel)).stateAt(0, 5), kStates.indexOf("waiting"));
 });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who is red when: those who collide, and those who do what they may not.
+// Robots that are red at a moment: those that collide or violate a rule.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { check } from "../../../tools/view/page/check";
@@ -7,7 +7,7 @@ import { planFacts } from "../../../tools/view/page/facts";
 import { Frame } from "../../../tools/view/page/frame";
 import { kGrid, kRoads, model } from "./models";
 
-// {time: robots that are red then}, in half steps; times without any are left out.
+// {time: red robots}, in half steps, without times that have none.
 function red(...parts: Parameters<typeof model>): Record<number, string> {
   const m = model(...parts);
   const [plan] = m.plans;
@@ -23,34 +23,34 @@ function red(...parts: Parameters<typeof model>): Record<number, string> {
 
 const kTwo = [{ id: "a", start: 0 }, { id: "b", start: 3 }];
 
-test("nobody in a good plan", () => {
+test("no robot is red in a valid plan", () => {
   assert.deepEqual(red(kGrid, kTwo, [], [{ path: "@0;E" }, { path: "@3;W" }]), {});
 });
 
-test("two on one place, while they are", () => {
+test("two robots on one place are red while they are there", () => {
   assert.deepEqual(red(kGrid, kTwo, [], [{ path: "@0;2ES" }, { path: "@3;.W.W" }]),
     { 1.5: "ab", 2: "ab", 2.5: "ab" });
 });
 
-test("an exchange of places, in its step and at its end", () => {
+test("a swap is red during its step and at its end", () => {
   assert.deepEqual(red(kGrid, kTwo, [], [{ path: "@0;3E" }, { path: "@3;3W" }]), { 1.5: "ab", 2: "ab" });
 });
 
-test("an exchange of places on a road", () => {
+test("a swap on a road is red", () => {
   assert.deepEqual(red(kRoads, [{ id: "a", start: 1 }, { id: "b", start: 5 }], [], [{ path: "@1;@5;" }, { path: "@5;@1;" }]),
     { 0.5: "ab", 1: "ab" });
 });
 
-test("who jumps, in that step alone", () => {
+test("a jump is red only in its step", () => {
   assert.deepEqual(red(kGrid, kTwo, [], [{ path: "@0;@2;5." }, { path: "@3;" }]), { 0.5: "a", 1: "a" });
 });
 
-test("who goes where it does not look", () => {
+test("a move against the heading is red", () => {
   assert.deepEqual(red(kGrid, [{ id: "a", start: 0, turn: 1, angle: "0" }], [], [{ path: "@0;.E2.", turns: "@0;4." }]),
     { 1.5: "a", 2: "a" });
 });
 
-test("who ends on the wrong place, from then on", () => {
+test("a wrong end is red from then on", () => {
   assert.deepEqual(red(kGrid, [{ id: "a", start: 0, goal: 2 }], [], [{ path: "@0;E" }]),
     { 1: "a", 1.5: "a", 2: "a", 2.5: "a", 3: "a" });
 });

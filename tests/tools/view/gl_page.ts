@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A page that paints robots by WebGL and says which colours it sees where they should be.
+// A page that paints robots by WebGL and reports the colours at their positions.
 
 import { Camera } from "../../../tools/view/page/camera";
 import { kLight } from "../../../tools/view/page/colors";
@@ -49,7 +49,7 @@ function pixels(): Record<string, string> {
   return seen;
 }
 
-// Milliseconds of a frame with so many robots, of the page's own code.
+// Milliseconds per frame with `count` robots, for the page's own code.
 function milliseconds(count: number): number {
   const side = Math.ceil(Math.sqrt(2 * count));
   const agents = Array.from({ length: count }, (_, i) => ({ id: `a${i}`, start: 2 * i }));

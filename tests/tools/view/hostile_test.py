@@ -139,7 +139,7 @@ class Hostile(PageTest):
         page.write_text(re.sub(r'<script type="application/json".*?</script>', "", page.read_text(encoding="utf-8"), flags=re.S),
                         encoding="utf-8")
         self.open(page)
-        self.assertEqual(self.text(".failure p"), "this page holds no data")
+        self.assertEqual(self.text(".failure p"), "this page contains no data")
         self.assert_harmless()
 
     def test_this_test_sees_scripts_that_run(self):

@@ -21,7 +21,7 @@ export function incumbent(more: object): object {
 
 export function counts(numbers: object, more: object = {}): object {
   return { event: "counts", time_s: 1, counts: numbers,
-    memory_mb: { process: 10, nodes: 1, prices: 1, path_sets: 1, groups: 1 }, ...more };
+    memory_mb: { process: 10, nodes: 1, subproblems: 2, mdds: 3, dependencies: 4 }, ...more };
 }
 
 export function root(number: number): object {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Ids as they are shown.
+// Ids as displayed.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { labelsOf, nameOf } from "../../../tools/view/page/names";
 
-test("most ids are shown as they are", () => {
+test("most ids are shown unchanged", () => {
   for (const id of ["a4", "<b>x</b>", "Ünïcödé 机器人 🤖", "a b", "&amp;"]) assert.equal(nameOf(id), id);
 });
 
-test("what is not seen, or turns the text around it, is shown as a box", () => {
+test("invisible and direction characters are shown as boxes", () => {
   assert.equal(nameOf("a\u202Eb\u0000c\nd"), "a▯b▯c▯d");
   assert.equal(nameOf("\u200b\u2067"), "▯▯");
 });
@@ -19,15 +19,15 @@ test("long ids are cut between characters", () => {
   assert.ok(name.endsWith("🤖…"));
 });
 
-test("from right to left, by itself", () => {
+test("right-to-left ids are isolated", () => {
   assert.equal(nameOf("רובוט"), "\u2068רובוט\u2069");
 });
 
-test("none at all", () => {
+test("an empty id is shown", () => {
   assert.equal(nameOf(""), "(no name)");
 });
 
-test("labels keep what tells robots apart", () => {
+test("labels keep the parts that differ", () => {
   assert.deepEqual(labelsOf(["a1", "a10", "b"], 6), ["a1", "a10", "b"]);
   assert.deepEqual(labelsOf(["robot-17", "robot-170"], 6), ["17", "170"]);
   assert.deepEqual(labelsOf(["agent12", "agent130"], 6), ["12", "130"]);

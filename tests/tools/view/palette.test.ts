@@ -1,51 +1,35 @@
 // SPDX-License-Identifier: MIT
-// The page's canvases, its style and the pictures of C++ have the same colours and measures.
+// All colours are in palette.json, and can be distinguished.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
-import { kDark, kLight, type Colors } from "../../../tools/view/page/colors";
+import { kDark, kLight } from "../../../tools/view/page/colors";
+import palette from "../../../tools/view/palette.json";
 
 declare const process: { env: Record<string, string> };
-const source = (name: string) => readFileSync(`${process.env.GROVE_VIEW_SOURCES}/${name}`, "utf8");
-const drawing = source("picture/drawing.cpp") + source("picture/shapes.h");
+const folder = process.env.GROVE_VIEW_SOURCES;
+const source = (name: string) => readFileSync(`${folder}/${name}`, "utf8");
+const sources = ["page", "page/panels", "run", "drive", "drive/panels", "proof", "proof/panels", "picture"]
+  .flatMap((name) => readdirSync(`${folder}/${name}`).map((file) => `${name}/${file}`))
+  .filter((name) => /\.(ts|css|cpp|h|in)$/.test(name));
 
-test("pictures are in the colours of the light page", () => {
-  const found = [...drawing.matchAll(/^constexpr Color k(\w+) = hex\(0x([0-9a-f]{6})\);/gm)];
-  assert.ok(found.length >= 12);
-  for (const [, name, value] of found) {
-    const key = (name[0].toLowerCase() + name.slice(1)) as keyof Colors;
-    assert.equal(`#${value}`, kLight[key], name);
-  }
-  const doing = /kDoing\{([^}]*)\}/.exec(drawing)![1];
-  assert.deepEqual([...doing.matchAll(/0x([0-9a-f]{6})/g)].map((m) => `#${m[1]}`), kLight.doing);
+test("palette.json is the only file with colours", () => {
+  assert.ok(sources.length > 60);
+  for (const name of sources) assert.doesNotMatch(source(name), /#[0-9a-f]{6}|#[0-9a-f]{3}\b|hex\(0x[0-9a-f]/i, name);
 });
 
-// What each variable of the style is on the canvases.
-const style: [string, (c: Colors) => string][] = [
-  ["moving", (c) => c.doing[0]], ["waiting", (c) => c.doing[1]], ["working", (c) => c.doing[2]],
-  ["resting", (c) => c.doing[3]], ["collision", (c) => c.collision], ["chosen", (c) => c.chosen],
-  ["text", (c) => c.text], ["task", (c) => c.taskOpen], ["task-begun", (c) => c.taskBegun],
-  ["task-done", (c) => c.taskDone], ["task-line", (c) => c.task],
-];
-
-test("the legend is in the colours of the canvases", () => {
-  const [light, dark] = source("page/style.css").split("prefers-color-scheme: dark");
-  for (const [text, colors] of [[light, kLight], [dark, kDark]] as const)
-    for (const [name, color] of style)
-      assert.equal(new RegExp(`--${name}: (#[0-9a-f]{6});`).exec(text)?.[1], color(colors), `${colors.name} ${name}`);
+test("styles and pictures name values of the palette", () => {
+  let count = 0;
+  for (const name of sources.filter((name) => /\.(css|in)$/.test(name)))
+    for (const [, path] of source(name).matchAll(/@([\w.]+)@/g)) {
+      const value = path.split(".").reduce((part, key) => part?.[key], palette as any);
+      assert.match(String(value), path.startsWith("shapes.") ? /^[0-9.]+$/ : /^#[0-9a-f]+$/, `${name}: ${path}`);
+      ++count;
+    }
+  assert.ok(count > 90);
 });
 
-test("robots, tasks, destinations and roads have the same measures in pictures", () => {
-  const page = ["world", "robots", "scenery", "tasks_canvas"].map((name) => source(`page/${name}.ts`)).join("\n");
-  for (const name of ["kBend", "kMargin", "kRadius", "kGoalRadius", "kTaskRadius", "kRoomOfName", "kMostStacked"]) {
-    const value = (text: string, pattern: string) =>
-      Number(new RegExp(`${pattern} ${name} = ([0-9.]+);`).exec(text)?.[1]);
-    assert.ok(value(page, "const") > 0, name);
-    assert.equal(value(drawing, "constexpr (?:double|int)"), value(page, "const"), name);
-  }
-});
-
-// Of a colour: how bright it is, from 0 to 1, as WCAG has it.
+// Relative luminance of a colour by WCAG, from 0 to 1.
 function luminance(color: string): number {
   const [r, g, b] = [1, 3, 5].map((at) => parseInt(color.slice(at, at + 2), 16) / 255)
     .map((v) => (v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4));
@@ -57,7 +41,7 @@ function contrast(a: string, b: string): number {
   return (bright + 0.05) / (dark + 0.05);
 }
 
-test("what is to be told apart has contrast", () => {
+test("text and shapes have contrast", () => {
   for (const colors of [kLight, kDark]) {
     assert.ok(contrast(colors.text, colors.floor) > 7, `${colors.name}: text`);
     for (const color of [colors.doing[0], colors.collision])
@@ -71,7 +55,7 @@ test("what is to be told apart has contrast", () => {
   }
 });
 
-// Colours as those see them who lack one kind of cone (Vienot, Brettel and Mollon 1999), linear rgb.
+// Colours as seen by people without one kind of cone (Vienot, Brettel and Mollon 1999), in linear RGB.
 const kLack = {
   red: [[0.11238, 0.88762, 0], [0.11238, 0.88762, 0], [0.00401, -0.00401, 1]],
   green: [[0.29275, 0.70725, 0], [0.29275, 0.70725, 0], [-0.02234, 0.02234, 1]],
@@ -82,7 +66,7 @@ function seen(color: string, lack: keyof typeof kLack): number[] {
   return kLack[lack].map((row) => Math.max(0, row.reduce((sum, v, i) => sum + v * linear[i], 0)) ** (1 / 2.2));
 }
 
-test("who sees no red or no green tells apart what robots do", () => {
+test("activities of robots are distinct without red or green", () => {
   for (const colors of [kLight, kDark])
     for (const lack of ["red", "green"] as const) {
       const all = colors.doing.map((color) => seen(color, lack));

@@ -39,13 +39,13 @@ class Planted(PageTest):
         """The list of events tells it, and a click leads there."""
         self.go(0)
         self.press("Events", ".tabs button")
-        self.choose_option("Which events", "wrong")
+        self.choose_option("Kind of events", "wrong")
         self.assertEqual(self.texts(".row.bad span[dir]"), [text])
         self.press(text, ".row.bad")
         self.assertEqual(self.text(".clock").split(" ")[0], str(time))
         self.assertEqual(self.red(), red[time])
         self.assertIn(self.text(".details h2"), red[time])
-        self.assertEqual(self.texts(".details h4.bad"), ["Wrong"])
+        self.assertEqual(self.texts(".details h4.bad"), ["Problems"])
 
     # The third robot, c, does nothing wrong.
     def grid_of(self, *agents):
@@ -84,12 +84,12 @@ class Planted(PageTest):
     def test_a_turn_that_goes_back_on_itself(self):
         instance = self.grid_of(turning(3, 1, "E", turn_steps=2))
         path = [[3, 1, "E"], [3, 1, "E", "S", 1], [3, 1, "E"], [4, 1, "E"]]
-        self.check(instance, self.with_c(a=path), {0: "", 1: "", 1.5: "a", 2: "a", 3: ""}, (2, "a turns in a way that is no step of a turn"))
+        self.check(instance, self.with_c(a=path), {0: "", 1: "", 1.5: "a", 2: "a", 3: ""}, (2, "a turns in a way that is not a step of a turn"))
 
     def test_a_step_that_is_none(self):
         instance = self.grid_of({"id": "a", "start": [0, 1]})
         plan = self.with_c(a=cells((0, 1), (1, 1), (3, 1), (4, 1)))
-        self.check(instance, plan, {1: "", 1.5: "a", 2: "a", 3: ""}, (2, "a goes from [1, 1] to [3, 1], which is no step"))
+        self.check(instance, plan, {1: "", 1.5: "a", 2: "a", 3: ""}, (2, "a goes from [1, 1] to [3, 1], which is not a possible step"))
 
     def test_a_step_into_a_wall(self):
         instance = self.grid(4, 2, [{"id": "a", "start": [0, 0]}], rows=["..@.", "...."])
@@ -155,7 +155,7 @@ class Planted(PageTest):
     def test_of_what_mapf_visualizer_reads(self):
         plan = self.other("solution=\n0:(0,1),(3,1),\n1:(1,1),(3,2),\n2:(2,1),(2,2),\n3:(2,2),(1,2),\n4:(4,1),(0,2),\n5:(4,1),(0,1),\n")
         self.check(self.crossing(), plan, {2: "", 3: "", 3.5: "a", 4: "a", 5: ""},
-                   (4, "a goes from [2, 2] to [4, 1], which is no step"))
+                   (4, "a goes from [2, 2] to [4, 1], which is not a possible step"))
 
     def test_this_test_sees_robots(self):
         instance = self.grid_of({"id": "a", "start": [0, 1]})

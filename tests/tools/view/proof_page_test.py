@@ -58,7 +58,7 @@ class ProofPages(pages.PageTest):
         leaves = self.evaluate("grove.app.statement.steps.filter((s) => s.kind === 'leaf').length")
         self.assertIn(f"{leaves} leaves", self.text(".strip"))
         self.assertEqual(leaves, self.evaluate("grove.app.rows.filter((s) => s.kind === 'leaf').length"))
-        self.assertNotIn("permits no such split", "".join(self.every_split()))
+        self.assertNotIn("does not permit this split", "".join(self.every_split()))
         for size in ((390, 844), (2560, 1440)):
             self.browser.resize(*size)
             self.browser.settle()
@@ -81,15 +81,15 @@ class ProofPages(pages.PageTest):
                 self.assertEqual(tuple(colour), CHOSEN)
 
     def colours_of_places(self):
-        """At the left edges of the squares on what the step's demands name."""
+        """At the left edges of the squares on what the step's constraints name."""
         return self.evaluate("""(() => {
           const {camera, element} = grove.stages[0];
           const canvas = element.querySelector("canvas");
           const c = canvas.getContext("2d");
           const {world} = grove.app.model;
           const {step} = grove.app;
-          const demands = step.sides.length > 0 ? step.sides : [step.above.step.sides[step.above.side]];
-          return demands.flatMap(({places}) => places).map((place) => {
+          const constraints = step.sides.length > 0 ? step.sides : [step.above.step.sides[step.above.side]];
+          return constraints.flatMap(({places}) => places).map((place) => {
             const at = camera.toView(world.xs[place], world.ys[place]);
             const left = at.x - Math.max(5, 0.46 * camera.scale);
             return [...c.getImageData(left, at.y + 4, 1, 1).data].slice(0, 3);
@@ -109,7 +109,7 @@ class ProofPages(pages.PageTest):
                          ("ArrowLeft", "b is not on [1, 0] at 1")):
             self.browser.key(key)
             self.assertEqual(self.chosen_row(), row)
-        self.assertIn("Else a and b cost together at most 7, and lemma 0 says that they cost more.", self.text(".details"))
+        self.assertIn("Otherwise a and b together cost at most 7, and lemma 0 says that they cost more.", self.text(".details"))
         self.browser.key("ArrowLeft")
         self.assertEqual(len(self.texts(".tree .row")), 3)
         self.press("Fold all")
@@ -123,25 +123,25 @@ class ProofPages(pages.PageTest):
     def test_a_lemma_opens_and_closes(self):
         instance = self.corridor()
         self.browser.open(self.proof_page(instance, self.written(instance, LEMMAS + "theorem 8\nleaf 0\n")))
-        self.assertIn("what lemma 0 adds to them: together 8 or more", self.text(".details"))
+        self.assertIn("the excess by lemma 0: together 8 or more", self.text(".details"))
         self.press("lemma 0")
-        self.assertIn("In plans that meet its demands a and b cost together 9 or more.", self.text(".details"))
+        self.assertIn("In plans that satisfy its constraints a and b together cost 9 or more.", self.text(".details"))
         self.assertIn("a is not on [1, 0] from 2 on", self.text(".details"))
-        self.assertEqual(self.texts(".tree .what"), ["All plans that meet its demands", "a is not on [2, 0] at 2",
+        self.assertEqual(self.texts(".tree .what"), ["All plans that satisfy its constraints", "a is not on [2, 0] at 2",
                                                       "b is not on [2, 0] at 2"])
         self.press("Back to the theorem")
         self.press("Lemmas (1)")
         self.assertEqual(self.evaluate("document.querySelector('.tree').checkVisibility()"), False)
-        self.press("0: a and b cost together 9 or more")
+        self.press("0: a and b together cost 9 or more")
         self.assertIn("Lemma 0", self.text(".details"))
-        self.assertIn("All plans that meet its demands", self.text(".tree"))
+        self.assertIn("All plans that satisfy its constraints", self.text(".tree"))
         self.assert_silent()
 
     def test_what_needs_no_tree(self):
         instance = self.corridor()
         self.browser.open(self.proof_page(instance, self.written(instance, "theorem inf\njoint\n")))
         self.assertIn("There is no plan", self.text(".strip"))
-        self.assertIn("all joint paths of a and b that meet the demands: there are none", self.text(".details"))
+        self.assertIn("all joint paths of a and b that satisfy the constraints: there are none", self.text(".details"))
         self.browser.open(self.proof_page(instance, self.written(
             instance, "theorem 6\nprices\nplace 1 1 500\nedge 1 2 2 100\nfinish 0 3 1 3 7\nend\n")))
         self.assertIn("proven by 3 prices", self.text(".strip"))
@@ -151,7 +151,7 @@ class ProofPages(pages.PageTest):
         instance = self.corridor()
         self.browser.open(self.proof_page(instance, self.written(
             instance, "theorem 8\nsplit 0 bar 1 1 1 | 1 bar 2 1 1\nleaf\nleaf\n")))
-        self.assertIn("docs/proof.md permits no such split", self.text(".details"))
+        self.assertIn("docs/proof.md does not permit this split", self.text(".details"))
 
     def test_the_deepest_that_is_shown(self):
         instance = self.corridor()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Data that is not as expected is refused with its place; ids are only ever text.
+// Wrong data are refused with their position; ids are always text.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { readModel } from "../../../tools/view/page/read";
@@ -13,7 +13,7 @@ const good = () => structuredClone(data(
   { status: "optimal", cost: 7, lower_bound: 7, omega: "0" },
 )) as any;
 
-test("what is as expected", () => {
+test("valid data are read", () => {
   const model = readModel(JSON.stringify(good()));
   assert.equal(model.agents[0].id, "<b>a</b>");
   assert.deepEqual(model.agents[0].tasks, [0]);
@@ -21,7 +21,7 @@ test("what is as expected", () => {
   assert.equal(model.world.place(6), "[2, 1]");
 });
 
-test("roadmaps", () => {
+test("roadmaps are read", () => {
   const { world } = readModel(JSON.stringify(data(kRoads, [{ id: "a", start: 3 }], [], [{ path: "@3;" }])));
   assert.equal(world.places, 6);
   assert.equal(world.place(0), "A");
@@ -91,7 +91,7 @@ const breaks: Break[] = [
   ["plans[0].agents[0].work[0][1]", (d) => (d.plans[0].agents[0].work = [[0, -(2 ** 31), 2]])],
 ];
 
-test("what is not as expected is refused with its place", () => {
+test("wrong data are refused with their position", () => {
   for (const [place, spoil] of breaks) {
     const spoilt = good();
     spoil(spoilt);
@@ -101,7 +101,7 @@ test("what is not as expected is refused with its place", () => {
   assert.ok(breaks.length >= 40);
 });
 
-test("claims may be as large as plan files can say", () => {
+test("claims may be as large as in plan files", () => {
   const huge = good();
   huge.plans[0].claims = { status: "optimal", cost: 2 ** 60, lower_bound: -(2 ** 63), omega: "inf" };
   huge.plans[0].agents[0].cost = 2 ** 30;
@@ -109,12 +109,12 @@ test("claims may be as large as plan files can say", () => {
   assert.equal(readModel(JSON.stringify(huge)).plans[0].claims.cost, 2 ** 60);
 });
 
-test("what is no JSON is refused", () => {
+test("invalid JSON is refused", () => {
   for (const text of ["", "{", "[1,2", "null", "7", "[]", "[".repeat(100000)])
     assert.throws(() => readModel(text), Error);
 });
 
-test("keys of the language are none of the data", () => {
+test("keys of the language are not keys of the data", () => {
   const spoilt = good();
   delete spoilt.agents[0].id;
   const text = JSON.stringify(spoilt).replace('"start"', '"__proto__":{"id":"x"},"start"');

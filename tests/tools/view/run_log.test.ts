@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The log of a run as its page reads it, and the tree as it is laid out.
+// The log of a run, and the layout of its tree.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -17,18 +17,18 @@ function read(...events: object[]) {
   return log.run;
 }
 
-test("reads what a run says", () => {
-  const run = read(header(), row({ lower_bound: 30, raised_by: { sequences: 30 } }),
-    incumbent({ time_s: 1, lower_bound: 30, incumbent: 33 }), counts({ prices_asked: 5 }), summary(33, 33));
+test("a log is read", () => {
+  const run = read(header(), row({ lower_bound: 30, raised_by: { individual: 30 } }),
+    incumbent({ time_s: 1, lower_bound: 30, incumbent: 33 }), counts({ mdd_queries: 5 }), summary(33, 33));
   assert.equal(run.header!.agents, 2);
   assert.equal(run.rows.length, 2);
-  assert.equal(run.rows[0].raisedBy.get("sequences"), 30);
+  assert.equal(run.rows[0].raisedBy.get("individual"), 30);
   assert.equal(run.rows[1].source, "tree");
-  assert.equal(run.counts[0].counts.get("prices_asked"), 5);
+  assert.equal(run.counts[0].counts.get("mdd_queries"), 5);
   assert.equal(run.summary!.cost, 33);
 });
 
-test("a line that has not ended waits for the rest, wherever it is cut", () => {
+test("an incomplete line waits for the rest", () => {
   const text = lines([header(), row({}), root(0), summary(3, 3)]);
   for (let cut = 0; cut <= text.length; ++cut) {
     const log = new Log();
@@ -39,7 +39,7 @@ test("a line that has not ended waits for the rest, wherever it is cut", () => {
   }
 });
 
-test("says what is wrong and in which line", () => {
+test("errors name the line", () => {
   const wrong: [object[], RegExp][] = [
     [[row({})], /line 1: event: expected 'header' first/],
     [[header(), row({ lower_bound: "many" })], /line 2: lower_bound: expected a number/],
@@ -54,12 +54,29 @@ test("says what is wrong and in which line", () => {
   assert.throws(() => log.add(`${lines([header()])}{"event": \n`), /line 2: the data is no JSON/);
 });
 
-test("passes over what it does not know", () => {
+test("logs with the old names are read", () => {
+  const old = { ...node(1, "split", []), split: "rest-by",
+    children: [{ node: 2, bound: 3, cost: 3, demand: "r1 waits" }] };
+  const run = read(header(), row({ raised_by: { groups: 30 } }), incumbent({ source: "configurations" }),
+    counts({ path_sets_asked: 5 }, { memory_mb: { process: 10, nodes: 1, prices: 2, path_sets: 3, groups: 4 } }),
+    root(0), node(0, "raise", [1]), old, node(2, "closed", []));
+  assert.equal(run.rows[0].raisedBy.get("wdg"), 30);
+  assert.equal(run.rows[1].source, "lacam");
+  assert.equal(run.counts[0].counts.get("mdd_queries"), 5);
+  assert.deepEqual(run.counts[0].memory, [1, 2, 3, 4]);
+  const split = run.roots[0].children[0];
+  assert.equal(run.roots[0].expanded!.outcome, "bound_raised");
+  assert.equal(split.expanded!.split, "target");
+  assert.equal(split.children[0].constraint, "r1 waits");
+  assert.equal(split.children[0].expanded!.outcome, "pruned");
+});
+
+test("unknown events are ignored", () => {
   assert.equal(read(header(), { event: "weather", text: "fine" }, row({})).rows.length, 1);
 });
 
-test("a tree is what its events say", () => {
-  const run = read(header(), root(0), node(0, "raise", [1]), node(1, "split", [2, 3]), node(3, "plan", []));
+test("a tree is built from its events", () => {
+  const run = read(header(), root(0), node(0, "bound_raised", [1]), node(1, "split", [2, 3]), node(3, "plan", []));
   assert.equal(run.roots.length, 1);
   const split = run.roots[0].children[0];
   assert.equal(split.expanded!.order, 2);
@@ -75,7 +92,7 @@ function randomTree(seed: number, size: number): TreeNode[] {
   const dice = (sides: number) => (state = (state * 48271) % 0x7fffffff) % sides;
   const make = (number: number, parent: TreeNode | null): TreeNode => ({
     number, parent, tree: 0, depth: parent ? parent.depth + 1 : 0, bound: 0, cost: 0, conflicts: null,
-    demand: "", children: [], expanded: null,
+    constraint: "", children: [], expanded: null,
   });
   const nodes = [make(0, null)];
   while (nodes.length < size) {
@@ -88,7 +105,7 @@ function randomTree(seed: number, size: number): TreeNode[] {
   return nodes;
 }
 
-test("no two nodes are drawn on each other, and parents stand over their children", () => {
+test("nodes do not overlap; parents are over their children", () => {
   for (let seed = 1; seed <= 100; ++seed) {
     const nodes = randomTree(seed, seed * 3);
     const placed = layout([nodes[0]]);
@@ -107,7 +124,7 @@ test("no two nodes are drawn on each other, and parents stand over their childre
   }
 });
 
-test("a tree as deep as it is large is laid out", () => {
+test("a very deep tree is laid out", () => {
   const nodes = randomTree(1, 1);
   for (let i = 1; i < 100_000; ++i) {
     const parent = nodes[i - 1];
@@ -130,7 +147,7 @@ test("scales", () => {
   assert.deepEqual([thinned.length, thinned[0], thinned[9]], [10, 0, 999]);
 });
 
-test("a moment is read as it was", () => {
+test("reading of a moment is its latest row", () => {
   const chart = boundChart(read(header(), row({ time_s: 1, lower_bound: 30 }),
     incumbent({ time_s: 2, lower_bound: 30, incumbent: 33 }),
     row({ time_s: 3, lower_bound: 33, incumbent: 33 })), false);
@@ -140,17 +157,17 @@ test("a moment is read as it was", () => {
   assert.match(chart.read(9), /gap 0 %/);
 });
 
-test("says how good the plan is", () => {
+test("verdict reports the quality of the plan", () => {
   assert.match(verdict(read(header(), summary(33, 33))), /Optimal: a plan of 33/);
   assert.match(verdict(read(header(), summary(33, 30))), /at most 10 % above/);
-  assert.match(verdict(read(header(), summary(33, 0))), /nothing is known/);
-  assert.match(verdict(read(header(), summary(null, 30, "unknown"))), /No plan yet when a limit struck; none costs less than 30/);
-  assert.match(verdict(read(header(), summary(null, 0, "infeasible"))), /There is no plan: proven/);
+  assert.match(verdict(read(header(), summary(33, 0))), /is unknown/);
+  assert.match(verdict(read(header(), summary(null, 30, "unknown"))), /No plan yet when a limit was reached; none costs less than 30/);
+  assert.match(verdict(read(header(), summary(null, 0, "infeasible"))), /Proven: there is no plan/);
   assert.match(verdict(read(header(), row({ lower_bound: 30 }))), /No plan yet; none costs less than 30/);
 });
 
-// Named by the demand of the second child: src/conflicts/target.cpp, src/search/wdg_heuristic.cpp.
-test("a split is told as what it is", () => {
-  assert.match(kSplits["rest-by"], /comes to rest early and no other robot passes/);
-  assert.match(kSplits["no-rest-by"], /two robots together cost more/);
+// Named by the constraint of the second child: src/conflicts/target.cpp, src/search/wdg_heuristic.cpp.
+test("splits have the texts of their techniques", () => {
+  assert.match(kSplits["target"], /rests early and no other robot passes/);
+  assert.match(kSplits["cost"], /two robots together cost more/);
 });

@@ -114,20 +114,20 @@ class Pages(unittest.TestCase):
 
     def test_many_rows_and_ranks(self):
         ranks = {"nodes": list(range(1000)), "open": [1] * 1000, "lower_bound": [30, None] * 500,
-                 "memory_mb": [25.5] * 999 + [None], "low_level_calls": [7] * 1000, "prices_asked": [8] * 1000}
-        counts = {"event": "counts", "time_s": 99999, "counts": {"splits_bar": 5, "splits_rest_by": 1},
-                  "memory_mb": {"process": 100, "nodes": 20, "prices": 10, "path_sets": 5, "groups": 1}, "ranks": ranks}
+                 "memory_mb": [25.5] * 999 + [None], "low_level_calls": [7] * 1000, "branching_cost_queries": [8] * 1000}
+        counts = {"event": "counts", "time_s": 99999, "counts": {"splits_vertex_edge": 5, "splits_target": 1},
+                  "memory_mb": {"process": 100, "nodes": 20, "subproblems": 10, "mdds": 5, "dependencies": 1}, "ranks": ranks}
         seconds = self.show(lines(HEADER, *(row(t) for t in range(100_000)), counts))
         print(f"100,000 rows, 1,000 ranks: loaded in {seconds:.2f} s")
         self.assertIn("1,000 ranks", self.text("table caption"))
         self.assertIn("0 · 500 · 999", self.text(".spread"))
-        self.assertIn("The log has no end", self.text(".state"))
+        self.assertIn("The log is incomplete", self.text(".state"))
         self.assertEqual(self.browser.evaluate("document.querySelectorAll('.scroll tbody tr').length"), 1001)
-        self.assertIn("The nodes are with the ranks", self.text("main"))
+        self.assertIn("The ranks hold the nodes", self.text("main"))
 
     def test_hostile_logs(self):
         hostile = {"event": "node", "time_s": 1, "node": 0, "worker": 0, "outcome": "split", "conflict": ALERT, "split": ALERT,
-                   "children": [{"node": 1, "bound": 3, "cost": 3, "demand": ALERT}]}
+                   "children": [{"node": 1, "bound": 3, "cost": 3, "constraint": ALERT}]}
         root = {"event": "root", "time_s": 0, "node": 0, "tree": 0, "bound": 1e300, "cost": -7}
         self.show(lines(HEADER | {"instance": ALERT, "options": "</script>" + ALERT}, root, hostile,
                         {"event": "note", "time_s": 1, "text": ALERT}, row(1, "incumbent", source=ALERT),

@@ -16,7 +16,7 @@ function dice(seed: number): (bound: number) => number {
   };
 }
 
-// Text and, step by step, the places that it means.
+// A text and the places that it describes, step by step.
 function randomPath(seed: number): { text: string; places: number[] } {
   const roll = dice(seed);
   const places = [5050];
@@ -38,7 +38,7 @@ function randomPath(seed: number): { text: string; places: number[] } {
   return { text, places };
 }
 
-test("a track is at each time where its text says", () => {
+test("a track has the places of its text", () => {
   for (let seed = 0; seed < 500; ++seed) {
     const { text, places } = randomPath(seed);
     const track = readTrack(text, steps, kPlaces);
@@ -51,7 +51,7 @@ test("a track is at each time where its text says", () => {
   }
 });
 
-test("a track knows when it first is on a place", () => {
+test("the first time on a place is found", () => {
   for (let seed = 0; seed < 300; ++seed) {
     const { text, places } = randomPath(seed);
     const track = readTrack(text, steps, kPlaces);
@@ -64,17 +64,17 @@ test("a track knows when it first is on a place", () => {
   }
 });
 
-test("an empty text is no path", () => {
+test("an empty text is an empty path", () => {
   assert.equal(readTrack("", steps, kPlaces).isEmpty, true);
 });
 
-test("what is no path is refused", () => {
+test("wrong paths are refused", () => {
   for (const text of ["E", "@1", "@;", "@-1;", "@10000;", "@1;X", "@1;3", "@1;2@2;", "@0;N", "@1.5;",
     "@1;99999999999E", "@1;20000000.", "@1;e", "@1; E", "@9999;E", "@1;0E", "@1;00."])
     assert.throws(() => readTrack(text, steps, kPlaces), Error, text);
 });
 
-test("turns know angle and direction at each time", () => {
+test("turns have angle and direction at each time", () => {
   const turns = readTurns("@0;r.2r3.2l", 3); // to E with a pause at 1, then back within the next turn
   const angles = [0, 1, 1, 2, 3, 3, 3, 3, 2, 1];
   const directions = [0, 1, 1, 1, 0, 0, 0, 0, -1, -1];
@@ -84,7 +84,7 @@ test("turns know angle and direction at each time", () => {
   assert.equal(turns.angle(0.5), 0.5);
 });
 
-test("turns go round", () => {
+test("turns may go round", () => {
   const turns = readTurns("@0;2l", 1);
   assert.deepEqual(turns.at(1), { steps: 3, direction: 0 });
   assert.deepEqual(turns.at(2), { steps: 2, direction: 0 });
@@ -98,7 +98,7 @@ test("turns may begin within a turn", () => {
   assert.deepEqual(turns.at(2), { steps: 2, direction: 0 });
 });
 
-test("what is no angle is refused", () => {
+test("wrong angles are refused", () => {
   for (const text of ["", "x", "-1", "4", "1", "0r", "1x", "r"])
     assert.throws(() => readAngle(text, text === "4" ? 1 : 2), Error, text);
 });

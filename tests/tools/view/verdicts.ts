@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads pages of grove view by their names on standard input, a line each; writes a line of JSON
-// for each: what the page finds wrong with its first plan, or why it cannot be shown.
+// Reads file names of pages of grove view from standard input, one per line. Writes one line of JSON for
+// each: the violations that the page finds in its first plan, or why the plan cannot be shown.
 
 import { readFileSync } from "node:fs";
 import { createInterface } from "node:readline";

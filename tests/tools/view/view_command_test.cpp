@@ -26,7 +26,7 @@ std::string data(const std::string& name) {
 
 class ViewCommand : public ::testing::Test {
  protected:
-  // The plan of one of our own instances, solved.
+  // Solves a shipped instance and returns the plan file.
   std::string plan_of(const std::string& name) {
     const std::string file = directory_ / (name + ".plan.json");
     const ProcessResult solved =
@@ -62,7 +62,7 @@ TEST_F(ViewCommand, WritesAPageWithInstanceAndPlan) {
   EXPECT_THAT(page["plans"][0]["agents"][0]["path"], StartsWith("@0;"));
 }
 
-TEST_F(ViewCommand, RoadmapsAreInMetresAndPathsInPlaces) {
+TEST_F(ViewCommand, RoadmapIsInMetresAndPathsInPlaces) {
   const ProcessResult done =
       run_grove({"view", data("yard.cts.json"), plan_of("yard"), "-o", directory_ / "yard.html"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
@@ -79,7 +79,7 @@ TEST_F(ViewCommand, WithoutAPlanShowsTheInstance) {
   EXPECT_EQ(data_of("first.html")["plans"].size(), 0u);
 }
 
-TEST_F(ViewCommand, ShowsWhatOtherSolversWriteAndClaimsNothingForThem) {
+TEST_F(ViewCommand, ShowsPathsOfOtherSolversWithoutClaims) {
   directory_.write("m.map", "type octile\nheight 1\nwidth 3\nmap\n...\n");
   directory_.write(
       "i.json",
@@ -90,10 +90,10 @@ TEST_F(ViewCommand, ShowsWhatOtherSolversWriteAndClaimsNothingForThem) {
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const nlohmann::json plan = data_of("p.html")["plans"][0];
   EXPECT_EQ(plan["claims"], nlohmann::json::object());
-  EXPECT_EQ(plan["agents"][0]["path"], "@0;@2;");  // a jump, as it stands
+  EXPECT_EQ(plan["agents"][0]["path"], "@0;@2;");  // a jump, unchanged
 }
 
-TEST_F(ViewCommand, IdsAreNoMarkup) {
+TEST_F(ViewCommand, EscapesIds) {
   directory_.write("m.map", "type octile\nheight 1\nwidth 3\nmap\n...\n");
   directory_.write(
       "i.json",
@@ -105,21 +105,21 @@ TEST_F(ViewCommand, IdsAreNoMarkup) {
   EXPECT_EQ(data_of("p.html")["agents"][0]["id"], "</script><b>");
 }
 
-TEST_F(ViewCommand, DrawsPictures) {
+TEST_F(ViewCommand, WritesPictures) {
   const std::string plan = plan_of("shop");
   const ProcessResult done = run_grove(
       {"view", data("shop.cts.json"), plan, "--svg", directory_ / "s.svg", "--png",
        directory_ / "s.png", "--gif", directory_ / "s.gif", "--at", "0,8,20.5", "--width", "300"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(read("s.svg"), HasSubstr("<svg"));
-  EXPECT_THAT(read("s.svg"), HasSubstr("width=\"924px\""));  // three moments and two gaps
+  EXPECT_THAT(read("s.svg"), HasSubstr("width=\"924px\""));  // three times and two gaps
   EXPECT_THAT(read("s.png"), StartsWith("\x89PNG"));
   EXPECT_THAT(read("s.gif"), StartsWith("GIF89a"));
   EXPECT_EQ(read("s.gif").back(), ';');
   EXPECT_EQ(read("shop.html"), "");
 }
 
-TEST_F(ViewCommand, PicturesSayWhenAndWhatIsWhat) {
+TEST_F(ViewCommand, PicturesHaveCaptionAndLegend) {
   const auto height_with = [&](std::vector<std::string> more) {
     std::vector<std::string> arguments{"view", data("shop.cts.json"), "--svg",
                                        directory_ / "s.svg"};
@@ -138,7 +138,7 @@ TEST_F(ViewCommand, PicturesSayWhenAndWhatIsWhat) {
   EXPECT_EQ(height_with({plan, "--width", "360", "--at", "0,1,2,3,4"}), 2 * 220 + 12 + 26);
 }
 
-TEST_F(ViewCommand, PicturesShowAnExchangeAtItsEnd) {
+TEST_F(ViewCommand, PictureShowsASwapUntilItsEnd) {
   directory_.write("m.map", "type octile\nheight 1\nwidth 4\nmap\n....\n");
   directory_.write("i.json", R"({"map": "m.map", "tasks": [],
       "agents": [{"id": "a", "start": [0, 0]}, {"id": "b", "start": [3, 0]}]})");
@@ -157,9 +157,10 @@ TEST_F(ViewCommand, PicturesShowAnExchangeAtItsEnd) {
   EXPECT_FALSE(is_red_at("3"));
 }
 
-TEST_F(ViewCommand, OpensThePageByTheDesktopsOpener) {
+TEST_F(ViewCommand, OpensThePageWithTheDesktopOpener) {
   directory_.write("xdg-open", "#!/bin/sh\necho \"$1\" > opened\n");
-  ASSERT_EQ(::mkfifo((directory_ / "opened").c_str(), 0600), 0);  // so it can be waited for
+  ASSERT_EQ(::mkfifo((directory_ / "opened").c_str(), 0600),
+            0);  // so that the test can wait for it
   std::filesystem::permissions(directory_ / "xdg-open", std::filesystem::perms::owner_all);
   ProcessOptions options;
   options.directory = directory_.path();
@@ -173,7 +174,7 @@ TEST_F(ViewCommand, OpensThePageByTheDesktopsOpener) {
 
 constexpr const char* kHeader = R"({"event": "header", "instance": "</script>"})";
 
-TEST_F(ViewCommand, ShowsARunAsFarAsItsLogGoes) {
+TEST_F(ViewCommand, ShowsARunUpToTheEndOfItsLog) {
   directory_.write("run.jsonl",
                    std::string(kHeader) + "\n{\"event\": \"progress\"}\n{\"event\": \"su");
   ProcessOptions options;
@@ -188,17 +189,17 @@ TEST_F(ViewCommand, ShowsARunAsFarAsItsLogGoes) {
       "{\"event\": \"header\", \"instance\": \"\\u003c/script>\"}\n{\"event\": \"progress\"}\n");
 }
 
-TEST_F(ViewCommand, SaysWhichPlansItLeavesOut) {
+TEST_F(ViewCommand, WarnsOfOmittedPlans) {
   const std::string plan = plan_of("first");
   const ProcessResult done =
       run_grove({"view", data("first.cts.json"), plan, plan, plan, "-o", directory_ / "x.html"});
   EXPECT_EQ(done.exit_code, 0);
   EXPECT_THAT(
       done.err,
-      HasSubstr("warning: a page shows 2 plans; first.plan.json and those after it are left out"));
+      HasSubstr("warning: a page shows 2 plans; first.plan.json and later ones are left out"));
 }
 
-TEST_F(ViewCommand, RefusesWhatIsNoLog) {
+TEST_F(ViewCommand, RefusesMalformedLogs) {
   const auto complaint = [&](const std::string& log) {
     directory_.write("run.jsonl", log);
     const ProcessResult done = run_grove({"view", "--run", directory_ / "run.jsonl"});
@@ -221,7 +222,7 @@ TEST_F(ViewCommand, RefusesWhatIsNoLog) {
     EXPECT_EQ(run_grove(words).exit_code, 2) << words.back();
 }
 
-TEST_F(ViewCommand, RefusesWhatIsNoDriveOfThePlan) {
+TEST_F(ViewCommand, RefusesMalformedExecutionLogs) {
   const std::string instance = data("first.cts.json");
   const std::string plan = plan_of("first");
   const std::string log = directory_ / "drive.jsonl";
@@ -235,7 +236,8 @@ TEST_F(ViewCommand, RefusesWhatIsNoDriveOfThePlan) {
     return complaint({"view", instance, plan, "--drive", log});
   };
   for (const char* text : {"", "red\n", "{\"format\": \"grove drive 2\"}\n", "{\"format\": 1}\n"})
-    EXPECT_THAT(of(text), HasSubstr("drive.jsonl: line 1: expected the log of a drive")) << text;
+    EXPECT_THAT(of(text), HasSubstr("drive.jsonl: line 1: expected the log of an execution"))
+        << text;
   EXPECT_THAT(of("{\"format\": \"grove drive 1\", \"order\": \"o\", \"robots\": [], "
                  "\"seconds_per_step\": 1}\n{\"t\": 1}\n"),
               HasSubstr("drive.jsonl: line 2: /: key 'robot' is missing"));
@@ -243,7 +245,7 @@ TEST_F(ViewCommand, RefusesWhatIsNoDriveOfThePlan) {
               HasSubstr("drive.jsonl"));
   EXPECT_THAT(read("drive.jsonl"), HasSubstr("grove drive 1"));
   EXPECT_THAT(complaint({"view", instance, "--drive", log}),
-              HasSubstr("--drive requires PLAN, the one that is driven"));
+              HasSubstr("--drive requires PLAN, the plan that is executed"));
   EXPECT_THAT(complaint({"view", instance, plan, plan, "--drive", log}), HasSubstr("PLAN"));
   EXPECT_THAT(complaint({"view", instance, plan, "--drive", log, "--svg", "x"}),
               HasSubstr("--svg"));
@@ -273,7 +275,7 @@ TEST_F(ViewCommand, ShowsACertificateWithAndWithoutAPlan) {
   EXPECT_EQ(data_of("alone.html")["plans"].size(), 0u);
 }
 
-TEST_F(ViewCommand, RefusesWhatIsNoCertificateOfTheInstance) {
+TEST_F(ViewCommand, RefusesCertificatesOfOtherInstances) {
   const std::string instance = data("first.cts.json");
   const std::string plan = plan_of("first");
   const std::string proof = directory_ / "c.proof";
@@ -295,7 +297,7 @@ TEST_F(ViewCommand, RefusesWhatIsNoCertificateOfTheInstance) {
               HasSubstr("c.proof: is the certificate; expected another file to write to"));
   EXPECT_EQ(read("c.proof"), certificate);
   EXPECT_THAT(complaint_of({"view", instance, plan, plan, "--proof", proof}),
-              HasSubstr("--proof: expected one PLAN at most with it"));
+              HasSubstr("--proof: found several plans; expected at most one PLAN"));
   EXPECT_THAT(complaint_of({"view", instance, "--proof", proof, "--svg", "x.svg"}),
               HasSubstr("--proof excludes --svg"));
   EXPECT_THAT(complaint_of({"view", "--run", "x", "--proof", proof}),
@@ -305,12 +307,12 @@ TEST_F(ViewCommand, RefusesWhatIsNoCertificateOfTheInstance) {
   directory_.write("bad.plan.json", R"({"status": "bounded", "cost": 0, "agents": []})");
   EXPECT_THAT(complaint_of({"view", instance, directory_ / "bad.plan.json", "--proof", proof}),
               HasSubstr("bad.plan.json"));
-  // The plan of a run with following, in which somebody does.
+  // A plan in which one robot follows another.
   EXPECT_THAT(complaint_of({"view", instance, plan, "--proof", proof}),
-              HasSubstr("expected a plan valid without following, as the certificate has it"));
+              HasSubstr("expected a plan valid without following, as the certificate requires"));
 }
 
-TEST_F(ViewCommand, RefusesWhatItDoesNotUnderstand) {
+TEST_F(ViewCommand, RefusesInvalidArguments) {
   const auto complaint = [](const ProcessResult& result) {
     EXPECT_EQ(result.exit_code, 2) << result.out;
     return result.err;

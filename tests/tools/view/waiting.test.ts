@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For whom a robot waits: whom it would have met.
+// Causes of waits: the robots that would have been met.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { App } from "../../../tools/view/page/app";
@@ -23,31 +23,31 @@ function waits(app: App): string[] {
 const kA: AgentData = { id: "a", start: 0 };
 const kB: AgentData = { id: "b", start: 2 };
 
-test("for who stands where it goes next", () => {
+test("a robot waits for one on its next place", () => {
   assert.deepEqual(waits(shown([kA, { id: "b", start: 1 }], [{ path: "@0;2.2E" }, { path: "@1;.2E" }])),
     ["a 0-2 for b", "b 0-1 for nobody"]);
 });
 
-test("for who comes through there later", () => {
+test("a robot waits for one that passes later", () => {
   // a would be on 2 at 2, where b passes from 6 to 2 in the same step.
   assert.deepEqual(waits(shown([kA, { id: "b", start: 10 }], [{ path: "@0;.3E" }, { path: "@10;2NE" }])),
     ["a 0-1 for b"]);
 });
 
-test("for who would have changed places with it", () => {
+test("a robot waits for one that would swap with it", () => {
   assert.deepEqual(waits(shown([{ id: "a", start: 4 }, { id: "b", start: 2 }], [{ path: "@4;3.N2E" }, { path: "@2;2WSN" }])),
     ["a 0-3 for b"], "head on in the row above");
   assert.deepEqual(waits(shown([{ id: "a", start: 4 }, { id: "b", start: 1 }], [{ path: "@4;.NE" }, { path: "@1;WS" }])),
     ["a 0-1 for b"]);
 });
 
-test("a robot that waits for nobody, and one that never waits", () => {
+test("waits may have no cause", () => {
   assert.deepEqual(waits(shown([kA, { id: "b", start: 11 }], [{ path: "@0;5.E" }, { path: "@11;3W" }])),
     ["a 0-5 for nobody"]);
 });
 
-test("who lets several pass names them in their order", () => {
-  // b, then c come by on 2; a enters behind them.
+test("several causes are listed in order of time", () => {
+  // b, then c pass 2; a enters behind them.
   const app = shown([{ id: "a", start: 1 }, { id: "b", start: 3 }, { id: "c", start: 7 }],
     [{ path: "@1;2.E" }, { path: "@3;W2S" }, { path: "@7;NWS" }]);
   const [wait] = app.viewed[0].waits.byAgent[0];
@@ -55,18 +55,18 @@ test("who lets several pass names them in their order", () => {
   assert.equal(wait.meets, 2);
 });
 
-test("long waits are events, with their reason", () => {
+test("long waits are events with their causes", () => {
   const app = shown([kA, { id: "b", start: 1 }], [{ path: "@0;5.E" }, { path: "@1;4.2E" }]);
   const found = eventsOf(app).filter(({ kind }) => kind === "wait");
   assert.deepEqual(found.map(({ text, time, agents }) => [text, time, agents]), [
     ["a waits 5 steps for b to pass", 0, [0]],
-    ["b waits 4 steps, though it meets nobody if it goes on", 0, [1]],
+    ["b waits 4 steps, although no robot is in its way", 0, [1]],
   ]);
   assert.deepEqual(eventsOf(shown([kA, kB], [{ path: "@0;2.E" }, { path: "@2;E" }]))
     .filter(({ kind }) => kind === "wait"), [], "short ones are not");
 });
 
-test("conflicts avoided are warm where they would have been", () => {
+test("avoided conflicts are heat on their places", () => {
   const app = shown([kA, { id: "b", start: 1 }], [{ path: "@0;2.2E" }, { path: "@1;.2E" }]);
   const heat = heatMap(app.model, app.viewed[0], "yields");
   assert.deepEqual([...heat].flatMap((value, place) => (value > 0 ? [place] : [])), [1]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where places are, which steps there are, and what places are called.
+// Positions and names of places, and possible steps.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { parse } from "../../../tools/view/page/json";
@@ -11,7 +11,7 @@ const world = (data: object): World => readWorld(parse(JSON.stringify(data)));
 const roads = (vertices: [string, number, number][], list: number[][]) =>
   world({ kind: "roadmap", vertices, roads: list });
 
-// All moves from each place, as the world says them.
+// All moves from each place.
 function moves(w: World): string[] {
   const all: string[] = [];
   for (let from = 0; from < w.places; ++from)
@@ -19,7 +19,7 @@ function moves(w: World): string[] {
   return all;
 }
 
-test("a grid's moves are those between neighbors that are free", () => {
+test("moves on a grid join free neighbours", () => {
   const w = world(kGrid); // 4 x 3, number 5 blocked
   const expected: string[] = [];
   for (let from = 0; from < 12; ++from)
@@ -30,7 +30,7 @@ test("a grid's moves are those between neighbors that are free", () => {
   assert.deepEqual(moves(w), expected);
 });
 
-test("a grid's cells have their middles, and names as in plan files", () => {
+test("cells have centres, and names as in plan files", () => {
   const w = world(kGrid);
   assert.deepEqual([w.width, w.height, w.unit], [4, 3, 1]);
   assert.deepEqual([w.xs[6], w.ys[6]], [2.5, 1.5]);
@@ -39,24 +39,24 @@ test("a grid's cells have their middles, and names as in plan files", () => {
   assert.equal(world({ ...kGrid, free: "0 3 9" }).free[2], 0, "blocked from the first cell on");
 });
 
-test("a grid of one column or one row", () => {
+test("grids of one column or row have their moves", () => {
   assert.deepEqual(moves(world({ kind: "grid", width: 1, height: 3, free: "3" })), ["0>1", "1>0", "1>2", "2>1"]);
   assert.deepEqual(moves(world({ kind: "grid", width: 3, height: 1, free: "3" })), ["0>1", "1>0", "1>2", "2>1"]);
 });
 
-test("a roadmap's moves go along its roads, one way where they are so", () => {
+test("moves on a roadmap follow roads and directions", () => {
   const w = roads([["A", 0, 0], ["B", 3, 0], ["C", 3, 2]], [[0, 1, 3, 1], [1, 2, 2, 0], [0, 2, 1, 1]]);
   assert.equal(w.places, 6);
   assert.deepEqual(moves(w), ["0>2", "0>3", "1>5", "2>5", "3>4", "4>1", "5>1", "5>2"]);
 });
 
-test("inner places of roads that follow each other are not joined, even past roads of one step", () => {
+test("inner places of different roads are not joined", () => {
   const w = roads([["A", 0, 0], ["B", 1, 0]], [[0, 1, 2, 0], [0, 1, 1, 0], [1, 0, 3, 0]]);
   assert.deepEqual(moves(w), ["0>1", "0>2", "0>4", "1>0", "1>2", "1>3", "2>0", "2>1", "3>1", "3>4", "4>0", "4>3"]);
   assert.deepEqual([2, 3, 4].map(w.place), ["A–B 1", "B–A 1", "B–A 2"]);
 });
 
-test("inner places lie evenly between the ends of their road, and north is up", () => {
+test("inner places are evenly spaced, and north is up", () => {
   const w = roads([["A", 10, 10], ["B", 10, 16]], [[0, 1, 3, 0]]);
   assert.equal(w.unit, 2);
   assert.ok(Math.abs(w.xs[2] - w.xs[0]) < 1e-9 && Math.abs(w.xs[3] - w.xs[0]) < 1e-9);
@@ -65,7 +65,7 @@ test("inner places lie evenly between the ends of their road, and north is up", 
     assert.ok(w.xs[place] > 0 && w.xs[place] < w.width && w.ys[place] > 0 && w.ys[place] < w.height);
 });
 
-test("roads between the same vertices lie apart, whichever way they are counted", () => {
+test("parallel roads are apart in both directions", () => {
   const w = roads([["A", 0, 0], ["B", 4, 0]], [[0, 1, 4, 0], [1, 0, 4, 0], [0, 1, 4, 1]]);
   const middles = [3, 6, 9].map((place) => w.ys[place]);
   for (const [i, j] of [[0, 1], [1, 2], [0, 2]]) assert.ok(Math.abs(middles[i] - middles[j]) > 0.3 * w.unit);

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""What programs that drive robots along a passing order share."""
+"""Shared code of the programs that drive robots along a passing order."""

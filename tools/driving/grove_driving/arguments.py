@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Command lines: help as grove's own, values that are checked with friendly words."""
+"""Command-line parsing with help and error messages in the format of grove."""
 import argparse
 
 from .bad_input import BadInput
@@ -45,7 +45,7 @@ def positive(text):
 
 
 def integers(text, parts, least, most, expected):
-    """Of the parts; if one is none the whole text is wrong."""
+    """Returns the parts as integers. Raises ArgumentTypeError for the whole text if a part is not one."""
     if not all(p.isascii() and p.isdigit() and least <= int(p) <= most for p in parts):
         raise wrong(text, expected)
     return [int(p) for p in parts]
@@ -60,7 +60,7 @@ def seed(text):
 
 
 def robot_at_for(text, endless=True):
-    """ROBOT@SECONDS=SECONDS: (robot, begin, how long); 'never' ends where that is allowed."""
+    """Parses ROBOT@SECONDS=SECONDS; returns (robot, begin, duration). With `endless` the duration may be 'never'."""
     expected = "ROBOT@SECONDS=SECONDS" + (", or ROBOT@SECONDS=never" if endless else "")
     robot, mark, when = text.rpartition("@")
     begin, equals, seconds = when.partition("=")

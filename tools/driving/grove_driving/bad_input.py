@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""What a user gave that cannot be used."""
+"""Errors in the input of a user."""
 
 
 class BadInput(Exception):
-    """Its text is the line that the user reads."""
+    """An input error; its text is the line that the user reads."""
 
 
 def at(file, place, found, expected):
+    """Returns the BadInput for a place in a file; `place` may be ""."""
     return BadInput(f"{file}: {place}: found {found}; expected {expected}" if place
                     else f"{file}: found {found}; expected {expected}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The drive as it happens, line by line: docs/drive-log.md."""
+"""Writes an execution log, one line per event (docs/drive-log.md)."""
 import json
 
 from .bad_input import BadInput
@@ -10,7 +10,7 @@ LEAST_SECONDS = 0.1
 
 def open_log(path):
     try:
-        return open(path, "w", encoding="utf-8")  # noqa: SIM115 - it is closed by the caller
+        return open(path, "w", encoding="utf-8")  # noqa: SIM115 - closed by the caller
     except OSError as error:
         raise BadInput(f"{path}: cannot be written: {error.strerror}") from None
 
@@ -18,7 +18,7 @@ def open_log(path):
 class ExecutionLog:
     def __init__(self, stream, order_file, robots, seconds_per_step):
         self.stream = stream
-        self.last = {}          # robot: time and what was written of it
+        self.last = {}          # robot: (time, sample) of its last line
         self._line({"format": FORMAT, "order": order_file, "robots": robots, "seconds_per_step": seconds_per_step})
 
     def _line(self, holder):
@@ -26,13 +26,16 @@ class ExecutionLog:
         self.stream.flush()
 
     def write(self, seconds, robot, at, angle, action, state):
-        """at: in cells, y down, or metres of a roadmap; angle: degrees from north, clockwise, or None."""
-        said = {"at": [round(at[0], 3), round(at[1], 3)]}
+        """Writes a line if the action or state changed, or if LEAST_SECONDS have passed and the sample changed.
+
+        at: in cells, y down, or metres of a roadmap; angle: degrees from north, clockwise, or None.
+        """
+        sample = {"at": [round(at[0], 3), round(at[1], 3)]}
         if angle is not None:
-            said["angle"] = round(angle) % 360
-        said |= {"action": action, "state": state}
+            sample["angle"] = round(angle) % 360
+        sample |= {"action": action, "state": state}
         then, before = self.last.get(robot, (-1.0, {}))
         changed = (before.get("action"), before.get("state")) != (action, state)
-        if changed or (said != before and seconds - then >= LEAST_SECONDS - 1e-6):
-            self.last[robot] = seconds, said
-            self._line({"t": round(seconds, 3), "robot": robot, **said})
+        if changed or (sample != before and seconds - then >= LEAST_SECONDS - 1e-6):
+            self.last[robot] = seconds, sample
+            self._line({"t": round(seconds, 3), "robot": robot, **sample})

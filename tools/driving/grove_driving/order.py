@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The passing order, as `grove execute --order` writes it (docs/passing-order.md)."""
+"""Reads passing orders, as `grove execute --order` writes them (docs/passing-order.md)."""
 import json
 from typing import NamedTuple
 
@@ -12,14 +12,14 @@ KINDS = ("move", "turn", "work")
 
 class Action(NamedTuple):
     kind: str
-    place: tuple            # where the robot then is: (x, y) of a cell; on roadmaps ("A",) or ("A", "B", k)
+    place: tuple            # place after the action: cell (x, y); on roadmaps ("A",) or ("A", "B", k)
     heading: str            # "N", ... or None
-    at: tuple               # the middle of that place, (x, y) in metres, y up; None where the file does not say
+    at: tuple               # centre of that place, (x, y) in metres, y up; None if not in the file
     steps: int
-    after: tuple            # (robot, action) or None
+    after: tuple            # (robot, action) that must be done before, or None
     ring: int               # or None
-    task: str               # that is worked on, or None
-    visits: tuple           # tasks without duration that the robot first comes by with this action
+    task: str               # task of a "work" action, or None
+    visits: tuple           # tasks without duration that the robot first visits with this action
 
 
 class Robot(NamedTuple):
@@ -36,7 +36,7 @@ class Robot(NamedTuple):
 
 class Order(NamedTuple):
     robots: tuple
-    rings: dict             # ring: [(robot, action)] as they follow each other, by indices
+    rings: dict             # ring: [(robot, action)] by index; each enters the place that the next one leaves
 
     def robot(self, name):
         return next(r for r in self.robots if r.name == name)
@@ -73,7 +73,7 @@ class _Reader:
         return value
 
     def place(self, where, holder, key):
-        """(place, heading)"""
+        """Reads a place; returns (place, heading)."""
         expected = '[x, y], [x, y, "N"], ["A"] or ["A", "B", k]'
         value = self.key(where, holder, key, list, expected)
         vertices = [v for v in value[:2] if isinstance(v, str)]
@@ -109,7 +109,7 @@ class _Reader:
                 self.natural(f"{place}/after", value, "action"))
 
     def next_place(self, where, holder, kind, before):
-        """(place, heading) after a move or turn."""
+        """Reads (place, heading) after a move or turn."""
         place, heading = self.place(where, holder, "to")
         if kind == "turn" and heading is None:
             self.fail(f"{where}/to", holder["to"], '[x, y, "N"]')
@@ -131,7 +131,7 @@ class _Reader:
             place, heading = self.next_place(where, holder, kind, before)
         ring = self.natural(where, holder, "ring") if "ring" in holder else None
         if ring is not None and kind != "move":
-            self.fail(f"{where}/ring", ring, "no ring: only moves are in rings")
+            self.fail(f"{where}/ring", ring, "no ring, because only moves are in rings")
         task = self.key(where, holder, "task", str, "the id of a task") if kind == "work" else None
         return Action(kind, place, heading, self.at(where, holder) if kind == "move" else at_before,
                       self.natural(where, holder, "steps"), self.after(where, holder), ring, task,
@@ -157,7 +157,8 @@ def _check_names(reader, robots):
         if robot.name in (r.name for r in robots[:i]):
             reader.fail(f"/robots/{i}/id", robot.name, "ids that differ")
         if robot.start in starts:
-            reader.fail(f"/robots/{i}/start", list(robot.start), f"another place than {starts[robot.start]} starts on")
+            reader.fail(f"/robots/{i}/start", list(robot.start),
+                        f"a start that differs from that of {starts[robot.start]}")
         starts[robot.start] = robot.name
 
 
@@ -173,7 +174,7 @@ def _check_after(reader, robots):
 
 
 def _follow_each_other(robots, members):
-    """The members of a ring, each before the one whose cell it enters; None if they are no ring."""
+    """Returns the members of a ring, each before the one whose cell it enters. Returns None if they form no ring."""
     leaves = {robots[i].place_before(k): (i, k) for i, k in members}
     chain = [members[0]]
     while len(chain) <= len(members):
@@ -204,7 +205,7 @@ def _rings(reader, robots):
 
 
 def _completable(order):
-    """How many actions of each robot are done when none can be begun any more."""
+    """Returns {robot: number of actions that can be done}, at the point where no further action can begin."""
     done = {r.name: 0 for r in order.robots}
 
     def may(robot, k):
@@ -232,7 +233,7 @@ def _check_completable(reader, order):
     for i, robot in enumerate(order.robots):
         if done[robot.name] < len(robot.actions):
             raise at(reader.file, f"/robots/{i}/actions/{done[robot.name]}",
-                     "actions that wait for each other in a circle", "an order that can be driven")
+                     "actions that wait for each other in a cycle", "an order without such a cycle")
 
 
 def parse_order(file, text):
@@ -240,8 +241,8 @@ def parse_order(file, text):
     try:
         holder = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise at(file, "", "no JSON" + (f" ({error})" if isinstance(error, ValueError) else ""),
-                 "what grove execute --order writes") from None
+        raise at(file, "", "invalid JSON" + (f" ({error})" if isinstance(error, ValueError) else ""),
+                 "the output of grove execute --order") from None
     if not isinstance(holder, dict) or holder.get("format") != FORMAT:
         reader.fail("/format", holder.get("format") if isinstance(holder, dict) else holder, f'"{FORMAT}"')
     those = reader.key("", holder, "robots", list, "a list of robots")
@@ -262,5 +263,5 @@ def read_order(file):
     except OSError as error:
         raise BadInput(f"{file}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
-        raise at(file, "", "no UTF-8", "what grove execute --order writes") from None
+        raise at(file, "", "invalid UTF-8", "the output of grove execute --order") from None
     return parse_order(file, text)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How a program ends: messages and exit codes as grove's own."""
+"""Exit codes and error messages in the format of grove."""
 import asyncio
 import os
 import signal
@@ -16,7 +16,7 @@ def complain(message):
 
 
 def exit_code(run, arguments):
-    """Of run(arguments), whatever becomes of it."""
+    """Returns the exit code of run(arguments), whether it returns or raises."""
     try:
         return run(arguments)
     except BadInput as error:
@@ -27,10 +27,10 @@ def exit_code(run, arguments):
     except asyncio.CancelledError:
         return 128 + signal.SIGTERM
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush at the end
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush when Python exits
         return FAILURE
     except OSError as error:
         complain(f"{error.filename or 'the drive'}: {error.strerror or error}")
         return FAILURE
-    except SystemExit:  # of --help
+    except SystemExit:  # raised by --help
         return 0

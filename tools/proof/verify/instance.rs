@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! Instances with their maps and roadmaps (docs/formats.md), places and links, and the checksum of it all (docs/proof.md, 1 and 6).
+//! Instances with their maps and roadmaps (docs/formats.md), places and links, and the checksum (docs/proof.md, sections 1 and 6).
 use crate::json::Json;
 use crate::keys;
 use std::collections::{HashMap, HashSet};
@@ -20,9 +20,10 @@ pub struct Agent {
     pub start: Place,
     pub goal: Option<Place>,
     pub turn: u32,
-    /// Heading at the start, the one it turns to, steps of that done: 0..4 are N, E, S, W.
+    /// Heading at the start, the heading that the agent turns to, and the steps of this turn that are done. 0 to 3: N, E, S, W.
     pub looks: (u32, u32, u32),
     pub goal_heading: Option<u32>,
+    /// The task that the agent works on at the start, and the steps of it that are done.
     pub working: Option<(u32, u32)>,
     pub tasks: Vec<u32>,
 }
@@ -47,10 +48,10 @@ struct Road {
 }
 
 const HEADINGS: &str = "NESW";
-const MOST_PLACES: u64 = 1 << 26;
-const MOST_TASKS: usize = 64;
+const MAX_PLACES: u64 = 1 << 26;
+const MAX_TASKS: usize = 64;
 
-fn need<T>(value: Option<T>, at: &str, what: &str) -> Result<T, String> {
+fn require<T>(value: Option<T>, at: &str, what: &str) -> Result<T, String> {
     value.ok_or_else(|| format!("{}: expected {}", at, what))
 }
 
@@ -58,7 +59,7 @@ fn heading(value: &Json) -> Option<u32> {
     value.text().filter(|text| text.len() == 1).and_then(|text| HEADINGS.find(text)).map(|found| found as u32)
 }
 
-/// A number in digits alone.
+/// Parses a number that consists of digits only.
 fn whole(word: &str) -> Option<u32> { word.parse().ok().filter(|_| word.bytes().all(|byte| byte.is_ascii_digit())) }
 
 impl World {
@@ -74,7 +75,7 @@ impl World {
         add(&mut self.neighbours[to as usize], from);
     }
 
-    /// The cell ahead of one, if it is there and passable.
+    /// Returns the next cell in a direction. Returns None at the edge of the map, or if that cell is blocked.
     pub fn ahead(&self, cell: Place, heading: u32) -> Option<Place> {
         let (width, height) = self.size;
         let next = match heading {
@@ -93,21 +94,21 @@ impl World {
         let octile = head() == "type octile";
         let sides = [head(), head()];
         let side = |name: &str| sides.iter().find_map(|line| line.strip_prefix(name)).and_then(whole).filter(|&n| n > 0);
-        let (height, width) = need(side("height ").zip(side("width ")).filter(|_| octile), "its head", "type octile, height, width")?;
-        need(Some(()).filter(|_| head() == "map"), "line 4", "map")?;
-        let places = need(u64::from(height).checked_mul(u64::from(width)).filter(|&n| n <= MOST_PLACES), "its head", "fewer cells")?;
+        let (height, width) = require(side("height ").zip(side("width ")).filter(|_| octile), "its head", "type octile, height, width")?;
+        require(Some(()).filter(|_| head() == "map"), "line 4", "map")?;
+        let places = require(u64::from(height).checked_mul(u64::from(width)).filter(|&n| n <= MAX_PLACES), "its head", "fewer cells")?;
         let mut world = World::of(places, (width, height));
         *sum += &format!("grid {} {}\n", width, height);
         for y in 0..height {
             let at = format!("line {}", y + 5);
-            for letter in need(lines.next().filter(|line| line.len() == width as usize), &at, "a row of the map")?.chars() {
-                let free = need(".GSE@OTW".find(letter), &at, "cells")? < 4;
+            for letter in require(lines.next().filter(|line| line.len() == width as usize), &at, "a row of the map")?.chars() {
+                let free = require(".GSE@OTW".find(letter), &at, "cells")? < 4;
                 world.passable.push(free);
                 sum.push(if free { '.' } else { '@' });
             }
             sum.push('\n');
         }
-        need(Some(()).filter(|_| lines.all(str::is_empty)), "its end", "no more rows")?;
+        require(Some(()).filter(|_| lines.all(str::is_empty)), "its end", "no more rows")?;
         for cell in (0..places as u32).filter(|&cell| world.passable[cell as usize]).collect::<Vec<_>>() {
             for next in (0..4).filter_map(|heading| world.ahead(cell, heading)).collect::<Vec<_>>() { world.link(cell, next); }
         }
@@ -121,17 +122,17 @@ impl Road {
     }
 }
 
-/// The ids of a list, with their numbers.
+/// Returns the number of each id in a list.
 fn ids(json: &Json, key: &str) -> Result<HashMap<String, u32>, String> {
     let mut ids = HashMap::new();
-    for (number, value) in need(json.get(key).and_then(Json::list), key, "a list")?.iter().enumerate() {
+    for (number, value) in require(json.get(key).and_then(Json::list), key, "a list")?.iter().enumerate() {
         let id = value.get("id").and_then(Json::text).filter(|&id| !id.is_empty() && ids.insert(id.to_string(), number as u32).is_none());
-        need(id, &format!("{} {}", key, number), "an id that no other has")?;
+        require(id, &format!("{} {}", key, number), "an id that no other has")?;
     }
     Ok(ids)
 }
 
-/// What names of places mean: on a map, none have one.
+/// Named places of a roadmap. Places of a map have no names.
 #[derive(Default)]
 struct Names {
     vertices: HashMap<String, Place>,
@@ -144,21 +145,21 @@ impl Names {
         let mut names = Names { vertices: ids(json, "vertices")?, roads: Vec::new() };
         for (number, vertex) in json.get("vertices").and_then(Json::list).into_iter().flatten().enumerate() {
             let at = vertex.get("at").and_then(Json::list).filter(|at| at.len() == 2 && at.iter().all(Json::is_number));
-            need(at, &format!("vertices {}", number), "at, [x, y] in metres")?;
+            require(at, &format!("vertices {}", number), "at, [x, y] in metres")?;
         }
-        need(Some(()).filter(|_| !names.vertices.is_empty()), "vertices", "one at least")?;
+        require(Some(()).filter(|_| !names.vertices.is_empty()), "vertices", "one at least")?;
         let (mut places, mut both_ways) = (names.vertices.len() as u64, Vec::new());
-        let edges = need(json.get("edges").and_then(Json::list), "edges", "a list")?;
+        let edges = require(json.get("edges").and_then(Json::list), "edges", "a list")?;
         *sum += &format!("roadmap {} {}\n", places, edges.len());
         for (number, edge) in edges.iter().enumerate() {
             let at = format!("edges {}", number);
             let end = |key| edge.get(key).and_then(Json::text).and_then(|id| names.vertices.get(id)).copied();
-            let (from, to) = need(end("from").zip(end("to")).filter(|(from, to)| from != to), &at, "two vertices")?;
-            let steps = need(edge.get("steps").and_then(Json::number).filter(|&n| n > 0), &at, "steps")?;
+            let (from, to) = require(end("from").zip(end("to")).filter(|(from, to)| from != to), &at, "two vertices")?;
+            let steps = require(edge.get("steps").and_then(Json::number).filter(|&n| n > 0), &at, "steps")?;
             let one_way = match edge.get("one_way") { None => Some(false), Some(Json::Bool(value)) => Some(*value), _ => None };
-            both_ways.push(!need(one_way, &at, "one_way true or false")?);
+            both_ways.push(!require(one_way, &at, "one_way true or false")?);
             names.roads.push(Road { from, to, steps, inner: places as u32 });
-            places = need(Some(places + u64::from(steps) - 1).filter(|&n| n <= MOST_PLACES), &at, "fewer places")?;
+            places = require(Some(places + u64::from(steps) - 1).filter(|&n| n <= MAX_PLACES), &at, "fewer places")?;
             *sum += &format!("{} {} {} {}\n", from, to, steps, u32::from(!both_ways[number]));
         }
         let mut world = World::of(places, (0, 0));
@@ -172,13 +173,13 @@ impl Names {
         Ok((world, names))
     }
 
-    /// "A" or ["A"].
+    /// Parses a vertex: "A" or ["A"].
     fn vertex(&self, value: &Json) -> Option<Place> {
         let id = value.list().filter(|parts| parts.len() == 1).map_or(value, |parts| &parts[0]);
         self.vertices.get(id.text()?).copied()
     }
 
-    /// A vertex, or a place within a road: ["A", "B", steps], and the road's number where several join the two.
+    /// Parses a vertex, or a place within a road: ["A", "B", steps], with the road's number as fourth element if several roads join A and B.
     fn place(&self, value: &Json) -> Option<Place> {
         let (parts, number) = match value.list() {
             Some(parts @ [_, _, _]) => (parts, None),
@@ -193,26 +194,26 @@ impl Names {
         Some(road.place(if road.from == from { step } else { road.steps - step }))
     }
 
-    /// Where tasks and goals are: a cell, or a vertex.
+    /// Parses the place of a task or a goal: a cell or a vertex.
     fn end(&self, world: &World, value: Option<&Json>, at: &str) -> Result<Place, String> {
-        if world.size.0 == 0 { return need(value.and_then(|value| self.vertex(value)), at, "a vertex"); }
+        if world.size.0 == 0 { return require(value.and_then(|value| self.vertex(value)), at, "a vertex"); }
         let (place, looks) = self.find(world, value, at)?;
-        need(Some(place).filter(|_| looks.is_none()), at, "a cell without a heading")
+        require(Some(place).filter(|_| looks.is_none()), at, "a cell without a heading")
     }
 
-    /// The place that is named, and headings if there are any.
+    /// Parses a place, and headings if it has any.
     fn find(&self, world: &World, value: Option<&Json>, at: &str) -> Result<(Place, Option<(u32, u32, u32)>), String> {
         let (width, height) = world.size;
-        if width == 0 { return Ok((need(value.and_then(|value| self.place(value)), at, "a vertex, or a place on a road")?, None)); }
-        let parts = need(value.and_then(Json::list).filter(|parts| matches!(parts.len(), 2 | 3 | 5)), at, "a cell")?;
+        if width == 0 { return Ok((require(value.and_then(|value| self.place(value)), at, "a vertex, or a place on a road")?, None)); }
+        let parts = require(value.and_then(Json::list).filter(|parts| matches!(parts.len(), 2 | 3 | 5)), at, "a cell")?;
         let cell = parts[0].number().zip(parts[1].number()).filter(|&(x, y)| x < width && y < height).map(|(x, y)| y * width + x);
-        let cell = need(cell.filter(|&cell| world.passable[cell as usize]), at, "a passable cell")?;
+        let cell = require(cell.filter(|&cell| world.passable[cell as usize]), at, "a passable cell")?;
         let looks = match parts.len() {
             3 => heading(&parts[2]).map(|from| (from, from, 0)),
             5 => heading(&parts[2]).zip(heading(&parts[3])).zip(parts[4].number().filter(|&k| k > 0)).map(|((from, to), k)| (from, to, k)),
             _ => return Ok((cell, None)),
         };
-        Ok((cell, Some(need(looks, at, "headings")?)))
+        Ok((cell, Some(require(looks, at, "headings")?)))
     }
 
     fn agent(&self, world: &World, json: &Json, at: &str) -> Result<Agent, String> {
@@ -221,56 +222,57 @@ impl Names {
         if json.get("goal").is_some() { agent.goal = Some(self.end(world, json.get("goal"), at)?); }
         if json.get("motion").is_none() {
             let turns = looks.is_some() || ["turn_steps", "heading", "goal_heading"].iter().any(|key| json.get(key).is_some());
-            return need(Some(agent).filter(|_| !turns), at, "motion");
+            return require(Some(agent).filter(|_| !turns), at, "motion");
         }
-        need(json.get("motion").and_then(Json::text).filter(|&motion| motion == "turning"), at, "motion turning")?;
+        require(json.get("motion").and_then(Json::text).filter(|&motion| motion == "turning"), at, "motion turning")?;
         let turn = json.get("turn_steps").map_or(Some(1), Json::number).filter(|&n| (1..=65536).contains(&n) && world.size.0 > 0);
-        agent.turn = need(turn, at, "turn_steps, on a map")?;
-        let said = json.get("heading").map(|value| need(heading(value), at, "a heading")).transpose()?;
+        agent.turn = require(turn, at, "turn_steps, on a map")?;
+        let said = json.get("heading").map(|value| require(heading(value), at, "a heading")).transpose()?;
         let looks = looks.or_else(|| said.map(|from| (from, from, 0))).filter(|looks| said.map_or(true, |from| from == looks.0));
         let good = |&(from, to, k): &(u32, u32, u32)| if k == 0 { from == to } else { (from + to) % 2 == 1 && k < agent.turn };
-        agent.looks = need(looks.filter(good), at, "a heading")?;
-        agent.goal_heading = json.get("goal_heading").map(|value| need(heading(value), at, "a goal_heading")).transpose()?;
-        need(Some(()).filter(|_| agent.goal_heading.is_none() || agent.goal.is_some()), at, "a goal with its heading")?;
+        agent.looks = require(looks.filter(good), at, "a heading")?;
+        agent.goal_heading = json.get("goal_heading").map(|value| require(heading(value), at, "a goal_heading")).transpose()?;
+        require(Some(()).filter(|_| agent.goal_heading.is_none() || agent.goal.is_some()), at, "a goal with its heading")?;
         Ok(agent)
     }
 }
 
-/// The first rows of a scenario, all of one map, as an instance.
+/// Converts the first `count` rows of a scenario to an instance. All rows must name one map.
 fn scenario(text: &str, count: u32) -> Result<Json, String> {
     let (mut lines, mut agents, mut same) = (text.lines().zip(1..), Vec::new(), None);
     let mut row = |what: &str| -> Result<(Vec<&str>, String), String> {
-        let (line, number) = need(lines.next(), "its end", what)?;
+        let (line, number) = require(lines.next(), "its end", what)?;
         Ok((line.split_whitespace().collect(), format!("line {}", number)))
     };
     let (version, at) = row("version 1")?;
-    need(Some(()).filter(|_| matches!(version[..], ["version", "1" | "1.0"])), &at, "version 1")?;
+    require(Some(()).filter(|_| matches!(version[..], ["version", "1" | "1.0"])), &at, "version 1")?;
     let object = |members: Vec<(&str, Json)>| Json::Object(members.into_iter().map(|(key, value)| (key.to_string(), value)).collect());
     let cell = |x: u32, y: u32| Json::List(vec![Json::Whole(x.into()), Json::Whole(y.into())]);
     for number in 0..count {
         let (words, at) = row("a row for each agent")?;
         let numbers: Option<Vec<u32>> = words.iter().skip(2).take(6).map(|word| whole(word)).collect();
         let good = |found: &Vec<u32>| found.len() == 6 && words.len() == 9 && words[8].parse().map_or(false, |length: f64| length >= 0.0);
-        let numbers = need(numbers.filter(good), &at, "bucket, map, size, start, goal and length")?;
+        let numbers = require(numbers.filter(good), &at, "bucket, map, size, start, goal and length")?;
         let map = (words[1].rsplit('/').next().unwrap_or(""), numbers[0], numbers[1]);
-        need(Some(()).filter(|_| *same.get_or_insert(map) == map), &at, "the map of the rows before")?;
+        require(Some(()).filter(|_| *same.get_or_insert(map) == map), &at, "the map of the rows before")?;
         let (start, goal) = (cell(numbers[2], numbers[3]), cell(numbers[4], numbers[5]));
         agents.push(object(vec![("id", Json::Text(number.to_string())), ("start", start), ("goal", goal)]));
     }
-    let (name, width, height) = need(same, "its end", "rows")?;
+    let (name, width, height) = require(same, "its end", "rows")?;
     let map = vec![("map", Json::Text(name.to_string())), ("width", Json::Whole(width.into())), ("height", Json::Whole(height.into()))];
     Ok(object(map.into_iter().chain([("agents", Json::List(agents)), ("tasks", Json::List(Vec::new()))]).collect()))
 }
 
-/// The file of this name in the folder of `path` or below it, wherever links lead.
+/// Returns the file `name` with all symbolic links resolved, if it is in the folder of `path` or below.
 fn confined(path: &Path, name: &str) -> Result<PathBuf, String> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let inside = |folder: PathBuf| folder.join(name).canonicalize().ok().filter(|real| !Path::new(name).is_absolute() && real.starts_with(&folder) && real.is_file());
-    need(folder.canonicalize().ok().and_then(inside), "its map or roadmap", "a file in the folder of the instance or below, with --confine")
+    require(folder.canonicalize().ok().and_then(inside), "its map or roadmap", "a file in the folder of the instance or below, with --confine")
 }
 
 impl Instance {
-    /// Of a file; a scenario's first rows are so many agents, on this map or that which they name.
+    /// Reads an instance. With `agents`, the file is a scenario and its first `agents` rows are the agents. `map` replaces the map that
+    /// the file names.
     pub fn read(path: &Path, agents: Option<u32>, map: Option<&Path>, confine: bool) -> Result<Instance, String> {
         let read = |path: &Path| {
             let bytes = std::fs::read(path).map_err(|error| format!("{}: {}", path.display(), error))?;
@@ -284,9 +286,9 @@ impl Instance {
         };
         let json = json.map_err(|error| within(path, error))?;
         let one = json.get("map").is_some() != json.get("roadmap").is_some();
-        need(Some(()).filter(|_| one), &path.display().to_string(), "a map or a roadmap, and not both")?;
+        require(Some(()).filter(|_| one), &path.display().to_string(), "a map or a roadmap, and not both")?;
         let (named, roads) = (json.get("map").and_then(Json::text), json.get("roadmap").and_then(Json::text));
-        let name = need(named.or(roads), &path.display().to_string(), "a map or a roadmap")?;
+        let name = require(named.or(roads), &path.display().to_string(), "a map or a roadmap")?;
         let name = match map {
             Some(map) => map.to_path_buf(),
             None if confine => confined(path, name).map_err(|error| within(path, error))?,
@@ -301,7 +303,7 @@ impl Instance {
         if agents.is_some() {
             let size = |key| json.get(key).and_then(Json::number).unwrap_or(0);
             let same = (size("width"), size("height")) == world.size && name.file_name().map_or(false, |file| named == file.to_str());
-            need(Some(()).filter(|_| same), &within(path, "line 2".to_string()), "the name and size of the map")?;
+            require(Some(()).filter(|_| same), &within(path, "line 2".to_string()), "the name and size of the map")?;
         }
         Instance::of(&json, world, names, sum).map_err(|error| within(path, error))
     }
@@ -311,22 +313,22 @@ impl Instance {
         let list = |key: &str| json.get(key).and_then(Json::list).into_iter().flatten().enumerate();
         let (mut agents, mut tasks, mut ends) = (Vec::new(), Vec::new(), String::new());
         for (number, value) in list("agents") { agents.push(names.agent(&world, value, &format!("agents {}", number))?); }
-        need(Some(()).filter(|_| !agents.is_empty()), "agents", "one at least")?;
+        require(Some(()).filter(|_| !agents.is_empty()), "agents", "one at least")?;
         let (mut starts, mut goals) = (HashSet::new(), HashSet::new());
         for (number, agent) in agents.iter().enumerate() {
             let apart = starts.insert(agent.start) && agent.goal.map_or(true, |goal| goals.insert(goal));
-            need(Some(()).filter(|_| apart), &format!("agents {}", number), "a start and a goal that no other agent has")?;
+            require(Some(()).filter(|_| apart), &format!("agents {}", number), "a start and a goal that no other agent has")?;
         }
         for (number, value) in list("tasks") {
             let at = format!("tasks {}", number);
             let place = names.end(&world, value.get("cell"), &at)?;
-            let duration = need(value.get("duration").map_or(Some(0), Json::number).filter(|&steps| steps <= 65536), &at, "a duration")?;
+            let duration = require(value.get("duration").map_or(Some(0), Json::number).filter(|&steps| steps <= 65536), &at, "a duration")?;
             ends += &format!("task {} {}", place, duration);
-            for id in need(value.get("agents").and_then(Json::list).filter(|ids| !ids.is_empty()), &at, "agents")? {
-                let agent = *need(id.text().and_then(|id| agent_ids.get(id)), &at, "ids of agents")?;
+            for id in require(value.get("agents").and_then(Json::list).filter(|ids| !ids.is_empty()), &at, "agents")? {
+                let agent = *require(id.text().and_then(|id| agent_ids.get(id)), &at, "ids of agents")?;
                 let own: &mut Vec<u32> = &mut agents[agent as usize].tasks;
-                need(Some(()).filter(|_| own.last() != Some(&(number as u32))), &at, "no agent twice")?;
-                need(Some(()).filter(|_| own.len() < MOST_TASKS), &at, "64 tasks of an agent at most")?;
+                require(Some(()).filter(|_| own.last() != Some(&(number as u32))), &at, "no agent twice")?;
+                require(Some(()).filter(|_| own.len() < MAX_TASKS), &at, "64 tasks of an agent at most")?;
                 own.push(number as u32);
                 ends += &format!(" {}", agent);
             }
@@ -343,7 +345,7 @@ impl Instance {
                 let task = working.get("task").and_then(Json::text).and_then(|id| task_ids.get(id)).copied();
                 let good = |task: u32, at: &Task, done| agent.tasks.contains(&task) && at.place == agent.start && done < at.duration;
                 let found = task.zip(working.get("done").and_then(Json::number)).filter(|&(t, done)| good(t, &tasks[t as usize], done));
-                let (task, done) = need(found, &format!("agents {}", number), "work on a task where it starts")?;
+                let (task, done) = require(found, &format!("agents {}", number), "work on a task where it starts")?;
                 agent.working = Some((task, done));
                 sum += &format!("working {} {}\n", task, done);
             }

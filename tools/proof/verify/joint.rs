@@ -1,39 +1,41 @@
 // SPDX-License-Identifier: MIT
-//! Joint search: for each agent what it may be in at each time, in layers; then sets of such, one for each agent, from time to time.
-use crate::body::NEVER;
+//! Joint search. For each agent, layers hold the states that it may be in at each time. The search goes through sets of states, one for
+//! each agent, from one time to the next.
+use crate::agent::NEVER;
 use crate::instance::Place;
-use crate::walk::{State, Walk};
-use crate::words::{Map, Set};
+use crate::successors::{State, Successors};
+use crate::tokens::{Map, Set};
 
+/// A state of an agent at a time: its place, the points of the next time that may follow, and whether a path may end here.
 struct Point {
     place: Place,
     next: Vec<u32>,
     ends: bool,
-    /// The least cost of a path through it, if costs matter.
+    /// The least cost of a path through this point; 0 if costs have no cap.
     least: u32,
 }
 
-/// Of each time the points of one agent; where the cost has no cap, all times from `settled` on are one.
+/// The points of one agent at each time. If costs have no cap, the last layer stands for all times from `horizon` on.
 pub struct Layers(Vec<Vec<Point>>);
 
 impl Layers {
-    pub fn of(walk: &mut Walk, cap: u32, settled: u32) -> Layers {
-        assert!(walk.body.reach(cap), "orders of many tasks, too far from the best one");
+    pub fn of(successors: &mut Successors, cap: u32, horizon: u32) -> Layers {
+        assert!(successors.model.raise_limit(cap), "orders of many tasks, too far from the best one");
         let (mut layers, mut time) = (Vec::new(), 0);
-        let keep = |walk: &Walk, state: &State, time: u32| {
-            let remains = walk.remains(state);
+        let keep = |successors: &Successors, state: &State, time: u32| {
+            let remains = successors.remains(state);
             remains < NEVER && (cap == NEVER || time + remains <= cap)
         };
-        let mut states: Vec<State> = walk.starts().into_iter().filter(|state| keep(walk, state, 0)).collect();
+        let mut states: Vec<State> = successors.starts().into_iter().filter(|state| keep(successors, state, 0)).collect();
         let mut known: Map<State, u32> = states.iter().copied().zip(0..).collect();
         loop {
-            let steady = cap == NEVER && time == settled;
+            let steady = cap == NEVER && time == horizon;
             let (mut points, mut later, mut found) = (Vec::new(), Vec::new(), Map::default());
             while points.len() < states.len() {
                 let state = states[points.len()];
                 let mut next = Vec::new();
-                for step in walk.steps(state, time) {
-                    if keep(walk, &step, time + 1) {
+                for step in successors.steps(state, time) {
+                    if keep(successors, &step, time + 1) {
                         let (list, known) = if steady { (&mut states, &mut known) } else { (&mut later, &mut found) };
                         next.push(*known.entry(step).or_insert(list.len() as u32));
                         if list.len() < known.len() { list.push(step); }
@@ -41,8 +43,8 @@ impl Layers {
                 }
                 next.sort_unstable();
                 next.dedup();
-                let ends = walk.may_end(&state, time);
-                points.push(Point { place: walk.place(&state), next, ends, least: if cap == NEVER { 0 } else { NEVER } });
+                let ends = successors.may_end(&state, time);
+                points.push(Point { place: successors.place(&state), next, ends, least: if cap == NEVER { 0 } else { NEVER } });
             }
             layers.push(points);
             if steady || later.is_empty() { break; }
@@ -66,26 +68,27 @@ impl Layers {
     }
 }
 
-/// In a set of points: an agent that rests on this place for ever.
+/// In a set of points: RESTS + place stands for an agent that rests on this place for ever.
 const RESTS: u32 = 1 << 31;
 
 pub struct Joint {
     pub layers: Vec<Layers>,
-    /// Only sums of costs below this matter; without it, costs do not.
+    /// Only plans with a sum of costs below this limit are searched for. None: costs do not matter.
     pub limit: Option<u64>,
-    pub settled: u32,
+    pub horizon: u32,
     pub following: bool,
 }
 
-/// A set of points at a time.
+/// A set of points at a time, one for each agent.
 struct Node<'a> {
     key: &'a [u32],
     time: u32,
-    /// Of agents from each on: the least that those cost that are not at rest.
+    /// For each agent: a lower bound on the costs of this agent and those after it, without agents at rest.
     least: Vec<u64>,
 }
 
 impl Joint {
+    /// Whether there is no plan.
     pub fn finds_none(&self) -> bool {
         let mut nodes: Map<Vec<u32>, u64> = Map::from_iter([(Vec::new(), 0)]);
         for layers in &self.layers {
@@ -103,7 +106,7 @@ impl Joint {
                 }
                 if self.extend(&Node { key, time, least }, &mut Vec::new(), (spent, 0), &mut later) { return false; }
             }
-            if self.limit.is_none() && time == self.settled {
+            if self.limit.is_none() && time == self.horizon {
                 later.retain(|key: &Vec<u32>, _| seen.insert(key.clone()));
             } else {
                 time += 1;
@@ -115,8 +118,9 @@ impl Joint {
 
     fn point(&self, agent: usize, time: u32, number: u32) -> &Point { &self.layers[agent].0[time as usize][number as usize] }
 
-    /// Adds what the next agent may do to what those before do (point, place before, place after), and at last the set to
-    /// `later`. `costs`: of those at rest, and the least of the others. True: all rest, there is a plan.
+    /// Extends `chosen` (point, place before, place after; one for each agent so far) by each option of the next agent, and adds complete
+    /// sets to `later`. `costs`: costs of the agents at rest, and a lower bound on those of the others. Returns true if there is a plan:
+    /// all agents rest.
     fn extend(
         &self, node: &Node, chosen: &mut Vec<(u32, Place, Place)>, costs: (u64, u64), later: &mut Map<Vec<u32>, u64>,
     ) -> bool {
@@ -130,7 +134,7 @@ impl Joint {
         let now = node.key[agent];
         if now >= RESTS { return self.choose(node, chosen, (now, now - RESTS, now - RESTS), costs, later); }
         let point = self.point(agent, node.time, now);
-        let to = if self.limit.is_none() { self.settled.min(node.time + 1) } else { node.time + 1 };
+        let to = if self.limit.is_none() { self.horizon.min(node.time + 1) } else { node.time + 1 };
         let end = if self.limit.is_none() { 0 } else { u64::from(node.time) };
         if point.ends && self.choose(node, chosen, (point.place + RESTS, point.place, point.place), (costs.0 + end, costs.1), later) {
             return true;

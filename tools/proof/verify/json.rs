@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! As much of JSON as instances and roadmaps need.
+//! Parser for the part of JSON that instances and roadmaps need.
 pub enum Json {
     Other,
     Bool(bool),
@@ -11,8 +11,8 @@ pub enum Json {
     Object(Vec<(String, Json)>),
 }
 
-/// Objects and lists within each other, at most.
-const DEPTH: usize = 32;
+/// Maximum nesting of objects and lists.
+const MAX_DEPTH: usize = 32;
 
 impl Json {
     pub fn parse(bytes: &[u8]) -> Result<Json, String> {
@@ -54,7 +54,7 @@ impl Parser<'_> {
 
     fn blanks(&mut self) { while matches!(self.peek(), b' ' | b'\t' | b'\n' | b'\r') { self.at += 1; } }
 
-    /// After blanks.
+    /// Skips blanks, and then `word` if it is there. Returns whether it is.
     fn take(&mut self, word: &str) -> bool {
         self.blanks();
         let found = self.bytes.get(self.at..).map_or(false, |rest| rest.starts_with(word.as_bytes()));
@@ -65,7 +65,7 @@ impl Parser<'_> {
     fn value(&mut self, depth: usize) -> Option<Json> {
         self.blanks();
         match self.peek() {
-            b'{' | b'[' if depth >= DEPTH => None,
+            b'{' | b'[' if depth >= MAX_DEPTH => None,
             b'{' => {
                 let mut members: Vec<(String, Json)> = Vec::new();
                 self.items("}", |parser| {
@@ -164,7 +164,7 @@ impl Parser<'_> {
         Some(())
     }
 
-    /// The digits behind `u`; ends on the last of them.
+    /// Parses the four digits after `u`, and stops on the last of them.
     fn unit(&mut self) -> Option<u16> {
         let digits = std::str::from_utf8(self.bytes.get(self.at + 1..self.at + 5)?).ok()?;
         self.at += 4;

@@ -3,7 +3,7 @@
 //! and then the bound would be that of another problem.
 use crate::json::Json;
 
-/// The keys of one kind of object, and what is in the objects that they hold.
+/// The keys of one kind of object, and for each key the keys of the objects in its value.
 pub struct Keys(&'static [(&'static str, Option<&'static Keys>)]);
 
 static WORKING: Keys = Keys(&[("task", None), ("done", None)]);
@@ -16,11 +16,11 @@ static EDGE: Keys = Keys(&[("from", None), ("to", None), ("steps", None), ("one_
 pub static INSTANCE: Keys = Keys(&[("map", None), ("roadmap", None), ("agents", Some(&AGENT)), ("tasks", Some(&TASK))]);
 pub static ROADMAP: Keys = Keys(&[("vertices", Some(&VERTEX)), ("edges", Some(&EDGE))]);
 
-/// Remarks: for people and other programs, and not looked into.
+/// Remarks are for people and other programs. Their contents are not checked.
 fn is_remark(key: &str) -> bool { key.starts_with('_') || key == "$schema" }
 
 impl Keys {
-    /// Refuses a value that has, anywhere but in remarks, a key that is not known.
+    /// Refuses a value that has an unknown key anywhere except in remarks.
     pub fn check(&self, json: &Json, at: &str) -> Result<(), String> {
         let members = match json {
             Json::Object(members) => members,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-//! grove-verify: whether a certificate proves its bound (docs/proof.md, which it is written from).
-mod body;
-mod cover;
+//! grove-verify: verifies that a certificate proves its bound. Written from docs/proof.md.
+mod agent;
+mod covering;
 mod instance;
 mod joint;
 mod json;
@@ -12,8 +12,8 @@ mod proof;
 mod reader;
 mod rules;
 mod search;
-mod walk;
-mod words;
+mod successors;
+mod tokens;
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::Path;
@@ -23,28 +23,35 @@ use std::time::{Duration, Instant};
 const USAGE: &str = "Usage: grove-verify INSTANCE PROOF [--time-limit SECONDS] [--memory-limit GB] [--confine] [--stats]
        grove-verify FILE.scen PROOF --agents N [--map FILE.map] ...
 
-Exit code 0, 'verified: ...': no valid plan of the instance costs less than the certificate says;
-1, 'refused: ...': it does not prove that, or not within the limits; 2, 'unreadable: ...': what is no certificate or instance.
---confine refuses an instance that names a map outside of its own folder. Without options: no limit of time, 4 GB and
-128 MiB for the window of zstd; the map of a scenario is the one beside it that its rows name. --stats says on standard error what it took.";
+Verifies that a certificate proves its lower bound on the cost of every valid plan of the instance.
 
-/// The line that is read, for who refuses from outside.
+  --agents N             for a scenario: its first N rows are the agents.
+  --map FILE.map         map of the scenario (default: the map that its rows name, in the same folder).
+  --time-limit SECONDS   refuse after this time (default: no limit).
+  --memory-limit GB      refuse when more memory is needed (default: 4). The window of zstd, at most 128 MiB, is not counted.
+  --confine              refuse an instance that names a map or roadmap outside its own folder.
+  --stats                print lines, nodes, lemmas, searches and time to standard error.
+
+Exit codes: 0 'verified: ...', the bound is proven; 1 'refused: ...', it is not proven, or not within the limits;
+2 'unreadable: ...', a file is not a certificate or not an instance, or an option is wrong.";
+
+/// The number of the line being read, for refusals outside the verifier.
 static LINE: AtomicU64 = AtomicU64::new(0);
 static USED: AtomicU64 = AtomicU64::new(0);
 static LIMIT: AtomicU64 = AtomicU64::new(4_000_000_000);
-static SAID: AtomicBool = AtomicBool::new(false);
+static ENDED: AtomicBool = AtomicBool::new(false);
 
-/// Ends the program with its verdict: whoever is first.
-fn say(code: i32, text: &str) -> ! {
-    if SAID.swap(true, Ordering::SeqCst) { std::thread::sleep(Duration::from_secs(60)); }
+/// Ends the program with a verdict. Only the first call does; later calls wait for it.
+fn end(code: i32, text: &str) -> ! {
+    if ENDED.swap(true, Ordering::SeqCst) { std::thread::sleep(Duration::from_secs(60)); }
     use std::io::Write;
     let _ = writeln!(std::io::stdout(), "{}", text);
     std::process::exit(code)
 }
 
-fn refuse(reason: &str) -> ! { say(1, &format!("refused: line {}: {}", LINE.load(Ordering::Relaxed), reason)) }
+fn refuse(reason: &str) -> ! { end(1, &format!("refused: line {}: {}", LINE.load(Ordering::Relaxed), reason)) }
 
-/// Counts what is allocated.
+/// Allocator that counts the bytes in use, and refuses when they exceed LIMIT.
 struct Counting;
 
 unsafe impl GlobalAlloc for Counting {
@@ -78,9 +85,9 @@ fn arguments() -> Result<Arguments, String> {
     let mut found = Arguments { files: Vec::new(), agents: None, map: None, seconds: None, confine: false, stats: false };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
-        let mut number = |most: f64| {
-            let value = words.next().and_then(|word| word.parse().ok()).filter(|&value: &f64| value > 0.0 && value <= most);
-            value.ok_or_else(|| format!("{}: expected a number above 0, at most {}", word, most))
+        let mut number = |max: f64| {
+            let value = words.next().and_then(|word| word.parse().ok()).filter(|&value: &f64| value > 0.0 && value <= max);
+            value.ok_or_else(|| format!("{}: expected a number above 0, at most {}", word, max))
         };
         match word.as_str() {
             "--time-limit" => found.seconds = Some(number(1e9)?),
@@ -93,14 +100,14 @@ fn arguments() -> Result<Arguments, String> {
                 println!("{}", USAGE);
                 std::process::exit(0);
             }
-            option if option.starts_with("--") => return Err(format!("{}: no such option", option)),
+            option if option.starts_with("--") => return Err(format!("{}: unknown option", option)),
             _ => found.files.push(word),
         }
     }
     if found.files.len() != 2 { return Err("expected INSTANCE and PROOF".to_string()); }
     let scenario = found.files[0].ends_with(".scen");
-    if scenario && found.agents.is_none() { return Err("a .scen file: expected --agents, a whole number".to_string()); }
-    if !scenario && (found.agents.is_some() || found.map.is_some()) { return Err("--agents and --map are for a .scen file".to_string()); }
+    if scenario && found.agents.is_none() { return Err("a .scen file requires --agents with a whole number".to_string()); }
+    if !scenario && (found.agents.is_some() || found.map.is_some()) { return Err("--agents and --map require a .scen file".to_string()); }
     Ok(found)
 }
 
@@ -138,10 +145,10 @@ fn main() {
     std::panic::set_hook(Box::new(|panic| {
         let what = panic.payload();
         let what = what.downcast_ref::<String>().map(String::as_str).or_else(|| what.downcast_ref::<&str>().copied());
-        refuse(&format!("beyond this checker: {}", what.unwrap_or("it failed")))
+        refuse(&format!("beyond this checker: {}", what.unwrap_or("internal error")))
     }));
-    // Its own stack: the least cover and joint search call themselves for each agent.
+    // A thread with a large stack: the covering and the joint search recurse for each agent.
     let worker = std::thread::Builder::new().stack_size(1 << 29).spawn(move || verify(&arguments));
-    let (code, text) = worker.expect("a thread").join().unwrap_or_else(|_| refuse("it could not be checked"));
-    say(code, &text)
+    let (code, text) = worker.expect("a thread").join().unwrap_or_else(|_| refuse("internal error"));
+    end(code, &text)
 }

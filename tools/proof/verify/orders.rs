@@ -1,36 +1,41 @@
 // SPDX-License-Identifier: MIT
-//! Orders of stops: what remains at least when some are done. Of many stops only for what is not far from the best order.
-use crate::body::NEVER;
-use crate::words::Map;
+//! Orders of stops: the least remaining cost for each set of stops done. With many stops, only for orders that cost little more than the
+//! best one.
+use crate::agent::NEVER;
+use crate::tokens::Map;
 
-/// How much more than the best order, at first.
+/// Steps by which the limit exceeds the cost of the best order, or a lower bound on it.
 const SLACK: u32 = 2;
 
-/// With more of them known it begins anew.
-const MOST_TREES: usize = 4_000_000;
+/// If the cache holds more trees, it is emptied.
+const MAX_TREES: usize = 4_000_000;
 
-/// Stops may be done in several poses each: these are posts, (stop, pose).
+/// Costs between stops. A stop may be done in several poses; a post is (stop, pose).
 pub struct Orders<'a> {
     pub posts: &'a [(usize, u32)],
-    /// What the way takes from the start, from post to post, and from posts to the end.
+    /// Distances from the start to posts.
     pub first: &'a [u32],
+    /// Distances between posts, row by row.
     pub legs: Vec<u32>,
+    /// Distances from posts to the end.
     pub last: Vec<u32>,
     pub durations: Vec<u32>,
-    /// The stop, post and time at which it begins, at work.
+    /// The stop that the agent works on at time 0, its post, and the time at which this work ends.
     pub working: Option<(usize, u32, u32)>,
+    /// `allowed[k]`: the stops that may have number k.
     pub allowed: &'a [u64],
 }
 
-/// Of sets of stops done, with the post of the last.
+/// The remaining cost for a set of stops done and the post of the last one.
 pub type After = Map<(u64, u32), u32>;
 
 impl Orders<'_> {
-    /// What remains then at least, of all that a path up to a limit may come to; that limit (NEVER: of all paths), and the least cost.
+    /// Returns the remaining costs for all sets and posts on paths that cost up to a limit; this limit (NEVER: all paths), which is at
+    /// least `wanted`; and the least cost, or 0 if `wanted` is NEVER.
     pub fn after(&self, bound: &mut Option<Bound>, wanted: u32) -> (After, u32, u32) {
         if wanted == NEVER { return (self.within(NEVER, None).0, NEVER, 0); }
         let bound = bound.get_or_insert_with(|| Bound::of(self));
-        if bound.trees.len() > MOST_TREES { bound.trees = Map::default(); }
+        if bound.trees.len() > MAX_TREES { bound.trees = Map::default(); }
         let mut limit = wanted.max(bound.root + SLACK);
         loop {
             let (after, least, dropped) = self.within(limit, Some(bound));
@@ -40,7 +45,7 @@ impl Orders<'_> {
         }
     }
 
-    /// Also the least cost, and whether the limit left anything out.
+    /// Returns the remaining costs, the least cost, and whether the limit excluded any path.
     fn within(&self, limit: u32, mut bound: Option<&mut Bound>) -> (After, u32, bool) {
         let all = (1u64 << self.durations.len()) - 1;
         let (mut layers, mut now, mut dropped) = (Vec::new(), After::default(), false);
@@ -77,7 +82,7 @@ impl Orders<'_> {
         (after, least, dropped)
     }
 
-    /// Posts, with their stops, at which one may go on.
+    /// Returns the posts, with their stops, that may be next.
     fn open(&self, done: u64) -> impl Iterator<Item = (usize, usize)> + '_ {
         let open = self.allowed.get(done.count_ones() as usize).copied().unwrap_or(0) & !done;
         self.posts.iter().enumerate().map(|(post, &(stop, _))| (post, stop)).filter(move |&(_, stop)| open >> stop & 1 == 1)
@@ -88,23 +93,23 @@ impl Orders<'_> {
     }
 }
 
-/// Held and Karp's bound: who goes on through all remaining stops to the end comes to one of them, spans them by a tree, and leaves one
-/// for the end; where these have other degrees than a path, stops have a price for each edge that meets them. Any prices give a bound;
-/// these are good ones. In 64ths of a step.
+/// Held and Karp's bound. A path through all remaining stops to the end consists of an edge to one of them, a spanning tree of them, and
+/// an edge from one of them to the end. A stop has a price for each edge that meets it. Subgradient ascent on the prices pushes the
+/// degrees of the least such tree towards those of a path. Any prices give a bound. All values are in 64ths of a step.
 pub struct Bound {
     nodes: usize,
-    /// Of edges, with the prices of their ends. Nodes are the stops, the end, and the start; these two have none.
+    /// Costs of edges, with the prices of their ends. Nodes are the stops, the end and the start; the end and the start have no price.
     costs: Vec<i64>,
     prices: Vec<i64>,
-    /// Of sets of stops: their tree with the end.
+    /// Cached values of sets of stops: the tree with the edge to the end, and the durations.
     trees: Map<u64, i64>,
     root: u32,
 }
 
-/// There is no way; sums of what there is stay below.
-const NO_WAY: i64 = 1 << 50;
+/// Cost of an edge that does not exist. Sums of existing edges are less.
+const UNREACHABLE: i64 = 1 << 50;
 
-/// Whole steps, of 64ths.
+/// Converts 64ths of a step to whole steps, rounded up.
 fn whole(value: i64) -> u32 { ((value.max(0) + 63) / 64).min(i64::from(NEVER) - 1) as u32 }
 
 /// The stops of a set.
@@ -120,9 +125,9 @@ impl Bound {
     fn of(orders: &Orders) -> Bound {
         let count = orders.durations.len();
         let (nodes, end, start, all) = (count + 2, count, count + 1, (1 << count) - 1);
-        let mut plain = vec![NO_WAY; nodes * nodes];
+        let mut plain = vec![UNREACHABLE; nodes * nodes];
         let mut put = |one: usize, two: usize, cost: u32| {
-            let cost = if cost < NEVER { i64::from(cost) * 64 } else { NO_WAY };
+            let cost = if cost < NEVER { i64::from(cost) * 64 } else { UNREACHABLE };
             for at in [one * nodes + two, two * nodes + one] { plain[at] = cost.min(plain[at]); }
         };
         for (from, &(one, _)) in orders.posts.iter().enumerate() {
@@ -144,7 +149,7 @@ impl Bound {
         }
         bound.prices = best.1;
         bound.set_costs(&plain);
-        bound.root = if best.0 < NO_WAY / 2 { whole(best.0) + orders.durations.iter().sum::<u32>() } else { 0 };
+        bound.root = if best.0 < UNREACHABLE / 2 { whole(best.0) + orders.durations.iter().sum::<u32>() } else { 0 };
         bound
     }
 
@@ -153,13 +158,14 @@ impl Bound {
         self.costs = plain.iter().zip(prices).map(|(cost, prices)| cost + prices).collect();
     }
 
-    /// The cheapest edge from a node to one of these stops.
+    /// Returns the cost and the stop of the cheapest edge from a node to one of these stops.
     fn nearest(&self, node: usize, open: u64) -> (i64, usize) {
         let costs = &self.costs[node * self.nodes..];
         stops(open).map(|stop| (costs[stop], stop)).min().expect("a stop")
     }
 
-    /// A least spanning tree of these stops, with the edge to the end, without what a path pays as prices.
+    /// Returns the cost of a minimum spanning tree of these stops and of the edge to the end, minus the prices that a path pays: twice
+    /// that of each stop. Adds the degrees of the stops to `degrees`.
     fn tree(&self, open: u64, degrees: &mut [i64; 64]) -> i64 {
         let (cost, before) = self.nearest(self.nodes - 2, open);
         let mut value = cost - 2 * stops(open).map(|stop| self.prices[stop]).sum::<i64>();
@@ -188,7 +194,7 @@ impl Bound {
         value
     }
 
-    /// What remains at least when these stops are open, and one was done last; NEVER: there is no way.
+    /// Returns a lower bound on the remaining cost with the stops `open` still to do and `last` done last. Returns NEVER if there is no path.
     fn remains(&mut self, durations: &[u32], open: u64, last: usize) -> u32 {
         let (mut value, mut edge) = (0, self.costs[last * self.nodes + self.nodes - 2]);
         if open != 0 {
@@ -201,6 +207,6 @@ impl Bound {
             });
         }
         value += edge - self.prices[last];
-        if value < NO_WAY / 2 { whole(value) } else { NEVER }
+        if value < UNREACHABLE / 2 { whole(value) } else { NEVER }
     }
 }

@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: MIT
-//! The certificate: lemmas, the theorem, and the rules of their proofs (docs/proof.md, 3 and 4).
-use crate::body::{Body, Poses, NEVER};
+//! The certificate: lemmas, the theorem, and the rules of their proofs (docs/proof.md, sections 3 and 4).
+use crate::agent::{AgentModel, Poses, NEVER};
 use crate::instance::Instance;
 use crate::joint::{Joint, Layers};
 use crate::prices::{Prices, UNIT};
 use crate::reader::Lines;
-use crate::rules::{Chains, Demand, Kind, Rules};
-use crate::search::{surely_meets, Path, Search};
-use crate::walk::Walk;
-use crate::words::{hold, unreadable, Fault, Words};
+use crate::rules::{Chains, Constraint, Kind, Rules};
+use crate::search::{surely_satisfies, Path, Search};
+use crate::successors::Successors;
+use crate::tokens::{ensure, unreadable, Fault, Tokens};
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// A bound that no sum of costs reaches.
+/// The bound `inf`, which no sum of costs reaches.
 const INFINITE: u64 = u64::MAX;
 
 struct Lemma {
     agents: Vec<u32>,
     bound: u64,
-    demands: Vec<Demand>,
+    constraints: Vec<Constraint>,
 }
 
-/// The cost of an agent under the first so many of its demands, and a path that has it.
+/// The cost of an agent under the first `constraints` of its constraints, and a path of this cost.
 struct Known {
-    demands: usize,
+    constraints: usize,
     cost: u32,
     path: Path,
 }
@@ -32,16 +32,18 @@ pub struct Verifier {
     instance: Instance,
     chains: Chains,
     poses: HashMap<u32, Rc<Poses>>,
-    bodies: Vec<Option<Body>>,
+    models: Vec<Option<AgentModel>>,
     rules: Rules,
     search: Search,
     lines: Lines,
     following: bool,
     lemmas: Vec<Lemma>,
-    /// Whose demands were added, in order; those of each agent; how often each is there.
+    /// The agents of the constraints in force, in the order in which these were added.
     trail: Vec<u32>,
-    demands: Vec<Vec<Demand>>,
-    present: HashMap<Demand, u32>,
+    /// The constraints in force on each agent.
+    constraints: Vec<Vec<Constraint>>,
+    /// How often each constraint is in force.
+    present: HashMap<Constraint, u32>,
     known: Vec<Vec<Known>>,
     nodes: u64,
 }
@@ -51,10 +53,10 @@ fn text(bound: u64) -> String { if bound == INFINITE { "inf".to_string() } else 
 impl Verifier {
     pub fn new(instance: Instance, lines: Lines) -> Verifier {
         let (agents, chains, rules) = (instance.agents.len(), Chains::of(&instance.world), Rules::new(instance.world.links.len()));
-        let (demands, known, bodies) = ((0..agents).map(|_| vec![]), (0..agents).map(|_| vec![]), (0..agents).map(|_| None));
-        let (demands, known, bodies) = (demands.collect(), known.collect(), bodies.collect());
+        let (constraints, known, models) = ((0..agents).map(|_| vec![]), (0..agents).map(|_| vec![]), (0..agents).map(|_| None));
+        let (constraints, known, models) = (constraints.collect(), known.collect(), models.collect());
         let (poses, search, lemmas, trail, present) = Default::default();
-        Verifier { instance, chains, poses, bodies, rules, search, lines, following: true, lemmas, trail, demands, present, known, nodes: 0 }
+        Verifier { instance, chains, poses, models, rules, search, lines, following: true, lemmas, trail, constraints, present, known, nodes: 0 }
     }
 
     pub fn statistics(&self) -> String {
@@ -65,35 +67,35 @@ impl Verifier {
     fn line(&mut self) -> Result<String, Fault> {
         crate::LINE.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
         let line = self.lines.next().map_err(unreadable)?.ok_or_else(|| unreadable("expected more"))?;
-        if line.ends_with(' ') { Err(unreadable("expected no blank at the end of the line")) } else { Ok(line.to_string()) }
+        if line.ends_with(' ') { Err(unreadable("found a blank at the end of the line; expected none")) } else { Ok(line.to_string()) }
     }
 
-    /// Once it has run: is the claim about all plans, or about those in which nobody follows another?
+    /// After run(): whether the claim is about all plans, or only about those without following conflicts (false).
     pub fn may_follow(&self) -> bool { self.following }
 
-    /// What the theorem says: L, or None for `inf`.
+    /// Verifies the certificate. Returns the bound L of the theorem, or None for `inf`.
     pub fn run(&mut self) -> Result<Option<u64>, Fault> {
         Some(self.line()?).filter(|line| line == "grove-proof 1").ok_or_else(|| unreadable("expected 'grove-proof 1'"))?;
         let line = self.line()?;
         let sum = line.strip_prefix("instance ").filter(|sum| sum.len() == 16).and_then(|sum| u64::from_str_radix(sum, 16).ok());
         let sum = sum.ok_or_else(|| unreadable("expected 'instance' and 16 digits"))?;
-        hold(sum == self.instance.checksum, "it is of another instance")?;
+        ensure(sum == self.instance.checksum, "it is of another instance")?;
         let line = self.line()?;
         self.following = line == "following yes";
         if !self.following && line != "following no" { return Err(unreadable("expected 'following yes' or 'following no'")); }
         loop {
             let line = self.line()?;
-            let mut words = Words::of(&line);
-            match words.word()? {
+            let mut tokens = Tokens::of(&line);
+            match tokens.token()? {
                 "lemma" => {
-                    let lemma = self.lemma(words)?;
+                    let lemma = self.lemma(tokens)?;
                     self.lemmas.push(lemma);
                 }
                 "theorem" => {
-                    let (bound, all) = (words.or_inf()?.map_or(INFINITE, u64::from), (0..self.bodies.len() as u32).collect());
-                    words.end()?;
+                    let (bound, all) = (tokens.or_inf()?.map_or(INFINITE, u64::from), (0..self.models.len() as u32).collect());
+                    tokens.end()?;
                     let first = self.line()?;
-                    self.proof(first, &Lemma { agents: all, bound, demands: Vec::new() })?;
+                    self.proof(first, &Lemma { agents: all, bound, constraints: Vec::new() })?;
                     let ended = self.line()? == "end" && self.lines.next().map_err(unreadable)?.is_none();
                     return if ended { Ok(Some(bound).filter(|&bound| bound < INFINITE)) } else { Err(unreadable("expected 'end', the last line")) };
                 }
@@ -102,88 +104,89 @@ impl Verifier {
         }
     }
 
-    fn lemma(&mut self, mut words: Words) -> Result<Lemma, Fault> {
-        let bound = words.or_inf()?.map_or(INFINITE, u64::from);
-        let mut lemma = Lemma { bound, agents: Vec::new(), demands: Vec::new() };
-        while lemma.agents.is_empty() || words.more() {
-            let agent = words.index(self.bodies.len(), "agent")?;
-            hold(lemma.agents.last().map_or(true, |&last| last < agent), "agents that do not ascend")?;
+    fn lemma(&mut self, mut tokens: Tokens) -> Result<Lemma, Fault> {
+        let bound = tokens.or_inf()?.map_or(INFINITE, u64::from);
+        let mut lemma = Lemma { bound, agents: Vec::new(), constraints: Vec::new() };
+        while lemma.agents.is_empty() || tokens.more() {
+            let agent = tokens.index(self.models.len(), "agent")?;
+            ensure(lemma.agents.last().map_or(true, |&last| last < agent), "the agents must ascend")?;
             lemma.agents.push(agent);
         }
         loop {
             let line = self.line()?;
             match line.strip_prefix("demand ") {
-                Some(text) => lemma.demands.push(self.demand(text, &lemma)?),
+                Some(text) => lemma.constraints.push(self.constraint(text, &lemma)?),
                 None => return self.proof(line, &lemma).map(|_| lemma),
             }
         }
     }
 
-    fn body(&mut self, agent: u32) -> &mut Body {
+    fn model(&mut self, agent: u32) -> &mut AgentModel {
         let (instance, poses) = (&self.instance, &mut self.poses);
-        self.bodies[agent as usize].get_or_insert_with(|| {
+        self.models[agent as usize].get_or_insert_with(|| {
             let found = &instance.agents[agent as usize];
             let poses = poses.entry(found.turn).or_insert_with(|| Rc::new(Poses::of(&instance.world, found.turn)));
-            Body::of(instance, found, poses.clone())
+            AgentModel::of(instance, found, poses.clone())
         })
     }
 
-    fn demand(&mut self, text: &str, of: &Lemma) -> Result<Demand, Fault> {
-        let mut words = Words::of(text);
-        let agent = words.number()?;
-        hold(of.agents.binary_search(&agent).is_ok(), format!("agent {} is not among those of whom this is", agent))?;
+    fn constraint(&mut self, text: &str, of: &Lemma) -> Result<Constraint, Fault> {
+        let mut tokens = Tokens::of(text);
+        let agent = tokens.number()?;
+        ensure(of.agents.binary_search(&agent).is_ok(), format!("agent {} is not among the agents of this lemma or theorem", agent))?;
         let names = ["bar", "move", "norest", "rest", "pass", "stop", "nostop"];
         let kinds = [Kind::Bar, Kind::Move, Kind::NoRest, Kind::Rest, Kind::Pass, Kind::Stop, Kind::NoStop];
-        let name = words.word()?;
-        let kind = kinds[names.iter().position(|&known| known == name).ok_or_else(|| unreadable("expected a demand"))?];
-        let mut demand = Demand { agent, kind, p: words.number()?, q: 0, s: 0, e: 0 };
-        if matches!(kind, Kind::Move | Kind::Pass | Kind::Stop | Kind::NoStop) { demand.q = words.number()?; }
+        let name = tokens.token()?;
+        let kind = kinds[names.iter().position(|&known| known == name).ok_or_else(|| unreadable("expected a constraint"))?];
+        let mut constraint = Constraint { agent, kind, p: tokens.number()?, q: 0, s: 0, e: 0 };
+        if matches!(kind, Kind::Move | Kind::Pass | Kind::Stop | Kind::NoStop) { constraint.q = tokens.number()?; }
         if matches!(kind, Kind::Stop | Kind::NoStop) {
-            let stops = &self.body(agent).stops;
-            let known = (demand.p as usize) < stops.len() && stops.iter().any(|stop| stop.task == demand.q);
-            hold(known, "no such number, or no such stop of this agent")?;
+            let stops = &self.model(agent).stops;
+            let known = (constraint.p as usize) < stops.len() && stops.iter().any(|stop| stop.task == constraint.q);
+            ensure(known, "this agent has no such number, or no such stop")?;
         } else {
             let places = self.instance.world.links.len() as u32;
-            hold(demand.p < places && demand.q < places, format!("there is no place {}", demand.p.max(demand.q)))?;
-            let moves = kind == Kind::Move && demand.p != demand.q || kind == Kind::Pass && self.chains.exit(demand.p, demand.q).is_some();
-            hold(moves || !matches!(kind, Kind::Move | Kind::Pass), "expected two places, for 'pass' the last of a chain and the end next to it")?;
-            demand.s = words.number()?;
+            ensure(constraint.p < places && constraint.q < places, format!("there is no place {}", constraint.p.max(constraint.q)))?;
+            let moves = kind == Kind::Move && constraint.p != constraint.q || kind == Kind::Pass && self.chains.exit(constraint.p, constraint.q).is_some();
+            let paired = moves || !matches!(kind, Kind::Move | Kind::Pass);
+            ensure(paired, "expected two different places; for 'pass', the last place of a chain and the end next to it")?;
+            constraint.s = tokens.number()?;
             let ends = !matches!(kind, Kind::Rest | Kind::NoRest);
-            demand.e = if ends { words.or_inf()?.unwrap_or(NEVER) } else { demand.s };
+            constraint.e = if ends { tokens.or_inf()?.unwrap_or(NEVER) } else { constraint.s };
         }
-        words.end().map(|_| demand)
+        tokens.end().map(|_| constraint)
     }
 
-    fn push(&mut self, demand: Demand) {
-        self.demands[demand.agent as usize].push(demand);
-        self.trail.push(demand.agent);
-        *self.present.entry(demand).or_insert(0) += 1;
+    fn push(&mut self, constraint: Constraint) {
+        self.constraints[constraint.agent as usize].push(constraint);
+        self.trail.push(constraint.agent);
+        *self.present.entry(constraint).or_insert(0) += 1;
     }
 
-    /// Adds what one side of a split demands: who rests on a place for ever has it for itself.
-    fn assume(&mut self, demand: Demand, agents: &[u32]) {
-        self.push(demand);
-        for &agent in agents.iter().filter(|&&agent| demand.kind == Kind::Rest && agent != demand.agent) {
-            self.push(Demand { agent, kind: Kind::Bar, e: NEVER, ..demand });
+    /// Adds the constraint of one branch of a split. An agent that rests on a place for ever bars it for all other agents.
+    fn assume(&mut self, constraint: Constraint, agents: &[u32]) {
+        self.push(constraint);
+        for &agent in agents.iter().filter(|&&agent| constraint.kind == Kind::Rest && agent != constraint.agent) {
+            self.push(Constraint { agent, kind: Kind::Bar, e: NEVER, ..constraint });
         }
     }
 
     fn undo(&mut self, trail: usize) {
         for agent in self.trail.drain(trail..).rev().map(|agent| agent as usize) {
-            let demand = self.demands[agent].pop().expect("a demand");
-            let count = self.present.get_mut(&demand).expect("a demand");
+            let constraint = self.constraints[agent].pop().expect("a constraint");
+            let count = self.present.get_mut(&constraint).expect("a constraint");
             *count -= 1;
-            if *count == 0 { self.present.remove(&demand); }
-            let left = self.demands[agent].len();
-            while self.known[agent].last().map_or(false, |known| known.demands > left) { self.known[agent].pop(); }
+            if *count == 0 { self.present.remove(&constraint); }
+            let left = self.constraints[agent].len();
+            while self.known[agent].last().map_or(false, |known| known.constraints > left) { self.known[agent].pop(); }
         }
     }
 
-    /// Reads the proof of a statement; its first line is read already.
+    /// Reads and verifies the proof of a statement. `line` is its first line.
     fn proof(&mut self, mut line: String, of: &Lemma) -> Result<(), Fault> {
-        of.demands.iter().for_each(|&demand| self.push(demand));
-        // Of each split on the way: where its demands begin, and its second side, if that is still to come.
-        let mut splits: Vec<(usize, Option<Demand>)> = Vec::new();
+        of.constraints.iter().for_each(|&constraint| self.push(constraint));
+        // For each open split: the length of the trail before it, and its second branch if that is not proven yet.
+        let mut splits: Vec<(usize, Option<Constraint>)> = Vec::new();
         loop {
             self.nodes += 1;
             let (rule, rest) = line.split_once(' ').unwrap_or((line.as_str(), ""));
@@ -199,20 +202,20 @@ impl Verifier {
                 splits.push((self.trail.len(), Some(two)));
                 Some(one)
             } else {
-                // What is proven closes splits, up to one whose second side is still to come.
+                // A proven node closes splits, up to the first one whose second branch is not proven yet.
                 while splits.last().map_or(false, |split| split.1.is_none()) { splits.pop(); }
                 let second = splits.last_mut().and_then(|split| split.1.take());
                 self.undo(splits.last().map_or(0, |split| split.0));
                 second
             };
-            match next { Some(demand) => self.assume(demand, &of.agents), None => return Ok(()) }
+            match next { Some(constraint) => self.assume(constraint, &of.agents), None => return Ok(()) }
             line = self.line()?;
         }
     }
 
-    fn split(&mut self, text: &str, of: &Lemma) -> Result<(Demand, Demand), Fault> {
-        let (one, two) = text.split_once(" | ").ok_or_else(|| unreadable("expected two demands"))?;
-        let (one, two) = (self.demand(one, of)?, self.demand(two, of)?);
+    fn split(&mut self, text: &str, of: &Lemma) -> Result<(Constraint, Constraint), Fault> {
+        let (one, two) = text.split_once(" | ").ok_or_else(|| unreadable("expected two constraints"))?;
+        let (one, two) = (self.constraint(one, of)?, self.constraint(two, of)?);
         let same = (one.p, one.q, one.s) == (two.p, two.q, two.s);
         let at_once = one.s == one.e && two.s == two.e;
         let permitted = match (one.kind, two.kind, one.agent == two.agent) {
@@ -227,68 +230,69 @@ impl Verifier {
             }
             _ => false,
         };
-        hold(permitted, "a plan may meet neither of these demands").map(|_| (one, two))
+        ensure(permitted, "a plan may satisfy neither of these constraints").map(|_| (one, two))
     }
 
-    /// A lemma that may be used here.
-    fn usable(&self, words: &mut Words, of: &Lemma) -> Result<&Lemma, Fault> {
-        let number = words.index(self.lemmas.len(), "lemma")?;
+    /// Parses the number of a lemma, and refuses a lemma about other agents or with a constraint that is not in force.
+    fn usable(&self, tokens: &mut Tokens, of: &Lemma) -> Result<&Lemma, Fault> {
+        let number = tokens.index(self.lemmas.len(), "lemma")?;
         let lemma = &self.lemmas[number as usize];
         let other = lemma.agents.iter().find(|agent| of.agents.binary_search(agent).is_err());
-        hold(other.is_none(), format!("lemma {} is of agent {}, too", number, other.unwrap_or(&0)))?;
-        let missing = lemma.demands.iter().position(|demand| !self.present.contains_key(demand));
-        hold(missing.is_none(), format!("demand {} of lemma {} is not in force", missing.unwrap_or(0), number)).map(|_| lemma)
+        ensure(other.is_none(), format!("lemma {} is also about agent {}, which is not an agent here", number, other.unwrap_or(&0)))?;
+        let missing = lemma.constraints.iter().position(|constraint| !self.present.contains_key(constraint));
+        ensure(missing.is_none(), format!("constraint {} of lemma {} is not in force", missing.unwrap_or(0), number)).map(|_| lemma)
     }
 
-    fn later(&mut self, text: &str, of: &Lemma) -> Result<(Demand, Demand), Fault> {
-        let mut words = Words::of(text);
-        let mut side = |words: &mut Words| {
-            let (agent, time) = (words.index(self.bodies.len(), "agent")?, words.number()?);
-            let goal = self.body(agent).plain_goal;
-            hold(goal.is_some(), format!("agent {} has no plain goal", agent))?;
-            Ok::<_, Fault>(Demand { agent, kind: Kind::NoRest, p: goal.unwrap_or(0), q: 0, s: time, e: time })
+    fn later(&mut self, text: &str, of: &Lemma) -> Result<(Constraint, Constraint), Fault> {
+        let mut tokens = Tokens::of(text);
+        let mut side = |tokens: &mut Tokens| {
+            let (agent, time) = (tokens.index(self.models.len(), "agent")?, tokens.number()?);
+            let goal = self.model(agent).plain_goal;
+            ensure(goal.is_some(), format!("agent {} has no plain goal", agent))?;
+            Ok::<_, Fault>(Constraint { agent, kind: Kind::NoRest, p: goal.unwrap_or(0), q: 0, s: time, e: time })
         };
-        let (one, two) = (side(&mut words)?, side(&mut words)?);
-        let lemma = self.usable(&mut words, of)?;
-        words.end()?;
+        let (one, two) = (side(&mut tokens)?, side(&mut tokens)?);
+        let lemma = self.usable(&mut tokens, of)?;
+        tokens.end()?;
         let pair = [one.agent.min(two.agent), one.agent.max(two.agent)];
         let said = one.agent != two.agent && lemma.agents == pair && lemma.bound > u64::from(one.s) + u64::from(two.s);
-        hold(said, "the lemma is not of these two, or says less").map(|_| (one, two))
+        ensure(said, "the lemma is not about these two agents, or its bound is too small").map(|_| (one, two))
     }
 
-    /// c(A, D), or a lower bound of it that is known already.
+    /// Returns c(A, D), or, unless `exact`, a lower bound on it that is already known.
     fn cost(&mut self, agent: u32, exact: bool) -> u32 {
-        self.body(agent);
+        self.model(agent);
         let number = agent as usize;
-        let (demands, known) = (&self.demands[number], &mut self.known[number]);
+        let (constraints, known) = (&self.constraints[number], &mut self.known[number]);
         if let Some(last) = known.last() {
-            let holds = !exact || last.path.is_empty() || demands[last.demands..].iter().all(|demand| surely_meets(&last.path, demand));
+            let satisfied = || constraints[last.constraints..].iter().all(|constraint| surely_satisfies(&last.path, constraint));
+            let holds = !exact || last.path.is_empty() || satisfied();
             if holds { return last.cost; }
         }
-        let body = self.bodies[number].as_mut().expect("made above");
-        let met = self.rules.set(body, &self.chains, demands);
-        let limit = if met { body.limit() } else { NEVER };
-        let mut walk = Walk { body, chains: &self.chains, rules: &self.rules };
-        let found = if met { self.search.least(&mut walk) } else { None };
-        // Beyond the limit of orders it is not known how much, but that it is more.
+        let model = self.models[number].as_mut().expect("made above");
+        let met = self.rules.set(model, &self.chains, constraints);
+        let limit = if met { model.limit() } else { NEVER };
+        let mut successors = Successors { model, chains: &self.chains, rules: &self.rules };
+        let found = if met { self.search.least(&mut successors) } else { None };
+        // If the cost exceeds the limit of the model, only this is known.
         let beyond = if limit < NEVER { limit + 1 } else { NEVER };
         let (cost, path) = found.filter(|found| found.0 <= limit).unwrap_or((beyond, Vec::new()));
-        known.push(Known { demands: demands.len(), cost, path });
+        known.push(Known { constraints: constraints.len(), cost, path });
         cost
     }
 
-    /// If it is not known what an agent costs, but that it is more than a limit: raises that.
-    fn look_further(&mut self, agent: u32) -> bool {
+    /// If the cost of an agent is only known to exceed the limit of its model, raises this limit. Returns whether it did.
+    fn raise_limit(&mut self, agent: u32) -> bool {
         let last = self.known[agent as usize].last().map_or(NEVER, |last| if last.path.is_empty() { last.cost } else { NEVER });
         if last == NEVER { return false; }
         self.known[agent as usize].retain(|known| !known.path.is_empty());
-        self.walk(agent).1.body.reach(last)
+        self.successors(agent).1.model.raise_limit(last)
     }
 
     fn leaf(&mut self, names: &str, of: &Lemma) -> Result<(), Fault> {
-        let (mut words, mut named) = (Words::of(names), Vec::new());
-        while !names.is_empty() && words.more() {
-            let lemma = self.usable(&mut words, of)?;
+        let (mut tokens, mut named) = (Tokens::of(names), Vec::new());
+        while !names.is_empty() && tokens.more() {
+            let lemma = self.usable(&mut tokens, of)?;
             if lemma.bound == INFINITE { return Ok(()); }
             named.push((lemma.agents.clone(), lemma.bound));
         }
@@ -305,10 +309,10 @@ impl Verifier {
             let more = bound.saturating_sub(agents.iter().map(cost_of).sum());
             (agents, more)
         };
-        let more = crate::cover::least(named.into_iter().map(more_than_costs).collect());
+        let more = crate::covering::least(named.into_iter().map(more_than_costs).collect());
         let proven = costs.contains(&NEVER) || sum + more >= of.bound;
-        if !proven && of.agents.iter().filter(|&&agent| self.look_further(agent)).count() > 0 { return self.leaf(names, of); }
-        hold(proven, format!("costs {} and {} by lemmas, expected {}", sum, more, text(of.bound)))
+        if !proven && of.agents.iter().filter(|&&agent| self.raise_limit(agent)).count() > 0 { return self.leaf(names, of); }
+        ensure(proven, format!("costs {} and {} by lemmas; expected {}", sum, more, text(of.bound)))
     }
 
     fn joint(&mut self, of: &Lemma) -> Result<(), Fault> {
@@ -319,61 +323,61 @@ impl Verifier {
         let cap = |&cost: &u32| if of.bound == INFINITE { NEVER } else { (u64::from(cost) + spare).min(u64::from(NEVER) - 1) as u32 };
         let caps: Vec<u32> = costs.iter().map(cap).collect();
         let none = self.none_joint(&of.agents, &caps, Some(of.bound).filter(|&bound| bound < INFINITE));
-        hold(none, "joint search finds a plan that costs less")
+        ensure(none, "joint search finds a plan that costs less")
     }
 
-    fn walk(&mut self, agent: u32) -> (bool, Walk<'_>) {
-        self.body(agent);
-        let body = self.bodies[agent as usize].as_mut().expect("made above");
-        let met = self.rules.set(body, &self.chains, &self.demands[agent as usize]);
-        (met, Walk { body, chains: &self.chains, rules: &self.rules })
+    fn successors(&mut self, agent: u32) -> (bool, Successors<'_>) {
+        self.model(agent);
+        let model = self.models[agent as usize].as_mut().expect("made above");
+        let met = self.rules.set(model, &self.chains, &self.constraints[agent as usize]);
+        (met, Successors { model, chains: &self.chains, rules: &self.rules })
     }
 
-    /// No joint paths of these agents cost up to so much each, and less than a limit together.
+    /// Whether no plan of these agents costs at most `caps` each and less than `limit` together.
     fn none_joint(&mut self, agents: &[u32], caps: &[u32], limit: Option<u64>) -> bool {
-        let (mut settled, mut layers) = (1, Vec::new());
+        let (mut horizon, mut layers) = (1, Vec::new());
         for &agent in agents {
-            let (met, walk) = self.walk(agent);
+            let (met, successors) = self.successors(agent);
             if !met { return true; }
-            settled = settled.max(walk.rules.settled);
+            horizon = horizon.max(successors.rules.horizon);
         }
-        for (&agent, &cap) in agents.iter().zip(caps) { layers.push(Layers::of(&mut self.walk(agent).1, cap, settled)); }
-        Joint { layers, limit, settled, following: self.following }.finds_none()
+        for (&agent, &cap) in agents.iter().zip(caps) { layers.push(Layers::of(&mut self.successors(agent).1, cap, horizon)); }
+        Joint { layers, limit, horizon, following: self.following }.finds_none()
     }
 
     fn prices(&mut self, of: &Lemma) -> Result<(), Fault> {
-        let (agents, places) = (self.bodies.len(), self.instance.world.links.len());
-        hold(of.agents.len() == agents && self.trail.is_empty(), "prices are of all agents, without demands")?;
+        let (agents, places) = (self.models.len(), self.instance.world.links.len());
+        ensure(of.agents.len() == agents && self.trail.is_empty(), "prices require all agents, without constraints")?;
         let mut prices = Prices::default();
-        let price = |words: &mut Words| words.number().map(u64::from);  // so small that no sum overflows
+        let price = |tokens: &mut Tokens| tokens.number().map(u64::from);  // so small that no sum overflows
         loop {
             let line = self.line()?;
-            let mut words = Words::of(&line);
-            match words.word()? {
-                "place" => prices.place(words.index(places, "place")?, words.number()?, price(&mut words)?),
+            let mut tokens = Tokens::of(&line);
+            match tokens.token()? {
+                "place" => prices.place(tokens.index(places, "place")?, tokens.number()?, price(&mut tokens)?),
                 "edge" => {
-                    let (from, to) = (words.index(places, "place")?, words.index(places, "place")?);
-                    hold(from < to, "places of an edge that do not ascend")?;
-                    prices.edge(from, to, words.number()?, price(&mut words)?);
+                    let (from, to) = (tokens.index(places, "place")?, tokens.index(places, "place")?);
+                    ensure(from < to, "the places of an edge must ascend")?;
+                    prices.edge(from, to, tokens.number()?, price(&mut tokens)?);
                 }
                 "finish" => {
-                    let mut side = || Ok::<_, Fault>((words.index(agents, "agent")?, words.number()?));
+                    let mut side = || Ok::<_, Fault>((tokens.index(agents, "agent")?, tokens.number()?));
                     let (one, two) = (side()?, side()?);
                     let none = one.0 < two.0 && self.none_joint(&[one.0, two.0], &[one.1, two.1], Some(INFINITE));
-                    hold(none, "these agents may both have finished by then")?;
-                    prices.finish([one, two], price(&mut words)?);
+                    ensure(none, "both agents may have finished by these times")?;
+                    prices.finish([one, two], price(&mut tokens)?);
                 }
                 "end" => break,
                 _ => return Err(unreadable("expected a row, or 'end'")),
             }
-            words.end()?;
+            tokens.end()?;
         }
         prices.close();
         let mut sum = 0u64;
         for agent in 0..agents as u32 {
-            match prices.of(agent, &mut self.walk(agent).1) { Some(price) => sum += price, None => return Ok(()) }
+            match prices.of(agent, &mut self.successors(agent).1) { Some(price) => sum += price, None => return Ok(()) }
         }
         let bound = (sum.saturating_sub(prices.sum) + UNIT - 1) / UNIT;
-        hold(bound >= of.bound, format!("prices prove {}, expected {}", bound, text(of.bound)))
+        ensure(bound >= of.bound, format!("prices prove {}; expected {}", bound, text(of.bound)))
     }
 }

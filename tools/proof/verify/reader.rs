@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! The lines of a certificate, as a stream, decompressed if need be.
+//! Reads the lines of a certificate as a stream, and decompresses them if necessary.
 use std::ffi::c_void;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Error, ErrorKind, Read};
@@ -22,7 +22,7 @@ extern "C" {
 struct Zstd<R> {
     source: R,
     stream: *mut c_void,
-    /// Within a frame more must come.
+    /// Within a frame: more bytes must follow.
     within: bool,
 }
 
@@ -34,11 +34,11 @@ impl<R: BufRead> Read for Zstd<R> {
             let mut input = Buffer { bytes: bytes.as_ptr() as *mut u8, size: bytes.len(), at: 0 };
             let mut out = Buffer { bytes: target.as_mut_ptr(), size: target.len(), at: 0 };
             if ended && !self.within { return Ok(0); }
-            // Sound: both buffers are as long as they say, the input is not written to, and the stream is this one's own.
+            // Sound: both buffers have the sizes given, zstd does not write to the input, and nothing else uses the stream.
             let left = unsafe { ZSTD_decompressStream(self.stream, &mut out, &mut input) };
             let failed = unsafe { ZSTD_isError(left) } != 0;
             if failed || (ended && out.at == 0) {
-                return Err(Error::new(ErrorKind::InvalidData, "broken or cut off by zstd's account"));
+                return Err(Error::new(ErrorKind::InvalidData, "zstd: the data are corrupt or truncated"));
             }
             self.within = left != 0;
             self.source.consume(input.at);
@@ -47,7 +47,7 @@ impl<R: BufRead> Read for Zstd<R> {
     }
 }
 
-const LONGEST_LINE: u64 = 1 << 22;
+const MAX_LINE: u64 = 1 << 22;
 
 pub struct Lines {
     source: Box<dyn BufRead>,
@@ -68,11 +68,11 @@ impl Lines {
         Ok(Lines { source, line: Vec::new(), number: 0 })
     }
 
-    /// The next line, without its end; None at the end.
+    /// Returns the next line without its line feed, or None at the end of the file.
     pub fn next(&mut self) -> Result<Option<&str>, String> {
         self.number += 1;
         self.line.clear();
-        let read = self.source.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut self.line);
+        let read = self.source.by_ref().take(MAX_LINE).read_until(b'\n', &mut self.line);
         match read.map_err(|error| error.to_string())? {
             0 => Ok(None),
             _ if self.line.pop() != Some(b'\n') => Err("expected the end of a line".to_string()),

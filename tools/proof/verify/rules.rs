@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-//! Demands (docs/proof.md, 2), and what those on one agent say of its steps.
-use crate::body::{Body, NEVER};
+//! Constraints (docs/proof.md, section 2), and how those on one agent restrict its steps.
+use crate::agent::{AgentModel, NEVER};
 use crate::instance::{Place, World};
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
@@ -8,7 +8,7 @@ pub enum Kind { Bar, Move, NoRest, Rest, Pass, Stop, NoStop }
 
 /// `p` and `q` are places, or number and task of a stop; `s` and `e` times.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub struct Demand {
+pub struct Constraint {
     pub agent: u32,
     pub kind: Kind,
     pub p: u32,
@@ -17,7 +17,7 @@ pub struct Demand {
     pub e: u32,
 }
 
-/// Rows of places with two neighbours, and the ends by which one leaves them from their first and last place.
+/// A row of inner places from `first` to `last` (docs/proof.md, section 1). `ends[0]` is the end next to `first`, `ends[1]` that next to `last`.
 pub struct Chain {
     first: Place,
     last: Place,
@@ -56,14 +56,15 @@ impl Chains {
         found
     }
 
-    /// By which end (1 or 2) a step between an inner place and one that is not enters or leaves the chain.
+    /// Returns the side (1 or 2) on which a step between an inner place and an end enters or leaves the chain.
     fn side(&self, inner: Place, end: Place) -> u8 {
         let chain = &self.chains[self.of[inner as usize] as usize];
         let second = if chain.first == chain.last { end != chain.ends[0] } else { inner == chain.last };
         1 + u8::from(second)
     }
 
-    /// The chain, and the side on which one leaves it from this inner place for this end.
+    /// Returns the number of the chain that a step from `inner` to `end` leaves, the side on which it does, and the chain. Returns None
+    /// if no step does.
     pub fn exit(&self, inner: Place, end: Place) -> Option<(u32, u8, &Chain)> {
         let number = self.of[inner as usize];
         let chain = self.chains.get(number as usize)?;
@@ -79,26 +80,27 @@ struct Mark {
     first: u32,
     count: u32,
     leaves: bool,
-    /// Who arrives before that may not come to rest with this arrival.
+    /// An agent that arrives earlier may not come to rest with this arrival.
     rest: u32,
 }
 
-/// How an agent stands where it is: whether it came too early to rest there; 4 or 8: by which side it entered the chain.
-pub type Way = u8;
-pub const EARLY: Way = 1;
+/// EARLY: the agent arrived too early to rest on its place. 4 or 8: it entered the chain on side 1 or 2.
+pub type Flags = u8;
+pub const EARLY: Flags = 1;
 
 #[derive(Default)]
 pub struct Rules {
     stamp: u32,
     marks: Vec<Mark>,
     safe: Vec<(u32, u32)>,
-    moves: Vec<Demand>,
+    moves: Vec<Constraint>,
     passes: Vec<(u32, u8, u32, u32)>,
-    /// Which stops may have which number, and whether that says anything.
+    /// `allowed[k]`: the stops that may have number k.
     pub allowed: Vec<u64>,
+    /// Whether a constraint restricts the order of stops.
     pub ordered: bool,
-    /// After all finite times of demands.
-    pub settled: u32,
+    /// The first time after all finite times of constraints; 1 at least.
+    pub horizon: u32,
 }
 
 impl Rules {
@@ -114,39 +116,39 @@ impl Rules {
         Some(&self.marks[place as usize]).filter(|mark| mark.stamp == self.stamp)
     }
 
-    /// False: nobody meets these demands.
-    pub fn set(&mut self, body: &mut Body, chains: &Chains, demands: &[Demand]) -> bool {
+    /// Stores the constraints on one agent, and restricts its model. Returns false if they contradict each other.
+    pub fn set(&mut self, model: &mut AgentModel, chains: &Chains, constraints: &[Constraint]) -> bool {
         self.stamp += 1;
         self.moves.clear();
         self.passes.clear();
         self.allowed.clear();
-        self.allowed.resize(body.stops.len(), body.all());
+        self.allowed.resize(model.stops.len(), model.all());
         self.ordered = false;
-        self.settled = 1;
+        self.horizon = 1;
         let mut bars: Vec<(Place, u32, u32)> = Vec::new();
         let mut rest: Option<(Place, u32)> = None;
-        for demand in demands {
-            let Demand { kind, p, q, s, e, .. } = *demand;
+        for constraint in constraints {
+            let Constraint { kind, p, q, s, e, .. } = *constraint;
             let last = if e == NEVER { s } else { e };
-            self.settled = self.settled.max(last + 1);
+            self.horizon = self.horizon.max(last + 1);
             match kind {
                 Kind::Bar => bars.push((p, s, e)),
                 Kind::Move => {
                     self.mark(p).leaves = true;
-                    self.moves.push(*demand);
+                    self.moves.push(*constraint);
                 }
                 Kind::NoRest => self.mark(p).rest = self.mark(p).rest.max(s + 1),
                 Kind::Rest if rest.map_or(false, |(place, _)| place != p) => return false,
                 Kind::Rest => rest = Some((p, rest.map_or(s, |(_, time)| time.min(s)))),
                 Kind::Pass => self.passes.extend(chains.exit(p, q).map(|(chain, side, _)| (chain, side, s, e))),
                 Kind::Stop | Kind::NoStop => {
-                    let stop = body.stops.iter().position(|stop| stop.task == q).expect("a stop");
+                    let stop = model.stops.iter().position(|stop| stop.task == q).expect("a stop");
                     self.allowed[p as usize] &= if kind == Kind::Stop { 1 << stop } else { !(1 << stop) };
                     self.ordered = true;
                 }
             }
         }
-        // From a time on it is on the place where it rests: so on no other.
+        // From the time at which the agent rests on, it is on no other place.
         let away = rest.map_or(NEVER, |(_, time)| time.wrapping_sub(1));
         self.safe.clear();
         self.safe.push(if away == u32::MAX { (1, 0) } else { (0, away) });
@@ -169,50 +171,50 @@ impl Rules {
             let count = self.safe.len() as u32 - first;
             *self.mark(place) = Mark { first, count, ..*self.mark(place) };
         }
-        body.choose(&self.allowed);
+        model.choose(&self.allowed);
         true
     }
 
-    /// From one time to the other a place is free, and at most to an end.
+    /// Adds a free interval from `from` to `to`, or to `end` if that is earlier.
     fn free(&mut self, from: u32, to: u32, end: u32) {
         if from != u32::MAX && to != u32::MAX && end != u32::MAX && from <= to.min(end) { self.safe.push((from, to.min(end))); }
     }
 
-    /// The intervals of time in which this place is not barred.
+    /// Returns the numbers of the intervals of time in which this place is free.
     pub fn intervals(&self, place: Place) -> std::ops::Range<u32> {
         self.marked(place).map_or(0..1, |mark| mark.first..mark.first + mark.count)
     }
 
     pub fn interval(&self, number: u32) -> (u32, u32) { self.safe[number as usize] }
 
-    /// The first of a place's intervals that ends at this time or later.
+    /// Returns the first interval of a place that ends at this time or later.
     pub fn ending(&self, place: Place, time: u32) -> u32 {
         let range = self.intervals(place);
         let slice = &self.safe[range.start as usize..range.end as usize];
         range.start + slice.partition_point(|interval| interval.1 < time) as u32
     }
 
-    /// The interval of a place that holds this time.
+    /// Returns the interval of a place that contains this time.
     pub fn holding(&self, place: Place, time: u32) -> Option<u32> {
         Some(self.ending(place, time)).filter(|&number| number < self.intervals(place).end && self.safe[number as usize].0 <= time)
     }
 
-    /// Before this time one does not arrive on the place to rest there.
+    /// Returns the first time at which an agent may arrive on the place in order to rest there.
     pub fn rest_from(&self, place: Place) -> u32 { self.marked(place).map_or(0, |mark| mark.rest) }
 
-    pub fn arrived(&self, place: Place, time: u32) -> Way { if time < self.rest_from(place) { EARLY } else { 0 } }
+    pub fn arrived(&self, place: Place, time: u32) -> Flags { if time < self.rest_from(place) { EARLY } else { 0 } }
 
-    /// How it stands in chains after a step between two places, and the chain and side by which it leaves after a traverse.
-    pub fn passing(&self, chains: &Chains, way: Way, from: Place, to: Place) -> (Way, Option<(u32, u8)>) {
+    /// Returns the flags after a step between two places and, if the step ends a traversal, the chain and the side on which it is left.
+    pub fn passing(&self, chains: &Chains, flags: Flags, from: Place, to: Place) -> (Flags, Option<(u32, u8)>) {
         let known = |place: Place| Some(chains.of[place as usize]).filter(|&chain| self.passes.iter().any(|pass| pass.0 == chain));
         if self.passes.is_empty() { return (0, None); }
         let (of, into) = (known(from), known(to));
-        if into.is_some() { return (if of == into { way & !EARLY } else { chains.side(to, from) << 2 }, None); }
+        if into.is_some() { return (if of == into { flags & !EARLY } else { chains.side(to, from) << 2 }, None); }
         let exit = of.map(|chain| (chain, chains.side(from, to)));
-        (0, exit.filter(|&(_, side)| way >> 2 != 0 && way >> 2 != side))
+        (0, exit.filter(|&(_, side)| flags >> 2 != 0 && flags >> 2 != side))
     }
 
-    /// The first time from `lo` to `hi` at which it may arrive by this step.
+    /// Returns the first time from `lo` to `hi` at which the agent may arrive by this step.
     pub fn arrival(&self, from: Place, to: Place, exit: Option<(u32, u8)>, lo: u32, hi: u32) -> Option<u32> {
         let leaves = self.marked(from).map_or(false, |mark| mark.leaves);
         let mut time = lo;

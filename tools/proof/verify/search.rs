@@ -1,43 +1,44 @@
 // SPDX-License-Identifier: MIT
-//! Least costs of one agent: A* whose labels are a state, and an interval of time in which its place is free. The earliest of these can
-//! do what later ones can: wait.
-use crate::body::NEVER;
+//! Least costs of one agent: A* over labels. A label is a state and an interval of time in which its place is free (safe interval). The
+//! earliest label of a state and interval dominates the later ones, because the agent can wait.
+use crate::agent::NEVER;
 use crate::instance::Place;
-use crate::rules::{Demand, Kind};
-use crate::walk::{Arrival, State, Walk};
+use crate::rules::{Constraint, Kind};
+use crate::successors::{Arrival, State, Successors};
 
-/// An arrival, and the number of that before.
+/// An arrival, and the number of the label before it.
 type Label = (Arrival, u32);
 
-/// When an agent arrives where, with the time of the start first.
+/// Times of arrival and places; the start is the first.
 pub type Path = Vec<(u32, Place)>;
 
 #[derive(Default)]
 pub struct Search {
-    /// By what they cost at least, more than the first; and those that were the earliest of their kind.
+    /// Open labels, in buckets: the lower bound of a label minus that of the start.
     waiting: Vec<Vec<Label>>,
+    /// The earliest label of each kind that was taken so far.
     labels: Vec<Label>,
-    /// Kinds of labels, by hash: pose, stops done, interval, and the number of the search with how the agent stands.
+    /// Hash table of kinds of labels: pose, stops done, interval, and the number of the search with the flags.
     table: Vec<[u32; 4]>,
     pub searches: u32,
 }
 
 impl Search {
-    /// The least cost, with a path that has it.
-    pub fn least(&mut self, walk: &mut Walk) -> Option<(u32, Path)> {
+    /// Returns the least cost and a path of this cost. Returns None if no path costs at most the limit of the model.
+    pub fn least(&mut self, successors: &mut Successors) -> Option<(u32, Path)> {
         self.searches += 1;
         assert!(self.searches < 1 << 28, "fewer searches");
         self.labels.clear();
         self.waiting.iter_mut().for_each(Vec::clear);
-        let (mut found, mut now, mut before, limit) = (Vec::new(), 0, u32::MAX, walk.body.limit());
-        for state in walk.starts() {
-            let interval = walk.rules.holding(walk.place(&state), 0).expect("it may be there");
-            if state.left <= walk.rules.interval(interval).1 { found.push((State { left: 0, ..state }, interval, state.left)); }
+        let (mut found, mut now, mut before, limit) = (Vec::new(), 0, u32::MAX, successors.model.limit());
+        for state in successors.starts() {
+            let interval = successors.rules.holding(successors.place(&state), 0).expect("it may be there");
+            if state.left <= successors.rules.interval(interval).1 { found.push((State { left: 0, ..state }, interval, state.left)); }
         }
-        let least = found.first().map_or(0, |(state, _, time)| time + walk.remains(state));
+        let least = found.first().map_or(0, |(state, _, time)| time + successors.remains(state));
         loop {
             for (state, interval, time) in found.drain(..) {
-                let remains = walk.remains(&state);
+                let remains = successors.remains(&state);
                 if remains >= NEVER || time + remains > limit.min(NEVER - 1) {
                     assert!(remains >= NEVER || limit < NEVER, "a cost below 2^30");
                     continue;
@@ -53,23 +54,23 @@ impl Search {
             before = self.labels.len() as u32;
             self.labels.push(label);
             let (state, interval, time) = label.0;
-            let end = walk.rules.interval(interval).1;
-            if end == NEVER && walk.rests(&state) { return Some((time, self.path(walk))); }
-            if walk.over(&state) { continue; }
-            let work = walk.choices(state).into_iter().map(|next| (State { left: 0, ..next }, interval, time + next.left));
+            let end = successors.rules.interval(interval).1;
+            if end == NEVER && successors.rests(&state) { return Some((time, self.path(successors))); }
+            if successors.over(&state) { continue; }
+            let work = successors.choices(state).into_iter().map(|next| (State { left: 0, ..next }, interval, time + next.left));
             found.extend(work.filter(|next| next.2 <= end));
-            walk.go(label.0, (end, end), &mut found);
+            successors.go(label.0, (end, end), &mut found);
         }
     }
 
-    /// Whether it is the first of its kind, and so the earliest.
+    /// Whether the label is the first of its kind, and therefore the earliest.
     fn is_first(&mut self, &((state, interval, _), _): &Label) -> bool {
         if self.table.len() < 2 * self.labels.len() + 1024 {
             let old = std::mem::take(&mut self.table);
             self.table = vec![[0; 4]; (4 * self.labels.len() + 2048).next_power_of_two()];
             for kind in old { if kind[3] >> 4 == self.searches { self.put(kind); } }
         }
-        self.put([state.pose, state.done, interval, self.searches << 4 | u32::from(state.way)])
+        self.put([state.pose, state.done, interval, self.searches << 4 | u32::from(state.flags)])
     }
 
     fn put(&mut self, kind: [u32; 4]) -> bool {
@@ -84,12 +85,12 @@ impl Search {
         true
     }
 
-    /// That of the last label.
-    fn path(&self, walk: &Walk) -> Path {
+    /// Returns the path to the last label.
+    fn path(&self, successors: &Successors) -> Path {
         let (mut path, mut number) = (Path::new(), self.labels.len() as u32 - 1);
         while number != u32::MAX {
             let ((state, _, time), before) = self.labels[number as usize];
-            let place = walk.place(&state);
+            let place = successors.place(&state);
             match path.last_mut() {
                 Some(last) if last.1 == place => last.0 = time,
                 _ => path.push((time, place)),
@@ -102,9 +103,9 @@ impl Search {
     }
 }
 
-/// Whether a path, known to meet others, surely meets this demand.
-pub fn surely_meets(path: &Path, demand: &Demand) -> bool {
-    let Demand { kind, p, q, s, e, .. } = *demand;
+/// Whether a path certainly satisfies a constraint. False if the path alone does not show this.
+pub fn surely_satisfies(path: &Path, constraint: &Constraint) -> bool {
+    let Constraint { kind, p, q, s, e, .. } = *constraint;
     let (arrival, last) = path[path.len() - 1];
     let within = |time: u32| s <= time && time <= e;
     match kind {

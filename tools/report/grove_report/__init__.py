@@ -1,21 +1,21 @@
 # SPDX-License-Identifier: MIT
-"""From the rows of `grove bench` and logs of runs to figures, tables and one page.
+"""Makes figures, tables and one page from the rows of `grove bench` and from logs of runs.
 
-rows        reading results, and what is wrong with them
-logs        reading logs of single runs
-groups      what has something in common
-lines       what gets a line of its own in a figure: method, omega, time limit
+rows        reads and checks results
+logs        reads logs of single runs
+groups      groups items by a key
+lines       lines of a figure: method, omega, time limit
 metrics     success, runtime, SQR, PAR-2, ... of a set of rows
 anytime     quality over time
-speedup     times of the baselines over those of the other methods
-proofs      claims that contradict each other, and false ones of other solvers
-plans       plans of classical MAPF, from their files
-tracker     MAPF Tracker: rows out, best known costs and bounds in
+speedup     times of the baselines over times of the other methods
+proofs      contradictory claims, and false claims of other solvers
+plans       reads plans of classical MAPF
+tracker     MAPF Tracker: writes rows, reads best known costs and bounds
 style       colours and markers
-figures     the plots of methods compared (they and curves alone need matplotlib)
-curves      those as wide as a column: success over agents, quality over time, single runs
-tables      a table as CSV and as HTML
-report      what the tables and figures of a report are
+figures     plots that compare methods (only figures and curves need matplotlib)
+curves      plots one column wide: success over agents, quality over time, single runs
+tables      tables as CSV and as HTML
+report      tables and figures of a report
 page        the HTML page
 cli         the command line
 """

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Quality over time: what the plans that runs had by a given time cost, and what they had proven.
+"""Quality over time: cost of the plans and lower bounds that runs had by a given time.
 
-The last plan of a run was re-checked. Those on the way are as the run tells; one that it says was cheaper than the
-last is not believed. A run that tells nothing on the way has its plan when it ends. Runs that differ in the seed
-alone share the weight of their instance.
+The last plan of a run was checked. Earlier plans are as the run reports them; a reported plan that is cheaper than
+the last one is ignored. A run that reports no earlier plan has its plan when it ends. Runs that differ only in the
+seed share the weight of their instance.
 """
 import itertools
 from collections import Counter
@@ -14,12 +14,12 @@ from .metrics import by_line, cost_ratio, has_plan
 
 
 class Step(NamedTuple):
-    """From `seconds` on; None: not known."""
+    """Values from `seconds` on; None: not known."""
     seconds: float
     with_plan: float             # share of the instances with a plan
     common_with_plan: float      # share of the common instances with a plan of known cost
     cost_ratio: Optional[float]  # mean over these, of cost / best known cost
-    cost_over_bound: Optional[float]  # likewise, of cost / best lower bound
+    cost_over_bound: Optional[float]  # mean over these, of cost / best lower bound
     bound_ratio: Optional[float]  # mean over the common instances of bound / best known cost, once all have a bound
 
 
@@ -27,7 +27,7 @@ class Curve(NamedTuple):
     steps: list  # by time
 
     def at(self, seconds):
-        """The step that holds then; None: before the first."""
+        """Returns the step in force at this time. Returns None before the first step."""
         found = None
         for step in self.steps:
             if step.seconds > seconds:
@@ -37,15 +37,15 @@ class Curve(NamedTuple):
 
 
 class Panel(NamedTuple):
-    """Of one map, or of one number of agents on the only map."""
+    """Curves of one map, or of one number of agents if there is only one map."""
     title: str
     instances: int
-    common: int    # that every line has a plan for, with every seed
+    common: int    # instances for which every line has a plan, with every seed
     curves: dict   # {line: Curve}
 
 
 def plans_over_time(row):
-    """[(seconds, cost)], costs falling, the last that of the checked plan."""
+    """Returns [(seconds, cost)] with falling costs; the last one is the checked plan."""
     if not has_plan(row):
         return []
     found = []
@@ -53,19 +53,20 @@ def plans_over_time(row):
         if point.cost >= row.cost and (not found or point.cost < found[-1][1]):
             found.append((point.seconds, point.cost))
     if not found or found[-1][1] > row.cost:
-        # What ends by itself may be a moment late; what was late has nothing at its limit.
+        # A solved run may end slightly after its limit: its plan counts at the limit. Any other run has its plan
+        # when it ends.
         found.append((min(row.ended_s, row.time_limit_s) if row.solved else row.ended_s, row.cost))
     return found
 
 
 def first_plan(row):
-    """When it had one, of whatever cost. `row`: has a plan"""
+    """Returns the time of the first plan, of any cost. `row`: a row with a plan."""
     known = plans_over_time(row)[0][0]
     return known if row.first_plan_s is None else min(known, row.first_plan_s)
 
 
 def bounds_over_time(row):
-    """[(seconds, bound)], rising; of other solvers what they tell on the way, which is their claim."""
+    """Returns [(seconds, bound)] with rising bounds. Those of other solvers before the end are claims."""
     points = [(point.seconds, point.lower_bound) for point in row.trace if point.lower_bound is not None]
     found = []
     for seconds, bound in [*points, *([] if row.lower_bound is None else [(row.ended_s, row.lower_bound)])]:
@@ -75,41 +76,41 @@ def bounds_over_time(row):
 
 
 def is_anytime(rows):
-    """Whether runs of a line improve their plans, as far as they tell."""
+    """Returns whether runs of a line report improvements of their plans."""
     return any(row.anytime or len(row.trace) > 1 for row in rows)
 
 
 def common_with_plans(groups):
-    """The instances of which every run of every line has a plan, of lines that have any. `groups`: {line: rows}"""
+    """Returns the instances for which every run has a plan, of every line that has any plan. `groups`: {line: rows}."""
     found = [{row.instance for row in rows} - {row.instance for row in rows if not has_plan(row)}
              for rows in groups.values() if any(map(has_plan, rows))]
     return set.intersection(*found) if found else set()
 
 
 def _in_turn(what, values):
-    """(seconds, what, value before, value from then on)"""
+    """Returns [(seconds, what, value before, value from then on)]."""
     befores = [None, *(value for _, value in values)]
     return [(seconds, what, before, value) for (seconds, value), before in zip(values, befores)]
 
 
 def _changes(row, best, bounds, common):
-    """(seconds, what changes then, from, to) of a run."""
+    """Yields (seconds, what changes, old value, new value) of a run."""
     if not has_plan(row):
         return
     yield first_plan(row), "plan", None, 1
     if row.instance not in common:
         return
     key = row.problem, row.instance
-    costs, told = plans_over_time(row), bounds_over_time(row)
+    costs, proven = plans_over_time(row), bounds_over_time(row)
     yield from _in_turn("cost", [(seconds, cost_ratio(row._replace(cost=cost), best)) for seconds, cost in costs])
     if bounds.get(key):
         yield from _in_turn("over bound", [(seconds, cost / bounds[key]) for seconds, cost in costs])
     if best[key]:
-        yield from _in_turn("bound", [(seconds, bound / best[key]) for seconds, bound in told])
+        yield from _in_turn("bound", [(seconds, bound / best[key]) for seconds, bound in proven])
 
 
 def curve(rows, best, bounds, common):
-    """`rows`: of a line; `best`, `bounds`: best_costs(), best_bounds()."""
+    """Returns the Curve of the rows of one line. `best`, `bounds`: best_costs(), best_bounds()."""
     seeds = Counter(row.instance for row in rows)
     changes = [(seconds, what, 1 / seeds[row.instance], before, after) for row in rows
                for seconds, what, before, after in _changes(row, best, bounds, common) if after is not None]
@@ -132,7 +133,8 @@ def _step(seconds, weights, sums, instances, common):
 
 
 def panels(rows, best, bounds):
-    """Of the lines that are anytime; one for each map, or for each number of agents where there is one map."""
+    """Returns the Panels of the anytime lines: one for each map, or one for each number of agents if there is only one
+    map."""
     lines = {line for line, group in by_line(rows).items() if is_anytime(group)}
     rows = [row for row in rows if (row.method, row.omega, row.time_limit_s) in lines]
     one_map = len({row.map for row in rows}) == 1
@@ -148,6 +150,6 @@ def panels(rows, best, bounds):
 
 
 def table_times(limit):
-    """1, 2, 5, 10, ... from a thousandth of the limit on, and the limit."""
+    """Returns 1, 2, 5, 10, ... times powers of ten from a thousandth of the limit on, and the limit."""
     return [*(time for exponent in range(-4, 7) for time in (float(f"{digit}e{exponent}") for digit in (1, 2, 5))
               if limit / 1000 <= time < limit), limit]

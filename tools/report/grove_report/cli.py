@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The command line of grove report."""
+"""Command line of grove report."""
 import argparse
 import contextlib
 import io
@@ -21,25 +21,26 @@ PAGE = "report.html"
 DESCRIPTION = """\
 Turns results of 'grove bench' into a report: tables and figures of success rate, runtime and
 solution quality by map, agents and tasks; success over the number of agents; quality over time;
-costs and times on the instances that all solve; instances solved over time; speed-ups over the
-baselines; the influence of omega. One page to read, DIR/report.html, needs nothing but a browser;
-beside it every figure as SVG and PNG and every table as CSV. Logs of single runs (grove solve
---log-format jsonl) become one figure of bound and plan over time; a folder may hold them, too."""
+costs and times on the instances that all methods solve; instances solved over time; speed-ups over
+the baselines; the influence of omega. The report is one page, DIR/report.html, which needs only a
+browser. The same directory gets every figure as SVG and PNG and every table as CSV. Logs of single
+runs (grove solve --log-format jsonl) become one figure of lower bound and plan over time; a
+directory of results may hold logs, too."""
 
 EPILOG = """\
-A line of a figure is a method with one omega and one time limit. Rows that differ in the seed alone
-are repetitions: first the mean over these, then over instances. Rows of one run that is there twice
-count once, the later. The same rows give the same files, byte for byte.
+A line of a figure is a method with one omega and one time limit. Rows that differ only in the seed
+are repetitions: means are taken over these first, then over instances. If two rows describe the
+same run, only the later one counts. The same rows give the same files, byte for byte.
 
-If claims contradict each other - two optimal costs, a plan below a proven bound - the page begins
-with a red box, and stderr says so too. So it does of false claims of other solvers: a plan that is
-none, a cost below the recounted one, a lower bound above the cost of a checked plan.
+If claims contradict each other (two optimal costs, a plan below a proven bound), the page begins
+with a red box, and stderr gets a warning. The same holds for false claims of other solvers: an
+invalid plan, a cost below the recounted one, a lower bound above the cost of a checked plan.
 
---tracker writes a file to submit to MAPF Tracker (tracker.pathfinding.ai): of one method the
-cheapest plan for each instance of classical MAPF on a scenario of the Moving AI benchmark, from the
-plan files that 'grove bench --keep-plans' kept. --best-known reads what MAPF Tracker offers for
-download: a CSV or JSON with columns map_name, scen_type, type_id, agents, lower_cost and
-solution_cost, of which the first three may be the file's name.
+--tracker writes a file for submission to MAPF Tracker (tracker.pathfinding.ai): the cheapest plan
+of one method for each instance of classical MAPF on a scenario of the Moving AI benchmark, from the
+plan files that 'grove bench --keep-plans' kept. --best-known reads a download of MAPF Tracker: a
+CSV or JSON with columns map_name, scen_type, type_id, agents, lower_cost and solution_cost; the
+file name may replace the first three columns.
 
 Exit codes:
   0  the report was written
@@ -68,7 +69,7 @@ class _Parser(argparse.ArgumentParser):
 def _names(text):
     names = tuple(name.strip() for name in text.split(","))
     if not all(names):
-        raise argparse.ArgumentTypeError(f"found '{text}'; expected names with commas between")
+        raise argparse.ArgumentTypeError(f"found '{text}'; expected a comma-separated list of names")
     return names
 
 
@@ -83,41 +84,40 @@ def _parse(arguments):
                      allow_abbrev=False, formatter_class=_Help)
     add = parser.add_argument
     add("results", nargs="+", metavar="RESULTS",
-        help="results.csv, results.jsonl, a folder with one of them, or a run's log (*.jsonl)")
-    add("-o", "--output", metavar="DIR", help="folder to write into; made if need be. Needed, unless --tracker is "
-        "there")
-    add("--method", type=_names, default=(), metavar="NAMES", help="only rows of these methods (default: all); "
-        "which instances are common depends on it")
-    add("--baseline", type=_names, metavar="NAMES", help="methods that the others are measured by (default: "
-        f"{DEFAULT_BASELINES}, and all solvers of others that are not anytime)")
+        help="results.csv, results.jsonl, a directory with one of them, or a run's log (*.jsonl)")
+    add("-o", "--output", metavar="DIR", help="directory to write into; created if missing. Required without --tracker")
+    add("--method", type=_names, default=(), metavar="NAMES", help="read only rows of these methods (default: all); "
+        "the set of common instances depends on this")
+    add("--baseline", type=_names, metavar="NAMES", help="methods to compare the others with (default: "
+        f"{DEFAULT_BASELINES}, and all external solvers that are not anytime)")
     add("--problem", type=_names, default=(), metavar="NAMES",
-        help=f"only these of {', '.join(PROBLEMS)} (default: all there are)")
+        help=f"report only these of {', '.join(PROBLEMS)} (default: all in the results)")
     add("--study", type=_names, metavar="NAMES",
-        help="methods of the study of omega (default: those whose options differ in --omega alone)")
-    add("--study-map", metavar="MAP", help="its figure's map (default: a room map, else the first)")
-    add("--study-agents", type=_agents, metavar="N", help="its figure's agents (default: 5, else the "
-        "fewest)")
+        help="methods of the study of omega (default: those whose options differ only in --omega)")
+    add("--study-map", metavar="MAP", help="map of its figure (default: a room map, else the first)")
+    add("--study-agents", type=_agents, metavar="N", help="number of agents of its figure (default: 5, else the "
+        "smallest number)")
     add("--best-known", action="append", default=[], metavar="FILE",
-        help="a download of MAPF Tracker, or a folder of such, to compare with; may be repeated")
-    add("--tracker", metavar="FILE", help="write rows to submit to MAPF Tracker")
-    add("--tracker-method", metavar="NAME", help="of which method (default: the only one that has any)")
+        help="download of MAPF Tracker, or a directory of downloads, to compare with (repeatable)")
+    add("--tracker", metavar="FILE", help="file for submission to MAPF Tracker")
+    add("--tracker-method", metavar="NAME", help="method to submit (default: the only one with plans)")
     a = parser.parse_intermixed_args(arguments)
     if not a.output and not a.tracker:
         parser.error("the following arguments are required: -o/--output")
     if a.tracker_method and not a.tracker:
-        parser.error("argument --tracker-method: goes with --tracker")
+        parser.error("argument --tracker-method: requires --tracker")
     return a
 
 
 def _known(option, names, found):
     for name in names:
         if name not in found:
-            raise BadInput(f"{option}: nothing in the results is called '{name}'; "
+            raise BadInput(f"{option}: found '{name}', which is not in the results; "
                            f"expected one of {', '.join(sorted(found))}")
 
 
 def _names_of(rows):
-    """{as it is called in figures or in rows: method}"""
+    """Returns {name in figures or in rows: method}."""
     return {method_name(row.method): row.method for row in rows} | {row.method: row.method for row in rows}
 
 
@@ -131,7 +131,7 @@ def _check_names(a, rows):
 
 
 def _chosen(a, results):
-    """The rows of --method alone."""
+    """Returns the results with only the rows of --method."""
     if not a.method:
         return results
     wanted = {_names_of(results.rows)[name] for name in a.method}
@@ -140,14 +140,15 @@ def _chosen(a, results):
 
 def _write_report(a, results, logs, known):
     try:
-        from .report import Options, make_report  # here, so that --help needs no matplotlib
+        from .report import Options, make_report  # imported here so that --help needs no matplotlib
     except ModuleNotFoundError as error:
         if error.name not in ("matplotlib", "numpy"):
             raise
-        raise BadInput(f"{sys.executable} has no {error.name}, which draws the figures; "
+        raise BadInput(f"{sys.executable} has no module {error.name}, which draws the figures; "
                        "expected the Debian package python3-matplotlib") from None
     from .page import page
-    baselines = a.baseline or {*DEFAULT_BASELINES.split(","), *(row.method for row in results.rows if row.solver and not row.anytime)}
+    baselines = a.baseline or {*DEFAULT_BASELINES.split(","),
+                               *(row.method for row in results.rows if row.solver and not row.anytime)}
     folder = Path(a.output)
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -165,13 +166,13 @@ def _submitting_method(a, rows):
         _known("--tracker-method", [a.tracker_method], _names_of(rows))
         return _names_of(rows)[a.tracker_method]
     if len(with_plans) > 1:
-        raise BadInput("--tracker: a submission is of one method; expected --tracker-method "
+        raise BadInput("--tracker: found plans of several methods; expected --tracker-method "
                        + " or ".join(map(method_name, with_plans)))
     return with_plans[0] if with_plans else ""
 
 
 def _write_whole(path, text):
-    """Or not at all."""
+    """Writes a file atomically: all of it or nothing. Raises BadInput."""
     part = path.with_name(f".{path.name}.{os.getpid()}")
     try:
         part.write_text(text, encoding="utf-8", newline="")
@@ -195,13 +196,13 @@ def _write_submission(a, results):
 
 
 def _print(text):
-    """A full disk or a closed pipe must not pass for success."""
+    """Prints the text and returns the exit code, which reports a full disk or a closed pipe."""
     try:
         print(text, end="", flush=True)
         return 0
     except OSError:
         _complain("standard output: cannot be written")
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush at the end
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush when Python exits
         return INTERNAL_FAILURE
 
 
@@ -226,20 +227,20 @@ def _run(arguments):
         report = _write_report(a, results, logs, known)
         _warn(len(report.contradictions), "proofs contradict each other", "contradictions.csv", a)
         _warn(len(report.false_claims), "solvers make false claims", "false_claims.csv", a)
-        told = [f"{len(report.results.rows)} rows"] if files else []
-        told += [f"{len(logs)} log{'s' * (len(logs) > 1)}"] if logs else []
-        print(printable(f"wrote {Path(a.output) / PAGE}: {', '.join(told)}"))
+        contents = [f"{len(report.results.rows)} rows"] if files else []
+        contents += [f"{len(logs)} log{'s' * (len(logs) > 1)}"] if logs else []
+        print(printable(f"wrote {Path(a.output) / PAGE}: {', '.join(contents)}"))
     if a.tracker:
         _write_submission(a, results)
 
 
 def main(arguments):
     try:
-        with contextlib.redirect_stdout(io.StringIO()) as said:
+        with contextlib.redirect_stdout(io.StringIO()) as output:
             _run(arguments)
     except BadInput as error:
         _complain(str(error))
         return BAD_INPUT
     except SystemExit:  # of --help
         pass
-    return _print(said.getvalue())
+    return _print(output.getvalue())

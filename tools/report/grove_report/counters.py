@@ -1,35 +1,35 @@
 # SPDX-License-Identifier: MIT
-"""What the search did: the counters of the runs of each line."""
+"""Search counters, summed over the runs of each line."""
 from collections import defaultdict
 from typing import NamedTuple
 
 from .metrics import by_line
 
 SPLITS = "splits_"
-KINDS = {"bar": "place or move", "no_traversal": "corridor", "rest_by": "coming to rest", "no_rest_by": "cost",
-         "stop_is_not": "next stop"}
+KINDS = {"bar": "vertex or edge", "no_traversal": "corridor", "rest_by": "target", "no_rest_by": "cost",
+         "stop_is_not": "sequence"}
 LABELS = {
-    "bypasses": "bypasses: another way as short",
+    "bypasses": "bypasses: another path of the same cost",
     "pair_expansions": "nodes in searches over pairs and groups of agents",
-    "group_states": "states of pairs and groups together",
-    "joint_states": "states of all agents together",
-    "lagrangian_rounds": "rounds of prices",
-    "prices_of_ranks": "prices that other ranks have found",
-    "joint_pairs": "pairs of places in two sets of optimal paths",
+    "group_states": "joint states of pairs and groups",
+    "joint_states": "joint states of all agents",
+    "lagrangian_rounds": "rounds of the Lagrangian bound",
+    "prices_of_ranks": "Lagrangian subproblems that other ranks solved",
+    "joint_pairs": "nodes of joint MDDs",
     "low_level_expanded": "labels of single-agent searches",
-    "prices": "costs under one constraint more",
-    "path_sets": "sets of all optimal paths",
-    "nodes_generated": "nodes generated", "nodes_evicted": "nodes given up for want of memory",
-    "primal_attempts": "plans: orders of priority tried",
-    "primal_joint_steps": "plans: joint steps of configurations",
-    "primal_neighborhoods": "plans: neighbourhoods planned anew",
-    "primal_steps": "plans: turns of the search for them",
-    "primal_low_level_calls": "plans: single-agent searches",
-    "primal_low_level_expanded": "plans: labels of single-agent searches"}
+    "prices": "costs with one more constraint (strong branching)",
+    "path_sets": "MDDs",
+    "nodes_generated": "nodes generated", "nodes_evicted": "nodes evicted because memory was full",
+    "primal_attempts": "primal: priority orders tried",
+    "primal_joint_steps": "primal: LaCAM steps",
+    "primal_neighborhoods": "primal: LNS iterations",
+    "primal_steps": "primal: work items",
+    "primal_low_level_calls": "primal: single-agent searches",
+    "primal_low_level_expanded": "primal: labels of single-agent searches"}
 
 
 class Counters(NamedTuple):
-    """Of the runs of a line that tell."""
+    """Counters of those runs of a line that report any."""
     runs: int
     totals: dict  # {name: sum over the runs}
 
@@ -37,18 +37,18 @@ class Counters(NamedTuple):
         return self.totals.get(name, 0) / self.runs
 
     def splits(self):
-        """{kind: number}, of those there are"""
+        """Returns {kind: number} of the kinds that occurred."""
         return {name.removeprefix(SPLITS): total for name, total in self.totals.items()
                 if name.startswith(SPLITS) and total > 0}
 
-    def remembered(self, what):
-        """The share of `what` asked for that was known; None: nothing was."""
+    def hit_share(self, what):
+        """Returns the share of cache hits among the queries for `what`. Returns None if there were no queries."""
         asked = self.totals.get(f"{what}_asked")
         return self.totals.get(f"{what}_known", 0) / asked if asked else None
 
 
 def counters_by_line(rows):
-    """{line: Counters}; a line of which no run tells is not there."""
+    """Returns {line: Counters}, without lines of which no run reports counters."""
     found = {}
     for line, group in by_line(row for row in rows if row.counts).items():
         totals = defaultdict(int)
@@ -64,26 +64,27 @@ def kind_label(kind):
 
 
 def split_kinds(counters):
-    """Of all lines: those that have a name first, in its order."""
+    """Returns the kinds of splits of all lines: those in KINDS first, in the order of KINDS."""
     found = {kind for each in counters.values() for kind in each.splits()}
     return [kind for kind in KINDS if kind in found] + sorted(found - KINDS.keys())
 
 
-def remembered_things(counters):
-    """What is asked for and remembered, of all lines."""
+def cache_names(counters):
+    """Returns the names of all caches that any line has queried."""
     return sorted({name.removesuffix("_asked") for each in counters.values() for name in each.totals
                    if name.endswith("_asked")})
 
 
 def label(name):
-    for start, meaning in (("plans_", "better plans by "), ("gain_", "cost saved by plans by ")):
+    """Returns the text that the page shows for a counter."""
+    for start, meaning in (("plans_", "better plans of "), ("gain_", "cost saved by plans of ")):
         if name.startswith(start):
             return meaning + name.removeprefix(start)
     return LABELS.get(name, name.replace("_", " "))
 
 
 def other_names(counters):
-    """Of all lines, the names that are no splits and nothing remembered: those that have a label first."""
+    """Returns the counters of all lines except splits and caches: those in LABELS first."""
     found = {name for each in counters.values() for name in each.totals
              if not name.startswith(SPLITS) and not name.endswith(("_asked", "_known"))}
     return [name for name in LABELS if name in found] + sorted(found - LABELS.keys())

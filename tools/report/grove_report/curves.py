@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The plots that papers have, as wide as a column of a paper: success over the number of agents, quality over time,
-and bound and plan of single runs."""
+"""Plots as wide as a column of a paper: success over the number of agents, quality over time, single runs."""
 import math
 
 import matplotlib
@@ -12,16 +11,16 @@ from .figures import (COLUMN, FAINT, SETTINGS, SHORTEST_S, SMALLEST, add_caption
 from .scales import dodged, rounded_down
 from .style import COLOURS, DASHES, MARKERS, depth, plot_arguments
 
-TITLE = 0.4  # inches, of two lines
+TITLE = 0.4  # height of two lines, inches
 LEFT, RIGHT = 0.46, 0.06
-DIGITS = 0.13  # more on the left, where numbers have four
+DIGITS = 0.13  # additional left margin for numbers of four digits, inches
 RUN_DASHES = [pattern for pattern in DASHES if pattern[0] > 2]  # bounds are dotted
-MOST_STEPS = 300  # of a curve that are drawn
+MOST_STEPS = 300  # steps drawn per curve
 
 ANYTIME_CAPTION = (
-    "Cost ratio: cost / best known cost, mean over the common instances, for which all have a plan in the end; before "
-    "all of these have one, mean over those that have, drawn thin. Below 1, if told: lower bound / best known cost, "
-    "dotted.")
+    "Cost ratio: cost / best known cost, mean over the common instances (all methods end with a plan). Thin: while "
+    "some of these have no plan yet, mean over those that have one. Dotted, below 1, if reported: lower bound / best "
+    "known cost.")
 
 
 def _grid(count, widest=2):
@@ -35,14 +34,14 @@ def _range(numbers):
 
 
 def behind(points):
-    """'25 scenarios, 3 seeds': what is behind the points of a panel, [Measures]."""
+    """Returns '25 instances, 3 seeds' for the points of a panel, [Measures]."""
     instances, seeds = _range([point.instances for point in points]), _range([point.seeds for point in points])
     return (f"{instances} instance{'s' * (instances != '1')}"
             + (f", {seeds} seeds" if seeds != "1" else ""))
 
 
 def success(groups, lines, looks):
-    """Success rate over the number of agents. `groups`: {map: {agents: {line: Measures}}}, a panel each."""
+    """Plots the success rate over the number of agents. `groups`: {map: {agents: {line: Measures}}}, one panel each."""
     with matplotlib.rc_context(SETTINGS):
         across, down = _grid(len(groups))
         legend = legend_height(lines, looks, COLUMN)
@@ -91,7 +90,7 @@ def _finish(figure, axes, used, lines, looks):
 
 
 def _thin(points, most=MOST_STEPS):
-    """Of many points on a log axis only the last of each small interval; the first and the last stay."""
+    """Reduces the points on a log axis to the last one of each small interval; the first and the last point stay."""
     if len(points) <= most:
         return points
     first, last = max(points[0][0], SHORTEST_S), max(points[-1][0], 2 * SHORTEST_S)
@@ -101,7 +100,7 @@ def _thin(points, most=MOST_STEPS):
 
 
 def _stairs(ax, points, last, arguments, marks):
-    """A step function through `points` until `last`; a marker at the first `marks` of it."""
+    """Plots a step function through `points` until `last`, with about `marks` markers; 0: without markers."""
     points = _thin([(max(time, SHORTEST_S), value) for time, value in points])
     times, values = [time for time, _ in points], [value for _, value in points]
     marker = {key: arguments.pop(key) for key in list(arguments) if key.startswith("marker")}
@@ -142,7 +141,7 @@ def _set_time(ax, first, last, most=6):
 
 
 def anytime(panels, lines, looks):
-    """Quality over time above, the share of instances with a plan below; `panels`: of anytime.panels()."""
+    """Plots quality over time, and below it the share of instances with a plan. `panels`: anytime.panels()."""
     with matplotlib.rc_context(SETTINGS):
         across, down = _grid(len(panels))
         caption = wrapped([ANYTIME_CAPTION], COLUMN)
@@ -205,7 +204,7 @@ def _set_ratio(ax, values):
 
 
 def runs(groups):
-    """Bound and plan of single runs over time. `groups`: {title: [logs.Run]}, a panel each."""
+    """Plots lower bound and plan of single runs over time. `groups`: {title: [logs.Run]}, one panel each."""
     with matplotlib.rc_context(SETTINGS):
         panel, bottom = 1.6, 0.42
         heights = [TITLE + panel + bottom + 0.17 * len(found) + 0.05 for found in groups.values()]

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""The plots. Every function returns a matplotlib Figure; drawn() makes SVG and PNG of one.
+"""Plots that compare methods. Every function returns a matplotlib Figure; drawn() makes its SVG and PNG.
 
-All are narrow: on 500 pixels, half a laptop's or all of a phone's screen, no letter is lower than 10 pixels.
+All figures are narrow: at a width of 500 pixels, half a laptop's screen or all of a phone's, text is at least 10
+pixels high.
 
-No pyplot: it keeps figures and settings for the whole process.
+pyplot is not used, because it keeps figures and settings for the whole process.
 """
 import io
 import itertools
@@ -32,21 +33,21 @@ SETTINGS = {
     "grid.color": "#E3E3E3", "grid.linewidth": 0.5, "axes.axisbelow": True,
     "axes.spines.top": False, "axes.spines.right": False, "xtick.major.width": 0.6,
     "ytick.major.width": 0.6, "savefig.facecolor": "white", "axes.unicode_minus": False,
-    "axes.titley": 1.0, "text.parse_math": False, "text.color": "#222222", "axes.labelcolor": "#222222", "xtick.color": "#222222",
-    "ytick.color": "#222222", "axes.edgecolor": "#555555"}
-WIDTH = 5.2  # of a figure, in inches
-COLUMN = 3.4  # of those that are printed as they are: a column of a paper
-SMALLEST = 7.5  # points: 500 / WIDTH * 7.5 / 72 = 10 pixels
+    "axes.titley": 1.0, "text.parse_math": False, "text.color": "#222222", "axes.labelcolor": "#222222",
+    "xtick.color": "#222222", "ytick.color": "#222222", "axes.edgecolor": "#555555"}
+WIDTH = 5.2  # width of a figure, inches
+COLUMN = 3.4  # width of a column of a paper, inches
+SMALLEST = 7.5  # smallest font, points: 500 / WIDTH * 7.5 / 72 = 10 pixels
 PNG_DPI = 160
-PNG_COMPRESSION = 3  # of 9: twice as fast as 6, and two per cent larger
+PNG_COMPRESSION = 3  # from 0 to 9: twice as fast as 6, and two per cent larger
 FAINT = "#767676"
-# Shorter times are drawn as this: a logarithm needs something, and clocks tell no less.
+# Shorter times are drawn as this time: it is the resolution of the clock, and a log axis needs a positive time.
 SHORTEST_S = 0.001
 
 
 class Metric(NamedTuple):
     label: str
-    value: object        # of Measures
+    value: object        # function of Measures
     axis: str = "plain"  # "percent", "seconds", "ratio" (at most 1), "excess" (at least 1), "count"
 
 
@@ -59,17 +60,18 @@ ROOTS = Metric("mean number of roots", lambda m: m.mean_roots, "count")
 RTSP_CALLS = Metric("mean number of rTSP calls", lambda m: m.mean_rtsp_calls, "count")
 
 
-# What must be known wherever a figure is shown, so it is part of it.
-SQR_CAPTION = ("SQR of solved runs: of those that each method solved, so methods that solve only the easy "
-               "instances look better. Common: of the instances that all solve which solve any, so it compares.")
+# Captions are part of the figure, so that it can be read outside the report.
+SQR_CAPTION = ("SQR of solved runs: over the runs that each method solved, so a method that solves only easy instances "
+               "looks better. Common: over the instances that all methods solve (of those that solve any), so these "
+               "values compare.")
 RATIO_CAPTION = ("Cost ratio: cost / least cost that any method found for the instance, of solved runs; 1 is "
-                 "best, and says nothing where only one method has a plan.")
+                 "best. It carries no information where only one method has a plan.")
 
 
 def drawn(figure):
-    """The SVG as text and the PNG as bytes; the same for the same figure."""
+    """Returns the SVG as text and the PNG as bytes; equal figures give equal files."""
     with matplotlib.rc_context(SETTINGS), warnings.catch_warnings():
-        warnings.filterwarnings("ignore", "Glyph .* missing")  # of a name; a box is drawn for it
+        warnings.filterwarnings("ignore", "Glyph .* missing")  # matplotlib draws a box for a missing glyph
         FigureCanvasAgg(figure)
         png, svg = io.BytesIO(), io.StringIO()
         figure.savefig(png, format="png", dpi=PNG_DPI, metadata={"Software": None},
@@ -83,16 +85,16 @@ def new_figure(height, width=WIDTH):
 
 
 def _longest_tick(ax):
-    """Characters of the longest number at the vertical axis."""
+    """Returns the length of the longest number at the vertical axis, characters."""
     low, high = sorted(ax.get_ylim())
     name = ax.yaxis.get_major_formatter()
     return max((len(name(tick)) for tick in ax.get_yticks() if low <= tick <= high), default=0)
 
 
 def pin_labels(axes, left):
-    """Names of axes to where they are, in inches: left of the panel, by more where its numbers are long,
-    and below. To look for room for each, as matplotlib does, takes as long as all the rest. `axes`: all
-    panels of a figure, of one size."""
+    """Places the labels of the axes at fixed distances in inches, further left where the numbers are long.
+    matplotlib's automatic placement takes as long as the rest of the figure. `axes`: all panels of a figure, of one
+    size."""
     figure, box = axes[0][0].figure, axes[0][0].get_position()
     left = max(left, 0.16 + 0.062 * max(_longest_tick(row[0]) for row in axes))
     for ax in axes.flat:
@@ -105,14 +107,14 @@ def number(value, _=None):
 
 
 def _set_log_range(ax, lowest, highest):
-    """With ticks between the powers of ten where there are few of these."""
+    """Sets the range of a log axis, with ticks between the powers of ten where there are few of these."""
     ax.set_ylim(lowest, highest)
     ax.yaxis.set_major_locator(LogLocator(
         subs=(1, 2, 5) if highest / lowest < 100 else (1,), numticks=12))
 
 
 def _set_axis(ax, metric, values, limits):
-    """The scale and the ticks of the y axis, for all `values` that it will show."""
+    """Sets scale and ticks of the y axis. `values`: all values that it will show."""
     if metric.axis == "percent":
         ax.set_ylim(-6, 106)
         ax.yaxis.set_major_locator(FixedLocator([0, 25, 50, 75, 100]))
@@ -169,7 +171,7 @@ def _set_x(ax, x_values, name):
 
 
 def plot_metric(ax, cells, x_of, lines, metric, looks, offsets):
-    """`cells`: {cell: {line: Measures}} of one panel. A cell without the line is a gap."""
+    """Plots one panel. `cells`: {cell: {line: Measures}}; a cell without the line is a gap in the line."""
     drawn = False
     for rank, line in enumerate(lines):
         points = [(x_of(cell) + offsets[line], metric.value(found[line]) if line in found else None)
@@ -183,15 +185,15 @@ def plot_metric(ax, cells, x_of, lines, metric, looks, offsets):
 
 
 def _legend_columns(labels, width=WIDTH):
-    """How many entries fit side by side."""
+    """Returns the number of columns of a legend."""
     entry = 0.62 + 0.068 * max(map(len, labels)) if width == WIDTH else 0.4 + 0.062 * max(map(len, labels))
     fitting = max(1, int((width - 0.1) / entry))
     lines = math.ceil(len(labels) / fitting)
-    return math.ceil(len(labels) / lines)  # equally long lines
+    return math.ceil(len(labels) / lines)  # rows of about equal length
 
 
 def _handles(lines, labels, looks, nested):
-    # matplotlib leaves out labels that begin with _.
+    # matplotlib omits labels that begin with _.
     depths = [depth(rank, len(lines)) if nested else APART for rank in range(len(lines))]
     return [Line2D([], [], label=" " * label.startswith("_") + label,
                    **plot_arguments(looks.style(line), below))
@@ -204,7 +206,7 @@ def legend_height(lines, looks, width=WIDTH):
 
 
 def add_legend(figure, lines, looks, nested):
-    """On top, as wide as the figure."""
+    """Adds a legend at the top, as wide as the figure."""
     labels = [looks.label(line) for line in lines]
     is_wide = figure.get_figwidth() == WIDTH
     figure.legend(handles=_handles(lines, labels, looks, nested), loc="upper center", frameon=False,
@@ -219,7 +221,7 @@ def _values(cells, lines, metric):
 
 
 class Columns(NamedTuple):
-    """What the columns and the x axis of a comparison are."""
+    """Columns and x axis of a comparison."""
     keys: list        # of the columns, by map; key[0] is the map
     key_of: object    # cell -> key
     x_of: object      # cell -> x
@@ -228,8 +230,8 @@ class Columns(NamedTuple):
 
 
 def columns_of(cells):
-    """Columns map x N and M along x, as in the paper; where M does not vary, columns map and N along
-    x."""
+    """Returns columns by map and N, with M along x, as in the paper. If M does not vary: columns by map and M, with N
+    along x."""
     if len({cell.tasks for cell in cells}) > 1:
         keys = sorted({(cell.map, cell.agents) for cell in cells})
         return Columns(keys, lambda cell: (cell.map, cell.agents), lambda cell: cell.tasks,
@@ -240,8 +242,8 @@ def columns_of(cells):
 
 
 def comparison(cells, all_cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR, COMMON_SQR, COST_RATIO)):
-    """Laid out like the paper's Fig. 5, and below that SQR on common instances and the cost ratio: a row for
-    each metric. `cells`: {cell: {line: Measures}}, a part of `all_cells`, which the axes suit."""
+    """Plots one row per metric: those of the paper's Fig. 5, then SQR on common instances and the cost ratio. `cells`:
+    {cell: {line: Measures}}, a part of `all_cells`, which determine the ranges of the axes."""
     with matplotlib.rc_context(SETTINGS):
         columns = columns_of(all_cells)
         keys = sorted(set(map(columns.key_of, cells)))
@@ -283,18 +285,18 @@ def comparison(cells, all_cells, lines, looks, metrics=(SUCCESS, RUNTIME, SQR, C
 
 
 def wrapped(texts, width=WIDTH):
-    """Lines of a caption as wide as a figure."""
+    """Wraps a caption to the width of a figure; returns its lines."""
     return textwrap.wrap(" ".join(texts), int(width / 0.062))
 
 
 def add_caption(figure, lines):
-    """At the bottom left; 0.13 inches a line."""
+    """Adds a caption at the bottom left; each line is 0.13 inches high."""
     figure.text(0.1 / figure.get_figwidth(), 0.06 / figure.get_figheight(), "\n".join(lines), va="bottom",
                 fontsize=SMALLEST, linespacing=1.2, color="#555555")
 
 
 def _name_maps(figure, keys, axes, y):
-    """Each map's name over its columns, with a rule below it."""
+    """Writes each map's name above its columns, with a rule below it."""
     for name in sorted({key[0] for key in keys}):
         group = [index for index, key in enumerate(keys) if key[0] == name]
         left = axes[0][group[0]].get_position().x0
@@ -306,7 +308,7 @@ def _name_maps(figure, keys, axes, y):
 
 
 def _thinned(times, first, last, bins=300):
-    """[(time, number solved by then)]: of many close together on the log axis only the last."""
+    """Returns [(time, number solved by then)]: of points close together on the log axis only the last."""
     scale = bins / math.log(last / first)
     points = {}
     for count, time in enumerate(times, 1):
@@ -316,7 +318,7 @@ def _thinned(times, first, last, bins=300):
 
 
 def _plot_solved(ax, rows, first, last, arguments, phase):
-    """A step function from `first` to the time limit, with markers where `phase` puts them."""
+    """Plots a step function from `first` to the time limit, with 5 markers shifted by `phase`, from 0 to 1."""
     points = _thinned(solved_over_time(rows), first, last)
     xs = [first, *[x for x, _ in points], last]
     ys = [0, *[y for _, y in points], points[-1][1] if points else 0]
@@ -328,7 +330,7 @@ def _plot_solved(ax, rows, first, last, arguments, phase):
 
 
 def cactus(groups, lines, looks, per_row=2):
-    """Number solved against time. `groups`: {title: {line: rows}}, one panel each."""
+    """Plots the number of solved instances over time. `groups`: {title: {line: rows}}, one panel each."""
     with matplotlib.rc_context(SETTINGS):
         limits = [line.time_limit_s for line in lines]
         first = first_time([row for group in groups.values() for rows in group.values()
@@ -370,7 +372,8 @@ def cactus(groups, lines, looks, per_row=2):
 
 
 def _omega_labels(family, lines, looks):
-    """Of the family's lines omega alone if that tells them apart and the methods' names do not fit."""
+    """Returns the labels of a study: for the family only omega, if that is unique and all its lines have one method or
+    longer labels would not fit; otherwise omega and the name."""
     labels = [omega_text(line.omega) for line in family]
     longer = [f"{omega_text(line.omega)}: {looks.name(line)}" for line in lines]
     longer = [label if len(label) <= 32 else label[:30] + "..." for label in longer]
@@ -381,8 +384,9 @@ def _omega_labels(family, lines, looks):
 
 
 def omega_study(cells, family, lines, looks, setting):
-    """Laid out like the paper's Fig. 6, (a) being the legend and the setting: lines of text, and (g) SQR on
-    common instances. `cells`: those of one map and N; `lines`: those of the family and others after them."""
+    """Plots the influence of omega like the paper's Fig. 6. Panel (a) is the legend and the setting, panel (g) SQR on
+    common instances. `cells`: those of one map and N. `lines`: those of the family, then others. `setting`: lines of
+    text."""
     with matplotlib.rc_context(SETTINGS):
         caption = wrapped([SQR_CAPTION])
         labels = _omega_labels(family, lines, looks)
@@ -414,7 +418,7 @@ def omega_study(cells, family, lines, looks, setting):
 
 
 def _plot_shares(ax, place, numbers, colours):
-    """A bar at y = `place`, cut into parts. `numbers`: {kind: number}."""
+    """Draws a bar at y = `place`, divided into shares. `numbers`: {kind: number}."""
     left = 0.0
     for kind, colour in colours.items():
         share = 100 * numbers.get(kind, 0) / sum(numbers.values())
@@ -429,7 +433,7 @@ def _numbered(number, what):
 
 
 def splits(counters, lines, looks):
-    """What nodes were split on: a bar for each of `lines`, all of which have some."""
+    """Plots the shares of the kinds of splits, one bar per line. `lines`: lines with at least one split."""
     with matplotlib.rc_context(SETTINGS):
         colours = dict(zip(split_kinds(counters), itertools.cycle(KIND_COLOURS)))
         labels = [kind_label(kind) for kind in colours]

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""What has something in common, together."""
+"""Groups items by a key."""
 from collections import defaultdict
 
 
 def grouped(items, key):
-    """{key of an item: all items that have it}, in the order in which they come."""
+    """Returns {key of an item: all items that have it}, in the order of `items`."""
     groups = defaultdict(list)
     for item in items:
         groups[key(item)].append(item)
@@ -12,5 +12,5 @@ def grouped(items, key):
 
 
 def values_by(items, key, value):
-    """{key of an item: the distinct values of all items that have it}"""
+    """Returns {key of an item: the distinct values of all items that have it}."""
     return {key: set(map(value, group)) for key, group in grouped(items, key).items()}

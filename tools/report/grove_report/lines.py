@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What gets a line of its own: a method with one omega and one time limit, never a mixture."""
+"""Lines of figures and tables: each line is one method with one omega and one time limit."""
 import re
 import shlex
 from collections import defaultdict
@@ -18,7 +18,7 @@ GROVE = "Grove"
 
 
 def method_name(method):
-    """`auto` is how Grove's own search is called where one chooses a method."""
+    """Returns the name of a method for display. `auto` is the option value for Grove's own search."""
     return GROVE if method == "auto" else method
 
 
@@ -39,12 +39,12 @@ def seconds_text(seconds):
 
 
 class Lines:
-    """The lines of all rows: their order, the same everywhere, and how they are called."""
+    """All lines of the rows, with their labels and one order for all figures and tables."""
 
     def __init__(self, rows, baselines):
         self.baselines = frozenset(baselines)
-        # First those that the comparison shows, which then get the colours easiest to tell apart.
-        # The others follow method by method.
+        # The lines of the first comparison (MG-MAPF) come first, so that they get the most distinct colours.
+        # The others follow, ordered by method.
         shown_first = {line_of(row) for row in rows if row.problem == "mg"}
         found = {line_of(row) for row in rows}
         self.all = sorted(found, key=lambda line: (
@@ -63,12 +63,12 @@ class Lines:
         return self._index[line]
 
     def name(self, line):
-        """The label without omega: for where omega stands beside it."""
+        """Returns the label without omega, for places that show omega separately."""
         return self._called(line, False)
 
     def label(self, line):
-        """The method; omega, of all methods as soon as two of one problem differ in it, since those
-        with a larger one have less to prove; and the time limit of a method that has several."""
+        """Returns the method; its omega, if any two rows of one problem differ in omega, because a larger omega
+        leaves less to prove; and its time limit, if the method has several."""
         return self._called(line, self._omegas_differ)
 
     def _called(self, line, with_omega):
@@ -82,13 +82,13 @@ class Lines:
 
 
 class Family(NamedTuple):
-    """Lines that differ in omega alone."""
+    """Lines that differ only in omega."""
     name: str
     lines: list  # by omega
 
 
 def _without_omega(options):
-    """The options but for --omega, as a tuple of words."""
+    """Returns the options without --omega, as a tuple of words."""
     try:
         words = shlex.split(options)
     except ValueError:
@@ -105,7 +105,7 @@ def _without_omega(options):
 
 
 def _bare(method, omega):
-    """A method's name without its omega at the end: cts-cbs of cts-cbs-w0.01."""
+    """Returns a method's name without its omega at the end: cts-cbs for cts-cbs-w0.01."""
     end = re.search(r"[\s,_-]+(?:w|ω|omega)?\s*=?\s*" + re.escape(omega) + "$", method)
     return method[:end.start()] if omega and end and end.start() else method
 
@@ -116,8 +116,8 @@ def _name(lines):
 
 
 def families(rows, methods=None):
-    """Groups of lines with at least two omegas: those whose options (without options: whose names)
-    differ in omega alone; or the lines of `methods`, if given, as one."""
+    """Returns families of lines with at least two omegas. The lines of a family differ only in omega, in their
+    options or, without options, in their names. If `methods` is given, its lines are one family per time limit."""
     groups = defaultdict(set)
     for row in rows:
         if methods is None:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Logs of single runs, as `grove solve --log-format jsonl` writes them: bound and best plan over time.
+"""Reads logs of single runs (`grove solve --log-format jsonl`): lower bound and best plan over time.
 
-The first line tells a log from results, so that a folder may hold both.
+The first line distinguishes a log from results, so that a folder may hold both.
 """
 import json
 from pathlib import Path
@@ -11,20 +11,20 @@ from .rows import BadInput, printable, results_in
 
 
 class Moment(NamedTuple):
-    """Where a run stands from this time on."""
+    """State of a run from this time on."""
     seconds: float
     cost: Optional[int]  # of its best plan
     bound: Optional[int]
 
 
 class Run(NamedTuple):
-    name: str        # of the file, without its end
+    name: str        # file name without its suffix
     instance: str    # as the log names it
     agents: Optional[int]
     options: str
-    status: str      # "": the log ends before the run
+    status: str      # "" if the log ends before the run
     end_s: float
-    moments: list    # by time; each tells something new
+    moments: list    # by time; each differs from the one before
 
 
 def _first_line(path):
@@ -41,7 +41,7 @@ def is_log(path):
 
 
 def parted(arguments):
-    """(those that are or hold results, paths of logs). A folder is its results and the logs in it."""
+    """Returns (arguments that are or hold results, paths of logs). A folder stands for its results and its logs."""
     results, logs = [], []
     for argument in arguments:
         path = Path(argument)
@@ -63,7 +63,7 @@ def _value(event, key, kinds, expected, place):
 
 
 def _moment(event, place):
-    """None: the event says nothing of the kind."""
+    """Returns the Moment of an event. Returns None if the event has no time or neither cost nor bound."""
     seconds = _value(event, "time_s", (int, float), "a number of at least 0", place)
     if seconds is None or not {"incumbent", "lower_bound"} & event.keys():
         return None
@@ -72,7 +72,7 @@ def _moment(event, place):
 
 
 def _last(event, place):
-    """(the moment of a summary, its status)"""
+    """Returns (the Moment of a summary, its status)."""
     stats = event.get("stats") if isinstance(event.get("stats"), dict) else {}
     found = {"time_s": stats.get("wall_s"), "incumbent": event.get("cost"), "lower_bound": event.get("lower_bound")}
     status = event.get("status")
@@ -88,7 +88,7 @@ def _without_repeats(moments):
 
 
 def _events(path):
-    """(place, event) of each line but one that is cut off at the end."""
+    """Yields (place, event) of each line. Skips a last line that is cut off."""
     try:
         lines = path.read_text(encoding="utf-8").split("\n")
     except UnicodeDecodeError as error:
@@ -110,12 +110,13 @@ def _events(path):
         yield place, event
 
 
-def _told(header, key):
+def _text_of(header, key):
     value = header.get(key)
     return printable(value) if isinstance(value, str) else ""
 
 
 def read_log(path):
+    """Reads one log. Raises BadInput with file, line and what was expected."""
     header, moments, status, end = {}, [], "", 0.0
     for place, event in _events(path):
         if event.get("event") == "header":
@@ -129,5 +130,5 @@ def read_log(path):
             moments.append(moment)
             end = max(end, moment.seconds)
     agents = header.get("agents")
-    return Run(printable(path.stem), _told(header, "instance"), agents if isinstance(agents, int) else None,
-               _told(header, "options"), status, end, _without_repeats(moments))
+    return Run(printable(path.stem), _text_of(header, "instance"), agents if isinstance(agents, int) else None,
+               _text_of(header, "options"), status, end, _without_repeats(moments))

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The figures of a set of rows of one line: success, runtime, SQR, PAR-2, ...
+"""Computes the measures of a set of rows of one line: success, runtime, SQR, PAR-2, ...
 
-Rows that differ in the seed alone are repetitions of an instance: first the mean over these, then over instances.
+Rows that differ only in the seed are repetitions of an instance. Means are taken over these first, then over
+instances.
 """
 import functools
 import statistics
@@ -14,7 +15,7 @@ from .lines import line_of
 from .rows import CLAIMED, WRONG
 
 
-NO_PROMISE = ("", "inf")  # omegas
+NO_PROMISE = ("", "inf")  # omegas without a guarantee
 
 
 @functools.cache
@@ -23,9 +24,9 @@ def _factor(omega):
 
 
 def within_omega(row):
-    """Whether a row with a plan proves that its cost is at most (1 + omega) times a lower bound. None:
-    its omega promises nothing. From cost and bound where both are there, not from what the status says:
-    a method may mean another bound."""
+    """Returns whether a row with a plan proves that its cost is at most (1 + omega) times a lower bound. Returns None
+    if its omega guarantees nothing. Compares cost and bound if the row has both. Otherwise the status decides; it is
+    second choice because a method may refer to another bound."""
     if row.omega in NO_PROMISE:
         return None
     if row.status == "optimal":
@@ -36,13 +37,13 @@ def within_omega(row):
 
 
 def has_plan(row):
-    """One that was re-checked; also of a run that a limit ended."""
+    """Returns whether the row has a checked plan, even if the run ended at a limit."""
     return row.cost is not None and row.status not in ("error", WRONG, CLAIMED)
 
 
 def best_costs(rows, known=()):
-    """{(problem, instance): the least cost of any plan}; also of plans of runs that a limit ended, but
-    not of runs with an error: their plans may be wrong. `known`: {(problem, instance): cost} from elsewhere."""
+    """Returns {(problem, instance): least cost of any checked plan}. This includes runs that ended at a limit, but not
+    runs with an error, whose plans may be invalid. `known`: {(problem, instance): cost} from other sources."""
     best = dict(known)
     for row in filter(has_plan, rows):
         key = row.problem, row.instance
@@ -51,7 +52,7 @@ def best_costs(rows, known=()):
 
 
 def best_bounds(rows, known=()):
-    """{(problem, instance): the highest proven lower bound}; what other solvers only claim is none."""
+    """Returns {(problem, instance): highest proven lower bound}, without bounds that other solvers only claim."""
     best = dict(known)
     for row in rows:
         if row.lower_bound is not None and row.status not in ("error", "infeasible") and row.bounds_every_plan:
@@ -61,7 +62,7 @@ def best_bounds(rows, known=()):
 
 
 def cost_ratio(row, best):
-    """Cost / best known cost, at least 1. None: the best known is 0 and this is not."""
+    """Returns cost / best known cost, which is at least 1. Returns None if only the best known cost is 0."""
     least = best[row.problem, row.instance]
     if row.cost == least:
         return 1.0
@@ -69,33 +70,33 @@ def cost_ratio(row, best):
 
 
 class Measures(NamedTuple):
-    """None: no row to tell."""
+    """Measures of the rows of one line; None: no row has the value."""
     instances: int
-    seeds: int                     # the most runs of an instance
+    seeds: int                     # maximum number of runs of an instance
     runs: int
     solved: int
-    wrong: int                     # runs with a plan that is none
-    claimed: int                   # runs with a cost, but no plan
-    within_omega: Optional[int]    # of the solved; None: omega promises nothing
+    wrong: int                     # runs with an invalid plan
+    claimed: int                   # runs that report a cost without a plan
+    within_omega: Optional[int]    # number of solved runs within omega; None: omega guarantees nothing
     success: float                 # share of an instance's runs that are solved, mean over instances
     mean_runtime_s: float          # a failure counts as the time limit
-    median_runtime_s: float        # likewise
+    median_runtime_s: float        # a failure counts as the time limit
     par2_s: float                  # a failure counts as twice the time limit
     mean_sqr: Optional[float]      # over solved rows
-    mean_cost_ratio: Optional[float]  # likewise; cost / best known cost
-    common: int                    # instances that all lines solve which solve any, if these are several
+    mean_cost_ratio: Optional[float]  # over solved rows; cost / best known cost
+    common: int                    # number of common_instances()
     common_sqr: Optional[float]    # mean SQR over these
-    common_cost_ratio: Optional[float]  # likewise
+    common_cost_ratio: Optional[float]  # mean over these; cost / best known cost
     common_mean_cost: Optional[float]
     common_median_cost: Optional[float]
     common_mean_s: Optional[float]
     common_median_s: Optional[float]
-    mean_roots: Optional[float]    # over all rows that tell
+    mean_roots: Optional[float]    # over all rows with a value
     mean_rtsp_calls: Optional[float]
 
 
 def over_seeds(rows, value):
-    """The mean of value(row) over the rows of each instance; an instance without any is not there."""
+    """Returns the mean of value(row) over the rows of each instance, without instances that have no value."""
     values = defaultdict(list)
     for row in rows:
         found = value(row)
@@ -114,19 +115,19 @@ def _median(values):
 
 
 def always_solved(rows):
-    """The instances of which every run is solved."""
+    """Returns the instances of which every run is solved."""
     return {row.instance for row in rows} - {row.instance for row in rows if not row.solved}
 
 
 def common_instances(groups):
-    """The instances that all lines solve, with every seed, which solve any; none unless several lines do.
-    `groups`: {line: rows}."""
+    """Returns the instances that are solved, with every seed, by all lines that solve any instance. Returns the empty
+    set if fewer than two lines solve any. `groups`: {line: rows}."""
     solved = [always_solved(rows) for rows in groups.values() if any(row.solved for row in rows)]
     return set.intersection(*solved) if len(solved) > 1 else set()
 
 
 def measures(rows, best, common=frozenset()):
-    """`rows`: of one line, at least one; `best`: best_costs() of all rows there are; `common`:
+    """Returns the Measures of `rows`, at least one row of one line. `best`: best_costs() of all rows. `common`:
     common_instances() of the rows of all lines."""
     solved = [row for row in rows if row.solved]
     shared = [row for row in solved if row.instance in common]
@@ -158,26 +159,26 @@ class Cell(NamedTuple):
 
 
 def by_cell(rows, best):
-    """{cell: {line: Measures}}; a line without rows in a cell is not there. `best`: as in measures()."""
+    """Returns {cell: {line: Measures}}, without lines that have no rows in a cell. `best`: as in measures()."""
     groups = grouped(rows, lambda row: Cell(row.map, row.agents, row.tasks))
     return {cell: measures_by_line(group, best) for cell, group in sorted(groups.items())}
 
 
 def measures_by_line(rows, best):
-    """{line: Measures}, by line. `best`: as in measures()."""
+    """Returns {line: Measures}, ordered by line. `best`: as in measures()."""
     groups = by_line(rows)
     common = common_instances(groups)
     return {line: measures(group, best, common) for line, group in sorted(groups.items())}
 
 
 def by_line(rows):
-    """{line: its rows}"""
+    """Returns {line: its rows}."""
     return grouped(rows, line_of)
 
 
 def median_runs(rows):
-    """{instance: {line: row}}: of runs that differ in the seed alone the median one, a failure being
-    slower than any success; of an even number the faster of the two in the middle."""
+    """Returns {instance: {line: row}} with the median run of those that differ only in the seed. A failure counts as
+    slower than any success; of an even number of runs the faster of the two middle ones is the median."""
     groups = defaultdict(lambda: defaultdict(list))
     for row in rows:
         groups[row.instance][line_of(row)].append(row)
@@ -187,12 +188,12 @@ def median_runs(rows):
 
 
 def solved_over_time(rows):
-    """The runtimes of the solved rows, in order: by the k-th, k are solved."""
+    """Returns the runtimes of the solved rows in ascending order: at the k-th runtime, k rows are solved."""
     return sorted(row.runtime_s for row in rows if row.solved)
 
 
 def only_solver(runs):
-    """{line: [rows of instances that its method alone solves though others tried]}; `runs`:
+    """Returns {line: [rows of instances that only its method solves, of those that other methods tried]}. `runs`:
     median_runs()."""
     found = defaultdict(list)
     for lines in runs.values():
@@ -204,7 +205,7 @@ def only_solver(runs):
 
 
 def beyond_baselines(runs, is_baseline):
-    """{line: number of instances that it solves and no baseline that tried does}."""
+    """Returns {line: number of instances that it solves, that a baseline tried, and that no baseline solved}."""
     found = defaultdict(int)
     for lines in runs.values():
         tried = [row.solved for line, row in lines.items() if is_baseline(line)]

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""The HTML page: one file, no script, nothing loaded from anywhere."""
+"""Writes the HTML page: one file without scripts, which loads nothing from elsewhere."""
 import base64
 import html
 from collections import Counter
 from pathlib import Path
 
 from .anytime import table_times
-from .counters import label, other_names, remembered_things
+from .counters import cache_names, label, other_names
 from .groups import grouped
 from .lines import method_name, omega_text, seconds_text
 from .metrics import by_line
@@ -15,52 +15,54 @@ from .rows import STATUSES_WITH_PLAN
 from .speedup import ALL_MAPS, BEST
 from .tables import NOTHING, Entry, count, html_table, percent, ratio, seconds, word
 
-# Refuses whatever is not in the file, should something ever ask for it.
+# Content security policy that blocks everything that is not in the file.
 POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 MOST_LISTED = 100
 
 GLOSSARY = [
-    ("CTS-MAPF", "Agents on a grid, each with a start, cells to visit in any order (its tasks) and a "
-     "destination, must not collide. The sum of their finish times, the cost, is to be small."),
+    ("CTS-MAPF", "Each agent on a grid has a start, cells to visit in any order (its tasks) and a "
+     "destination. Agents must not collide. The cost, to be minimised, is the sum of their finish times."),
     ("MG-MAPF", "The same without destinations: an agent may end on any of its own tasks."),
     ("N, M", "The number of agents; the number of tasks (one task may belong to several agents)."),
-    ("ω", "How far from optimal a plan may be, as the method was told: at most (1 + ω) times the least "
-     "possible cost. 0: optimal; ∞: no promise. Not every method proves it for the whole problem: one that "
-     "first chooses the agents' destinations, say, may stop within ω of the best plan for these, however "
-     "much better another choice is."),
-    ("Solved", "The run ended by itself with a plan that was re-checked: no more. A run that a limit ended "
+    ("ω", "Relative tolerance that the method was called with: a plan may cost at most (1 + ω) times the least "
+     "possible cost. 0: optimal; ∞: no guarantee. Not every method proves it for the whole problem. For example, a "
+     "method that first chooses the agents' destinations may stop within ω of the best plan for this choice, even if "
+     "another choice is much better."),
+    ("Solved", "The run ended by itself, not at a limit, with a plan that was checked. A run that ended at a limit "
      "is a failure, even with a plan. Solved runs may be outside ω."),
-    ("Within ω", "A solved run that proves what ω says: the plan is optimal, or costs at most (1 + ω) times "
-     "the lower bound that the run proved. The others are outside ω; the plan may still be good, but nothing "
-     "shows it. A dash where ω is ∞ or not given: nothing was promised."),
-    ("Status", "Of a plan: optimal; bounded, proven to be within ω; feasible, neither."),
+    ("Within ω", "A solved run that proves its tolerance: the plan is optimal, or costs at most (1 + ω) times "
+     "the lower bound that the run proved. The others are outside ω; their plans may still be good, but this is not "
+     "proven. A dash: ω is ∞ or not given, so nothing was guaranteed."),
+    ("Status", "Of a plan: optimal; bounded: proven to be within ω; feasible: neither."),
     ("Success rate", "Solved runs / all runs. Higher is better."),
     ("Runtime", "Wall time of a run in seconds; a failure counts as the time limit. So the mean of a "
-     "method with many failures says little but that. Lower is better."),
-    ("Seeds", "Runs that differ in the seed alone are repetitions of one instance: first the mean over these, then "
-     "over instances. Success rate of an instance: the share of its runs that are solved."),
-    ("Claimed, wrong", "Of other solvers: a run that told a cost and showed no plan; one whose plan is none, as it "
-     "collides, jumps or does not arrive. Neither counts as solved, nor as a cost that is known."),
-    ("Anytime", "A method that goes on improving its plan until its time limit, which is no failure: it counts as solved, "
-     "and its runtime is the time to its first plan."),
-    ("SQR, solution quality ratio", "Root cost / cost of the plan, of solved runs. The root cost is what the "
-     "agents' best sequences cost together when nobody minds the others: a lower bound on the optimum. 1 "
-     "is thus the best there can be, and the optimum may lie below 1. Each method is averaged over the runs "
-     "that it solved: one that solves only the easy instances looks better than one that solves the hard "
-     "ones too, whose SQR is lower for everybody."),
-    ("Common instances", "Those that every method solves, with every seed, which solves any of the cell (map, N, M) or "
-     "table: on these costs, times and the mean SQR of methods compare. The weakest method decides which they are, and "
-     "they are the easy ones; --method leaves methods out. Of quality over time: those for which all have a plan in the "
-     "end."),
-    ("Cost ratio", "Cost of the plan / best known cost, of solved runs. The best known cost is the least that "
-     "any row here has for the instance, runs that a limit ended included, and what MAPF Tracker has where it was read. 1 is the best, 1.05 is 5 % dearer. "
-     "Unlike SQR it does not fall because an instance is hard, so that methods compare even where one "
-     "solves more. Where no other method has a plan, it is 1 whatever the plan: nothing better is known."),
+     "method with many failures mainly reflects its failures. Lower is better."),
+    ("Seeds", "Runs that differ only in the seed are repetitions of one instance: means are taken over these first, "
+     "then over instances. Success rate of an instance: the share of its runs that are solved."),
+    ("Claimed, wrong", "Of other solvers. Claimed: a run that reported a cost without a plan. Wrong: a run whose plan "
+     "is invalid, because agents collide, jump or do not arrive. Neither counts as solved, and its cost does not count "
+     "as known."),
+    ("Anytime", "A method that improves its plan until its time limit. Reaching the limit is not a failure: a run with "
+     "a plan counts as solved, and its runtime is the time to its first plan."),
+    ("SQR, solution quality ratio", "Root cost / cost of the plan, of solved runs. The root cost is the "
+     "cost of the agents' best sequences without regard to collisions: a lower bound on the optimum. So SQR is at "
+     "most 1, and an optimal plan may have less. Each method is averaged over the runs that it solved: a method that "
+     "solves only easy instances looks better than one that also solves hard ones, whose SQR is lower for all "
+     "methods."),
+    ("Common instances", "Instances that all methods solve with every seed, not counting methods that solve no "
+     "instance of the cell (map, N, M) or table. On these, costs, times and the mean SQR of methods are comparable. "
+     "The weakest method determines the common instances, and they are the easy ones; --method excludes methods. For "
+     "quality over time: instances for which all methods end with a plan."),
+    ("Cost ratio", "Cost of the plan / best known cost, of solved runs. The best known cost is the least cost of "
+     "any row for the instance, including runs that ended at a limit, and of MAPF Tracker if it was read. 1 is best; "
+     "1.05 costs 5 % more. Unlike SQR it does not get worse because an instance is hard, so methods are comparable "
+     "even if one solves more instances. If no other method has a plan, it is 1 for any plan, because nothing "
+     "better is known."),
     ("PAR-2", "Mean runtime where a failure counts as twice the time limit. Lower is better."),
     ("Roots, rTSP calls", "Constraint trees that the search began, and sequencing problems that it solved to "
-     "find them; means over all runs that tell, failures included."),
+     "find them; means over all runs that report them, including failures."),
     ("Gap, lower bound", "No plan costs less than the lower bound; gap = (cost - lower bound) / lower bound."),
-    ("Baseline", "A method that others are measured by: dashed lines, hollow markers."),
+    ("Baseline", "A method that others are compared with: dashed lines, hollow markers."),
 ]
 
 
@@ -77,12 +79,12 @@ def _data(kind, content):
 
 
 def _file(report, before, name):
-    """A table to be saved from the page, which holds it: the page may have been moved away from its folder."""
+    """Returns a download link. The page contains the file, so that the page may be moved to another directory."""
     return f'<p>{_text(before)}: <a download="{name}" href="{_data("text/csv", report.files[name])}">{name}</a>.</p>'
 
 
 def _figure(figure, caption="", kind=""):
-    """`kind`: "column": as wide as a column of a paper"""
+    """Returns a figure. `kind`: "column" for figures as wide as a column of a paper."""
     return (f'<figure class="{kind}"><img alt="{_text(figure.title)}" src="{_data("image/svg+xml", figure.svg.encode("utf-8"))}">'
             f"<figcaption><b>{_text(figure.title)}.</b> {_text(caption)}</figcaption></figure>")
 
@@ -109,7 +111,7 @@ def _alarm(report):
     return _box("alarm", [
         f"<h2>PROOFS CONTRADICT EACH OTHER on {instances} instance{'s' if instances > 1 else ''}</h2>",
         _paragraph("Not all of these claims can be true. Some solver is wrong, or rows of different "
-                   "instances have one name. No figure below is to be trusted before this is explained."),
+                   "instances have one name. Do not trust any figure below until this is explained."),
         _file(report, "All of them", "contradictions.csv"), _list(shown)])
 
 
@@ -127,11 +129,11 @@ def _false_claims(report):
     if len(found) > MOST_LISTED:
         shown.append(f"and {len(found) - MOST_LISTED} more")
     kinds = Counter((method_name(each.method), each.kind) for each in found)
-    told = ", ".join(f"{name}: {number} of a {kind}" for (name, kind), number in sorted(kinds.items()))
+    numbers = ", ".join(f"{name}: {number} of a {kind}" for (name, kind), number in sorted(kinds.items()))
     return _box("alarm", [
         f"<h2>FALSE CLAIMS: {len(found)}</h2>",
-        _paragraph(f"What solvers say, against what was checked here ({told}). A wrong plan counts as a failure, costs are "
-                   "as recounted, and nothing else is built on what they say."),
+        _paragraph(f"Claims of solvers that contradict checked values ({numbers}). A wrong plan counts as a failure. "
+                   "Costs are the recounted ones. No other result uses these claims."),
         _file(report, "All of them", "false_claims.csv"), _list(shown)])
 
 
@@ -141,7 +143,7 @@ def _errors(report):
     rows = [[word(report.lines.label(line)), Entry(str(number)), word(message or "(no message)")]
             for line, number, message in report.errors]
     return _box("note", ["<b>Runs that failed with an error</b>",
-                         _paragraph("They crashed or gave a wrong plan; they count as failures."),
+                         _paragraph("These runs crashed or gave a wrong plan. They count as failures."),
                          html_table(["method", "runs", "most frequent message"], rows)])
 
 
@@ -158,12 +160,12 @@ def _provenance(report):
         ("Rows", f"{len(rows)} runs of {len({(row.problem, row.instance) for row in rows})} instances "
          f"by {len(report.lines.all)} lines of {len({row.method for row in rows})} methods"),
         ("Files", "; ".join(f"{path} ({number} rows)" for path, number in report.results.files)),
-        ("Runs ended", f"{ended[0]} to {ended[-1]}" if ended else "not told"),
-        ("Machines", _span({row.machine for row in rows} - {""}) or "not told"),
-        ("Versions", _span({row.version for row in rows} - {""}) or "not told"),
-        ("Threads", _span({row.threads for row in rows if row.threads is not None}) or "not told"),
+        ("Runs ended", f"{ended[0]} to {ended[-1]}" if ended else "not reported"),
+        ("Machines", _span({row.machine for row in rows} - {""}) or "not reported"),
+        ("Versions", _span({row.version for row in rows} - {""}) or "not reported"),
+        ("Threads", _span({row.threads for row in rows if row.threads is not None}) or "not reported"),
         ("Time limits", _span({row.time_limit_s for row in rows}, seconds_text)),
-        ("Seeds", _span({row.seed for row in rows if row.seed is not None}) or "not told"),
+        ("Seeds", _span({row.seed for row in rows if row.seed is not None}) or "not reported"),
         ("Maps", _span({row.map for row in rows})),
         ("N (agents)", _span({row.agents for row in rows})),
         ("M (tasks)", _span({row.tasks for row in rows}))]
@@ -183,9 +185,9 @@ def _methods(report):
 
 
 def _within(line, found):
-    """How many of the solved rows of a line, measured as `found`, are within omega."""
+    """Returns the number of solved runs of a line that are within omega. `found`: Measures of the line."""
     if found.within_omega is None:
-        return Entry("–", f"{omega_text(line.omega)}: no promise")
+        return Entry("–", f"{omega_text(line.omega)}: no guarantee")
     return Entry(str(found.within_omega))
 
 
@@ -193,7 +195,7 @@ def _common(found):
     return Entry(ratio(found.common_sqr), f"{found.common} common instances")
 
 
-# A failure has no time of its own: the paper's convention.
+# A failure counts as the time limit, as in the paper.
 MEDIAN = "median s (failures = limit)"
 MEAN = "mean s (failures = limit)"
 PAR2 = "PAR-2 s (failures = 2 × limit)"
@@ -214,10 +216,11 @@ def _summary(problem, lines):
     best_solved = max(found.solved for found in measured) if comparable else None
     best_par2 = min(found.par2_s for found in measured) if comparable else None
     has_baselines = any(lines.is_baseline(line) for line in problem.lines)
-    told = [(name, value) for name, value in (("wrong plans", lambda found: found.wrong),
+    claims = [(name, value) for name, value in (("wrong plans", lambda found: found.wrong),
                                               ("only claimed", lambda found: found.claimed))
             if any(map(value, measured))]
-    header = ["method", "runs", "solved", *(name for name, _ in told), WITHIN, "success rate", PAR2, MEDIAN, MEAN, SQR, COMMON_SQR, COST_RATIO,
+    header = ["method", "runs", "solved", *(name for name, _ in claims), WITHIN, "success rate", PAR2, MEDIAN, MEAN,
+              SQR, COMMON_SQR, COST_RATIO,
               "solved by it alone",
               *(["solved by no baseline"] if has_baselines else [])]
     rows = []
@@ -226,7 +229,7 @@ def _summary(problem, lines):
         rows.append([
             word(lines.label(line)), Entry(str(found.runs)),
             Entry(str(found.solved), strong=found.solved == best_solved),
-            *(Entry(str(value(found))) for _, value in told), _within(line, found), Entry(percent(found.success)),
+            *(Entry(str(value(found))) for _, value in claims), _within(line, found), Entry(percent(found.success)),
             Entry(seconds(found.par2_s), strong=found.par2_s == best_par2),
             Entry(seconds(found.median_runtime_s)), Entry(seconds(found.mean_runtime_s)),
             Entry(ratio(found.mean_sqr)), _common(found), Entry(ratio(found.mean_cost_ratio)),
@@ -238,7 +241,7 @@ def _summary(problem, lines):
 
 
 def _matrix(problem, lines, value, show, better):
-    """Rows map, N, M; a column for each line; the best of each row is strong."""
+    """Returns a table with rows by map, N, M and a column for each line; the best value of a row is bold."""
     rows = []
     for cell, found in problem.cells.items():
         values = {line: value(measured) for line, measured in found.items()}
@@ -256,7 +259,7 @@ def _matrix(problem, lines, value, show, better):
 
 
 def _cells(problem, lines):
-    """A row for each cell and line."""
+    """Returns a table with a row for each cell and line."""
     rows = [[word(cell.map), Entry(str(cell.agents)), Entry(str(cell.tasks)), word(lines.label(line)),
              Entry(str(found[line].runs)), Entry(str(found[line].solved)), _within(line, found[line]),
              Entry(percent(found[line].success)), Entry(seconds(found[line].median_runtime_s)),
@@ -268,7 +271,7 @@ def _cells(problem, lines):
 
 
 def _common_table(problem, lines):
-    """A row for each cell and line that has a part in it, and one for each line over all cells."""
+    """Returns a table with a row for each line over all cells, and for each cell and line with common instances."""
     places = [(("all", "", ""), problem.by_line)] if len(problem.cells) > 1 else []
     places += [(cell, found) for cell, found in problem.cells.items()]
     rows = [[word(place[0]), Entry(str(place[1])), Entry(str(place[2])), Entry(str(found[line].common)),
@@ -286,7 +289,7 @@ def cost_text(value):
 
 
 def _anytime_table(problem, lines):
-    """At fixed times: how many have a plan, and what it costs."""
+    """Returns a table of mean cost ratios at fixed times."""
     limit = max(line.time_limit_s for line in problem.lines)
     times = [time for time in table_times(limit) if f"{time:g}"[0] == "1" or time == limit]
     rows = []
@@ -310,11 +313,12 @@ def _over_time(report, problem):
     if not problem.anytime:
         return []
     return ["<h3>Quality over time</h3>",
-            _figure(problem.anytime, "Of methods that improve their plans while they run, as their runs tell on the way; the "
-                    "last plan was re-checked. Below: the share of all instances with a plan. A lower bound that another "
-                    "solver only claims is drawn as it claims it.", "column"),
+            _figure(problem.anytime, "Methods that improve their plans while they run. Intermediate plans are as the "
+                    "runs report them; the last plan was checked. Below: the share of all instances with a plan. Lower "
+                    "bounds of other solvers are drawn as claimed.", "column"),
             "<details><summary>Table: mean cost ratio by time</summary>",
-            _paragraph("Mean over the common instances; with a share behind it, over as many of them as have a plan by then. "
+            _paragraph("Mean over the common instances. If a share follows, the mean is over this share of them, which "
+                       "have a plan by then. "
                        "Hold the pointer over a number for the share of all instances with a plan."),
             _anytime_table(problem, report.lines), "</details>",
             _file(report, "All of it, with cost / best lower bound, as a file", f"anytime_{problem.name}.csv")]
@@ -326,15 +330,16 @@ def _success(report, problem):
     pooled = len({cell.tasks for cell in problem.cells}) > 1
     return [_figure(problem.success, "Share of the runs that are solved"
                     + (", whatever the number of tasks." if pooled else ".")
-                    + " Under the name of a map: what is behind each point of a line.", "column"),
+                    + " Below the name of a map: number of instances and seeds of each point.", "column"),
             _file(report, "As a file", f"success_{problem.name}.csv")]
 
 
 def _common_section(report, problem):
-    return ["<h3>Instances that all solve</h3>",
-            _paragraph("Costs and times of the instances that every method solves, with every seed, which solves any: of all, "
-                       "and of each map, number of agents and number of tasks. Only here means of costs and of times "
-                       "compare; the weakest method decides which instances these are (--method leaves it out)."),
+    return ["<h3>Instances that all methods solve</h3>",
+            _paragraph("Costs and times of the common instances: those that all methods solve with every seed, not "
+                       "counting methods that solve none. Rows: all instances, and each map, number of agents and "
+                       "number of tasks. Means of costs and times are comparable only here. The weakest method "
+                       "determines which instances these are (--method excludes methods)."),
             _common_table(problem, report.lines), _file(report, "As a file", f"common_{problem.name}.csv")]
 
 
@@ -351,17 +356,16 @@ def _speedup_entry(found):
 
 def _speedups(problem, lines):
     if not any(lines.is_baseline(line) for line in problem.lines):
-        return [_paragraph("None of the methods here is a baseline (--baseline names them), so there is "
-                           "nothing to compare with.")]
+        return [_paragraph("There is no comparison, because none of the methods is a baseline (see --baseline).")]
     if not problem.speedups:
-        return [_paragraph("On every instance that a baseline solves, the fastest one takes less than a "
-                           "second, so there is nothing to compare.")]
+        return [_paragraph("There is no comparison, because on every instance that a baseline solves, the "
+                           "fastest baseline takes at most a second.")]
     return [_paragraph(
-        f"On the {problem.hard} instances that the best baseline (on each instance whichever is the "
-        "fastest) solves, but only after more than a second: the median of the baseline's time / the "
-        "method's time. Above 1 the method is faster. A failure counts as the time limit: where the median "
-        "depends on that, ≥ says that the true ratio may be larger, ≤ smaller, ~ either. Times below a "
-        "millisecond count as one. Hold the pointer over a number for times and failures."),
+        f"Median of (time of the baseline / time of the method) on the {problem.hard} instances that the best "
+        "baseline (the fastest on each instance) solves in more than a second. Above 1 the method is faster. A "
+        "failure counts as the time limit. If the median depends on failures, ≥ means that the true ratio may be "
+        "larger, ≤ smaller, ~ either. Times below a millisecond count as one millisecond. Hold the pointer over a "
+        "number for times and failures."),
         _speedup_table(problem, lines)]
 
 
@@ -386,7 +390,7 @@ def _speedup_table(problem, lines):
 
 def _only(problem, lines):
     if not problem.only:
-        return _paragraph("Every instance that is solved at all is solved by several methods.")
+        return _paragraph("Every solved instance is solved by several methods.")
     maps = sorted({cell.map for cell in problem.cells})
     rows = [[word(lines.label(line)), Entry(str(len(problem.only[line]))),
              *(Entry(str(sum(row.map == name for row in problem.only[line]))) for name in maps)]
@@ -395,28 +399,28 @@ def _only(problem, lines):
 
 
 def _counters(problem, lines):
-    """A row for each counter, a column for each line that tells."""
+    """Returns a table with a row for each counter and a column for each line with counters."""
     counters = problem.counters
-    told = [line for line in problem.lines if line in counters]
-    rows = [[word(label(name)), *(Entry(count(counters[line].mean(name))) for line in told)]
+    shown = [line for line in problem.lines if line in counters]
+    rows = [[word(label(name)), *(Entry(count(counters[line].mean(name))) for line in shown)]
             for name in other_names(counters)]
-    for what in remembered_things(counters):
-        shares = [counters[line].remembered(what) for line in told]
-        rows.append([word(f"{label(what)}: share remembered"),
+    for what in cache_names(counters):
+        shares = [counters[line].hit_share(what) for line in shown]
+        rows.append([word(f"{label(what)}: share of cache hits"),
                      *(Entry("–" if share is None else percent(share)) for share in shares)])
-    return html_table(["mean per run", *(Entry(lines.label(line)) for line in told)], rows)
+    return html_table(["mean per run", *(Entry(lines.label(line)) for line in shown)], rows)
 
 
 def _search(report, problem):
     if not problem.counters:
         return []
     name = problem.name
-    parts = ["<h3>What the search did</h3>"]
+    parts = ["<h3>Search counters</h3>"]
     if problem.splits:
-        parts.append(_figure(problem.splits, "Of all runs that tell, failures included. Long runs count for more: they "
-                             "split more nodes."))
+        parts.append(_figure(problem.splits, "Over all runs that report splits, including failures. Long runs have "
+                             "more weight, because they split more nodes."))
     return [*parts, "<details><summary>Table: other counters</summary>", _counters(problem, report.lines), "</details>",
-            _file(report, "All of them, summed over the runs", f"search_{name}.csv")]
+            _file(report, "All counters, summed over the runs", f"search_{name}.csv")]
 
 
 def _problem(report, problem):
@@ -426,18 +430,18 @@ def _problem(report, problem):
              _paragraph(f"{len(problem.rows)} runs of {problem.instances} instances. Every figure and table "
                         "has one line or column for each method with one ω and one time limit."),
              "<h3>All instances together</h3>", _summary(problem, lines),
-             _paragraph("Bold: the best, where all have as many runs. Of these within ω: solved runs that prove "
-                        "their plan to be as good as ω asks. Mean SQR of solved runs is over those that each method "
-                        "solved: one that solves only the easy instances looks better. Mean SQR of common "
-                        f"instances is over the {compared} that all methods solve which solve any, so it compares. "
-                        "Solved by it alone: instances that no other method solves. Solved by no baseline: that it "
-                        "solves and no baseline that tried does."),
+             _paragraph("Bold: the best value, if all methods have equally many runs. Of these within ω: solved runs "
+                        "that prove that their plan is within ω. Mean SQR of solved runs is over the runs that each "
+                        "method solved: a method that solves only easy instances looks better. Mean SQR of common "
+                        f"instances is over the {compared} instances that all methods solve (of those that solve any), "
+                        "so it is comparable. Solved by it alone: instances that no other method solves. Solved by no "
+                        "baseline: instances that it solves, that a baseline tried, and that no baseline solved."),
              _file(report, "As a file", f"summary_{name}.csv"), *_success(report, problem),
-             _paragraph("The figures have a column for each map and number of agents N (where the number of tasks "
-                        "M does not vary: for each map, with N along the axis), a row for each metric. "
+             _paragraph("The figures have a row for each metric and a column for each map and number of agents N. If "
+                        "the number of tasks M does not vary, they have a column for each map, with N along the axis. "
                         "Runtime is on a log axis; a failure counts as the time limit (dotted). SQR: higher is "
-                        "better; cost ratio: 1 is best. Where lines lie on each other, those below are broader "
-                        "and have larger markers. A figure that is saved from this page is an SVG."),
+                        "better; cost ratio: 1 is best. Where lines coincide, the lower ones are broader "
+                        "and have larger markers. Figures saved from this page are SVG files."),
              '<div class="figures">', *(_figure(figure) for figure in problem.comparison), "</div>"]
     parts += ["<details><summary>Table: every cell (map, N, M) and method</summary>", _cells(problem, lines),
               "</details>"]
@@ -450,16 +454,15 @@ def _problem(report, problem):
             ("Mean cost ratio (solved runs)", lambda found: found.mean_cost_ratio, ratio, None)):
         parts += [f"<details><summary>Table: {title}</summary>",
                   _matrix(problem, lines, value, show, better), "</details>"]
-    parts += [_file(report, "All of it as a file", f"comparison_{name}.csv"),
+    parts += [_file(report, "All values as a file", f"comparison_{name}.csv"),
               "<h3>Solved by a given time</h3>",
-              _figure(problem.cactus, "How many instances each method has solved when a given time per "
-                      "instance has passed (cactus plot). Further up and further left is better; dotted: "
-                      "all there are."),
+              _figure(problem.cactus, "Cactus plot: number of instances that each method solves within a given time "
+                      "per instance. Further up and further left is better. Dotted: number of instances."),
               *_over_time(report, problem), *_common_section(report, problem),
               *_search(report, problem),
               "<h3>Speed-up over the baselines</h3>",
               *_speedups(problem, lines), _file(report, "As a file", f"speedup_{name}.csv"),
-              "<h3>Instances that a single method solves</h3>", _only(problem, lines),
+              "<h3>Instances that only one method solves</h3>", _only(problem, lines),
               _file(report, "The instances", f"only_solver_{name}.csv")]
     return "\n".join(parts)
 
@@ -482,13 +485,13 @@ def _study_table(study, lines):
 
 def _studies(report):
     parts = ['<h2 id="omega">The influence of ω</h2>',
-             _paragraph("The same method with several ω. The larger ω, the longer the search keeps to the trees "
-                        "it has before it begins another: fewer roots, fewer sequencing problems (rTSP "
-                        "calls), sooner a plan, and perhaps a worse one.")]
+             _paragraph("The same method with several values of ω. The larger ω, the longer the search stays in the "
+                        "trees that it has before it begins another one: fewer roots, fewer sequencing problems (rTSP "
+                        "calls), an earlier plan, which may be worse.")]
     for study in report.studies:
         parts += [_figure(study.figure, f"{PROBLEM_NAMES[study.problem]}, map {study.map}, "
                           f"N = {study.agents}. (b) to (g) by number of tasks M; runtime and numbers on log "
-                          "axes. SQR of solved runs is over those solved with each ω: an ω with which only the "
+                          "axes. SQR of solved runs is over the runs solved with each ω: an ω with which only "
                           "easy instances are solved looks better."),
                   "<details><summary>Table: all maps and numbers of agents</summary>",
                   _study_table(study, report.lines), "</details>",
@@ -501,17 +504,18 @@ def _flag(value):
 
 
 def _best_known(report):
-    """What the rows are worth beside MAPF Tracker."""
-    told = report.best_known
-    if told is None:
+    """Returns the section that compares the rows with MAPF Tracker."""
+    known = report.best_known
+    if known is None:
         return []
-    head = ['<h2 id="tracker">Beside MAPF Tracker</h2>',
-            _paragraph(f"{told.entries} entries were read from {', '.join(told.files)}; "
-                       f"{len({each.place for each in told.found})} of them are instances here. Costs are of checked plans, "
-                       "bounds are Grove's own. Closed: the bound meets the best cost, and did not yet in the archive.")]
-    if not told.found:
+    head = ['<h2 id="tracker">Comparison with MAPF Tracker</h2>',
+            _paragraph(f"{known.entries} entries were read from {', '.join(known.files)}; "
+                       f"{len({each.place for each in known.found})} of them are instances here. Costs are of checked "
+                       "plans, bounds are Grove's own. Closed: the bound meets the best cost, and the bound of the "
+                       "archive does not.")]
+    if not known.found:
         return head
-    by = grouped(told.found, lambda each: each.line)
+    by = grouped(known.found, lambda each: each.line)
     rows = []
     for line in report.lines.all:
         group = by.get(line, [])
@@ -522,70 +526,70 @@ def _best_known(report):
                          Entry(str(sum(value == 1 for value in ratios))),
                          *(Entry(str(sum(getattr(each, name) for each in group)))
                            for name in ("better_plan", "higher_bound", "closes"))])
-    news = [each for each in told.found if each.better_plan or each.higher_bound or each.closes]
+    better = [each for each in known.found if each.better_plan or each.higher_bound or each.closes]
     parts = [*head, html_table(["method", "instances", "with a plan", "mean cost / best known", "as good", "better plans",
                                 "higher bounds", "closed"], rows),
              _file(report, "Every instance as a file", "best_known.csv")]
-    if news:
-        parts += ["<h3>Better than what is known</h3>", html_table(
+    if better:
+        parts += ["<h3>Improvements on the best known values</h3>", html_table(
             ["instance", "method", Entry("best known bound"), Entry("best known cost"), Entry("cost"),
              Entry("lower bound"), "better plan", "higher bound", "closes"],
             [[word(each.instance), word(report.lines.label(each.line)),
               *(Entry("–" if value is None else str(value)) for value in (*each.known, each.cost, each.bound)),
-              _flag(each.better_plan), _flag(each.higher_bound), _flag(each.closes)] for each in news[:MOST_LISTED]])]
-        if len(news) > MOST_LISTED:
-            parts.append(_paragraph(f"And {len(news) - MOST_LISTED} more in the file."))
+              _flag(each.better_plan), _flag(each.higher_bound), _flag(each.closes)] for each in better[:MOST_LISTED]])]
+        if len(better) > MOST_LISTED:
+            parts.append(_paragraph(f"And {len(better) - MOST_LISTED} more in the file."))
     return parts
 
 
 def _runs(report):
-    """Single runs, of their logs."""
+    """Returns the section of single runs, from their logs."""
     if not report.runs:
         return []
     rows = [[word(run.name), word(run.instance), Entry("–" if run.agents is None else str(run.agents)),
-             word(run.status or "the log ends before the run"),
+             word(run.status or "the log is incomplete"),
              *(Entry("–" if value is None else str(value)) for value in run.moments[-1][1:] or (None, None)),
              Entry(seconds(run.end_s)), word(run.options)] for run in report.logs if run.moments]
     return ['<h2 id="runs">Single runs</h2>',
-            _figure(report.runs, "Bound and best plan over time of the runs whose logs were read. grove view --run shows one "
-                    "of them as a page.", "column"),
+            _figure(report.runs, "Lower bound and best plan over time, from the logs. grove view --run shows one log "
+                    "as an interactive page.", "column"),
             html_table(["log", "instance", Entry("N"), "status", Entry("cost"), Entry("lower bound"), Entry("s"),
                         "options"], rows),
             _file(report, "As a file", "runs.csv")]
 
 
 def _glossary():
-    return ("<h2 id=\"words\">What the words mean</h2><dl>" + "".join(
+    return ("<h2 id=\"words\">Terms</h2><dl>" + "".join(
         f"<dt>{_text(name)}</dt><dd>{_text(text)}</dd>" for name, text in GLOSSARY) + "</dl>")
 
 
 def _origin(report):
     if not report.results.rows:
         return []
-    return ['<h2 id="origin">Where the rows come from</h2>', _provenance(report), "<h3>Methods</h3>", _methods(report)]
+    return ['<h2 id="origin">Source of the rows</h2>', _provenance(report), "<h3>Methods</h3>", _methods(report)]
 
 
 def page(report):
-    """The whole page as text."""
+    """Returns the whole page as text."""
     css = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
     links = [(problem.name, PROBLEM_NAMES[problem.name].split(" (")[0])
              for problem in report.problems]
     if report.studies:
         links.append(("omega", "The influence of ω"))
     if report.best_known:
-        links.append(("tracker", "Beside MAPF Tracker"))
+        links.append(("tracker", "Comparison with MAPF Tracker"))
     if report.runs:
         links.append(("runs", "Single runs"))
-    links += [("words", "What the words mean"),
-              *([("origin", "Where the rows come from")] if report.results.rows else [])]
+    links += [("words", "Terms"),
+              *([("origin", "Source of the rows")] if report.results.rows else [])]
     parts = [
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">',
         f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         f'<link rel="icon" href="data:,"><title>Grove report</title><style>{css}</style></head><body>',
         "<h1>Grove report</h1>",
-        _paragraph("Methods for multi-agent path finding with tasks, compared on the same instances: how "
-                   "many they solve, how fast, and how good the plans are."),
+        _paragraph("Comparison of methods for multi-agent path finding with tasks on the same instances: "
+                   "number of solved instances, runtime, and quality of the plans."),
         "<nav>" + "".join(f'<a href="#{name}">{_text(text)}</a>' for name, text in links) + "</nav>",
         *([_false_claims(report), _alarm(report)] if report.results.rows else [])]
     if report.notes:

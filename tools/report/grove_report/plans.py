@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Plans of classical MAPF, of the plan files that grove bench kept.
+"""Reads plans of classical MAPF from the plan files that grove bench kept.
 
-It re-checked them; here what can be seen without the map is looked at once more, since files may have changed.
+grove bench has checked these plans. Since files may have changed, the parts that need no map are checked again.
 """
 import json
 import re
@@ -10,18 +10,18 @@ LETTERS = {(1, 0): "r", (-1, 0): "l", (0, -1): "u", (0, 1): "d", (0, 0): "w"}
 
 
 class BadPlan(Exception):
-    """Why it is none. One line."""
+    """The reason why a file holds no valid plan, in one line."""
 
 
 def _paths(text):
     try:
         return [[tuple(cell) for cell in agent["path"]] for agent in json.loads(text)["agents"]]
     except (ValueError, KeyError, TypeError, RecursionError):
-        raise BadPlan("no plan is in it; expected a plan file of Grove") from None
+        raise BadPlan("found no plan; expected a plan file of Grove") from None
 
 
 def _until_rest(path):
-    """Without the waits at the end."""
+    """Returns the path without the waits at its end."""
     end = len(path)
     while end > 1 and path[end - 1] == path[end - 2]:
         end -= 1
@@ -29,7 +29,7 @@ def _until_rest(path):
 
 
 def _step(before, after):
-    """None: they are no cells."""
+    """Returns the move (dx, dy) from one cell to the next. Returns None if these are not cells."""
     try:
         (x, y), (to_x, to_y) = before, after
         return to_x - x, to_y - y
@@ -38,7 +38,7 @@ def _step(before, after):
 
 
 def read_plan(path, agents):
-    """The path of each agent, a cell (x, y) for each step until it rests."""
+    """Returns the path of each agent: its cells (x, y) at times 0, 1, ... until it rests. Raises BadPlan."""
     try:
         paths = _paths(path.read_text(encoding="utf-8"))
     except OSError as error:
@@ -56,7 +56,7 @@ def read_plan(path, agents):
 
 
 def recounted(paths):
-    """The sum of the times at which agents come to rest. Refuses paths that collide."""
+    """Returns the sum of the times at which agents come to rest. Raises BadPlan if paths collide."""
     for time in range(max(map(len, paths))):
         here = [path[min(time, len(path) - 1)] for path in paths]
         at = {cell: agent for agent, cell in enumerate(here)}
@@ -74,6 +74,6 @@ def recounted(paths):
 
 
 def motion_string(path):
-    """"5r2d" for five steps to the right and two down; up is where y is smaller."""
+    """Returns the moves with run lengths: "5r2d" is five steps right, then two down. Up means smaller y."""
     letters = "".join(LETTERS[_step(before, after)] for before, after in zip(path, path[1:]))
     return re.sub(r"(.)\1+", lambda run: f"{len(run[0])}{run[1]}", letters)

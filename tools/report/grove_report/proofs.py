@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Claims that cannot all be true: each is a bug in some solver, or rows of different instances under
-one name. And claims of other solvers that are false by what was checked here."""
+"""Finds claims that contradict each other, and claims of other solvers that a checked plan or bound refutes.
+
+A contradiction is a bug in some solver, or comes from rows of different instances under one name.
+"""
 import itertools
 from typing import NamedTuple, Optional
 
@@ -17,7 +19,7 @@ class Contradiction(NamedTuple):
 
 
 def _said(rows, value):
-    """'1070 (a, b), 1071 (c)': the values, and who says so."""
+    """Returns the values with the methods that claim them: '1070 (a, b), 1071 (c)'."""
     groups = values_by(rows, value, lambda row: method_name(row.method) + (f" ω={row.omega}" if row.omega else ""))
     return ", ".join(f"{found} ({', '.join(sorted(who))})" for found, who in sorted(groups.items()))
 
@@ -37,10 +39,10 @@ def _of_instance(everything):
     if above:
         yield (f"a plan costs {cheapest}, below a proven lower bound: "
                + _said(above, lambda row: row.lower_bound))
-    dearer = [row for row in optimal if row.cost > least]
-    if dearer and len({row.cost for row in optimal}) == 1:
+    costlier = [row for row in optimal if row.cost > least]
+    if costlier and len({row.cost for row in optimal}) == 1:
         yield (f"a plan costs {cheapest}, less than the optimal cost: "
-               + _said(dearer, lambda row: row.cost))
+               + _said(costlier, lambda row: row.cost))
     roots = [row for row in rows if row.root_cost is not None and row.root_cost > least]
     if roots:
         yield (f"a plan costs {cheapest}, below the root cost: "
@@ -58,16 +60,16 @@ class FalseClaim(NamedTuple):
     seed: Optional[int]
     kind: str             # "plan", "cost", "lower bound"
     claimed: Optional[int]
-    checked: Optional[int]  # what refutes it
+    checked: Optional[int]  # the value that refutes it
     what: str
 
 
 class _Checked(NamedTuple):
-    """Of an instance. None: there is none."""
-    plan: Optional[int]   # the cost of the cheapest
-    bound: Optional[int]  # the highest that is proven
-    planner: str          # who has them
-    prover: str
+    """Best checked plan and bound of an instance; None: there is none."""
+    plan: Optional[int]   # cost of the cheapest plan
+    bound: Optional[int]  # highest proven lower bound
+    planner: str          # methods that found the plan
+    prover: str           # methods that proved the bound
 
 
 def _checked(rows, plan, bound):
@@ -77,8 +79,8 @@ def _checked(rows, plan, bound):
                     who(row for row in rows if row.lower_bound == bound and row.bounds_every_plan))
 
 
-def _lies(row, checked):
-    """(kind, claimed, checked, what) of what a row says against what was checked of its instance."""
+def _false_claims_of(row, checked):
+    """Yields (kind, claimed, checked, what) of each claim of a row that the checked plan or bound refutes."""
     plan, bound = checked.plan, checked.bound
     if row.status == WRONG:
         yield "plan", row.claimed_cost, None, row.error or "the plan is wrong"
@@ -100,17 +102,17 @@ def _lies(row, checked):
 
 
 def false_claims(rows, known_costs=()):
-    """`known_costs`: as in best_costs(); of plans from elsewhere."""
+    """Returns the FalseClaims of all rows. `known_costs`: costs of other known plans, as in best_costs()."""
     rows = [row for row in rows if row.status != "error"]
     plans, bounds = best_costs(rows, known_costs), best_bounds(rows)
-    return [FalseClaim(*key, row.method, row.omega, row.seed, *lie)
+    return [FalseClaim(*key, row.method, row.omega, row.seed, *claim)
             for key, group in grouped(rows, lambda row: (row.problem, row.instance)).items()
             for checked in [_checked(group, plans.get(key), bounds.get(key))]
-            for row in group for lie in _lies(row, checked)]
+            for row in group for claim in _false_claims_of(row, checked)]
 
 
 def _against(rows, known):
-    """Of an instance, with what MAPF Tracker knows of it."""
+    """Yields contradictions between the rows of an instance and the entry of MAPF Tracker."""
     plans = [row for row in rows if has_plan(row)]
     if plans and known.bound is not None and min(row.cost for row in plans) < known.bound:
         cheaper = [row for row in plans if row.cost < known.bound]
@@ -123,15 +125,16 @@ def _against(rows, known):
 
 
 def contradictions(rows, known=None):
-    """Of all rows but those with status error: what these say is known to be worth nothing. Bounds of plans in which
-    nobody follows another closely are compared with nothing. `known`: {(problem, instance): tracker.Known}"""
+    """Returns the Contradictions among all rows, except rows with status error, whose claims do not count. Bounds
+    that hold only for plans without following conflicts (--no-following) are not compared.
+    `known`: {(problem, instance): tracker.Known}."""
     groups = grouped((row for row in rows if row.status != "error"), lambda row: (row.problem, row.instance))
     return [Contradiction(*key, what) for key, group in sorted(groups.items())
             for what in itertools.chain(_of_instance(group), _against(group, known[key]) if key in (known or {}) else ())]
 
 
 def optimal_agreements(rows):
-    """How many instances have an optimal cost from at least two methods."""
+    """Returns the number of instances that have an optimal cost from at least two methods."""
     optimal = (row for row in rows if row.status == "optimal" and row.cost is not None)
     methods = values_by(optimal, lambda row: (row.problem, row.instance), lambda row: row.method)
     return sum(len(found) > 1 for found in methods.values())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a report holds: for each problem its tables and figures, and the study of omega."""
+"""Builds a report: tables and figures of each problem, the study of omega, and notes."""
 import itertools
 import re
 from collections import Counter
@@ -19,56 +19,56 @@ PROBLEM_NAMES = {"mg": "MG-MAPF (agents without destinations)",
                  "cts": "CTS-MAPF (agents with tasks and destinations)",
                  "mixed": "mixed (some agents with a destination, some without)",
                  "mapf": "classical MAPF (destinations, no tasks)"}
-# So many columns of a comparison can be read side by side on a narrow page.
+# Maximum number of columns of a comparison that are readable side by side on a narrow page.
 WIDEST = 3
-# What a report is made of: old ones are removed from its folder.
+# Files of a report: make_report() removes those of an earlier report from the directory.
 OWN_FILE = re.compile(rf"((summary|comparison|success|anytime|common|cactus|splits|search|speedup|only_solver)_"
                       rf"({'|'.join(PROBLEMS)})|omega_study|runs)(_[0-9]+)?\.(svg|png|csv)"
                       r"|(contradictions|false_claims|best_known)\.csv")
 
 
 class Figure(NamedTuple):
-    stem: str     # of its files
+    stem: str     # file name without suffix
     title: str
     svg: str
 
 
 class Problem(NamedTuple):
-    """All about the rows of one problem."""
+    """Measures, figures and tables of the rows of one problem."""
     name: str
     lines: list
     rows: list
     by_line: dict       # {line: Measures}
     cells: dict         # {cell: {line: Measures}}
     instances: int
-    only: dict          # {line: [row]}: what it alone solves
-    beyond: dict        # {line: number}: solved by it and by no baseline
+    only: dict          # {line: [row]}: only_solver()
+    beyond: dict        # {line: number}: beyond_baselines()
     speedups: list
-    hard: int           # instances that the best baseline solves, in more than a second
+    hard: int           # number of hard_instances()
     comparison: list    # Figures
     cactus: Figure
     success: object     # Figure; None: no map has several numbers of agents
     anytime: object     # Figure; None: no line is anytime
-    panels: list        # of it
+    panels: list        # of the figure `anytime`
     counters: dict      # {line: Counters}
-    splits: object      # Figure; None: no run tells of any
+    splits: object      # Figure; None: no run reports splits
 
 
 class Study(NamedTuple):
-    """Of one family of lines that differ in omega."""
+    """Study of one family of lines that differ only in omega."""
     problem: str
     family: object
-    lines: list         # the family's, and Grove's own search beside them
-    map: str            # of the figure
+    lines: list         # those of the family, then Grove's own search for comparison
+    map: str            # map of the figure
     agents: int
-    cells: dict         # of all maps and numbers of agents
+    cells: dict         # cells of all maps and numbers of agents
     figure: Figure
 
 
 class BestKnown(NamedTuple):
-    """What rows are worth beside the archive."""
+    """Comparison of the rows with MAPF Tracker."""
     files: tuple
-    entries: int        # of the archive
+    entries: int        # number of entries read
     found: list         # tracker.Comparison
 
 
@@ -79,13 +79,13 @@ class Report(NamedTuple):
     studies: list
     contradictions: list
     false_claims: list
-    best_known: object  # None: not asked for
-    runs: object        # Figure of logs; None: there are none
+    best_known: object  # BestKnown; None: not requested
+    runs: object        # Figure of the logs; None: no logs
     logs: list
     agreements: int     # instances with an optimal cost from several methods
-    errors: list        # (line, number, a message)
+    errors: list        # (line, number of errors, most frequent message)
     notes: list         # texts
-    files: dict         # {name: bytes}, as they are in the folder
+    files: dict         # {name: bytes}, as written to the directory
 
 
 class Looks:
@@ -101,7 +101,7 @@ class Looks:
 
 
 class Output:
-    """The folder that a report is written to."""
+    """Output directory of a report; writes files and keeps their contents."""
 
     def __init__(self, folder):
         self.folder = Path(folder)
@@ -121,14 +121,14 @@ class Output:
         self.files[name] = content
 
     def remove_others(self):
-        """What an earlier report left: of other problems, say."""
+        """Removes files of an earlier report that this one did not write, for instance those of other problems."""
         for path in self.folder.iterdir():
             if path.name not in self.files and OWN_FILE.fullmatch(path.name):
                 path.unlink()
 
 
 def _parts(cells):
-    """The cells in groups whose columns fit side by side, no map in two where it fits one."""
+    """Returns groups of cells whose columns fit side by side; a map that fits into one group is not divided."""
     columns = figures.columns_of(cells)
     parts = [[]]
     for _, group in itertools.groupby(columns.keys, key=lambda key: key[0]):
@@ -162,14 +162,15 @@ def _cactus_figure(output, problem, runs, lines, looks):
 
 
 def _splits_figure(output, problem, counters, lines, looks):
-    told = [line for line in lines if line in counters and counters[line].splits()]
-    if not told:
+    shown = [line for line in lines if line in counters and counters[line].splits()]
+    if not shown:
         return None
-    return output.figure(f"splits_{problem}", "What nodes were split on", figures.splits(counters, told, looks))
+    return output.figure(f"splits_{problem}", "What nodes were split on", figures.splits(counters, shown, looks))
 
 
 def _success_figure(output, problem, rows, best, lines, looks):
-    """The rows of a map and number of agents together, whatever their tasks."""
+    """Makes the figure and table of success rates by map and number of agents, over all numbers of tasks. Returns None
+    if no map has several numbers of agents."""
     groups = {name: {agents: metrics.measures_by_line(found, best) for agents, found in sorted(
                      grouped(group, lambda row: row.agents).items())}
               for name, group in sorted(grouped(rows, lambda row: row.map).items())}
@@ -197,7 +198,8 @@ def _anytime_figure(output, problem, panels, lines, looks):
                 moments = [(time, panel.curves[line].at(time)) for time in anytime.table_times(line.time_limit_s)]
                 rows += [[panel.title, *line, time, panel.instances, panel.common, *step[1:]]
                          for time, step in moments if step]
-    output.table(f"anytime_{problem}", ["panel", *LINE_COLUMNS, "time_s", "instances", "common", *ANYTIME_COLUMNS], rows)
+    output.table(f"anytime_{problem}",
+                 ["panel", *LINE_COLUMNS, "time_s", "instances", "common", *ANYTIME_COLUMNS], rows)
     return figure
 
 
@@ -262,7 +264,7 @@ def _write_tables(output, problem, lines):
 
 
 def _shown_cell(cells, wanted_map, wanted_agents):
-    """Map and N of the figure: the paper's room map and N = 5 where the data has them."""
+    """Returns map and N of the figure of a study: by default the paper's room map and N = 5, if the data has them."""
     maps = sorted({cell.map for cell in cells})
     name = wanted_map or next((name for name in maps if name.startswith("room")), maps[0])
     sizes = sorted({cell.agents for cell in cells if cell.map == name})
@@ -280,8 +282,8 @@ def _setting(problem, family, map_name, agents, rows):
 
 
 def _studies(output, rows_of, best, looks, options):
-    """Of the first problem, CTS-MAPF first as in the paper, where lines differ in omega alone. By tasks, which
-    classical MAPF has none."""
+    """Returns the Studies of the first problem that has lines which differ only in omega, CTS-MAPF first as in the
+    paper. Classical MAPF is not studied, because the x axis is the number of tasks."""
     for name in ("cts", "mg", "mixed"):
         rows = rows_of.get(name, [])
         found = families(rows, options.study_methods)
@@ -293,12 +295,12 @@ def _studies(output, rows_of, best, looks, options):
             return [study for study in studies if study]
     if (options.study_methods, options.study_map, options.study_agents) != (None, None, None):
         raise BadInput("--study, --study-map, --study-agents: no rows with several omegas are left; "
-                       "expected methods, a map and a number of agents that have some")
+                       "expected methods, a map and a number of agents with such rows")
     return []
 
 
 def _beside(family, rows):
-    """Grove's own search, which is no member: to compare with."""
+    """Returns the lines of Grove's own search that are not in the family, for comparison."""
     limits = {line.time_limit_s for line in family.lines}
     found = {line_of(row) for row in rows if method_name(row.method) == GROVE and row.time_limit_s in limits}
     return sorted(found - set(family.lines))
@@ -336,7 +338,7 @@ def _listed(values, most=6, between=", "):
 
 
 def _omegas(problem, lines):
-    """'ω = 0: a, b; ω = 0.01: c', if they differ."""
+    """Yields 'ω = 0: a, b; ω = 0.01: c' if omegas differ."""
     methods = grouped(problem.lines, lambda line: line.omega)
     if len(methods) > 1:
         yield "; ".join(f"{omega_text(omega)}: {_listed(map(lines.name, methods[omega]))}"
@@ -344,7 +346,7 @@ def _omegas(problem, lines):
 
 
 def _guarantee(line, solved, lines):
-    """What the `solved` rows of a line do not prove though they count as solved."""
+    """Yields notes on solved rows of a line that do not prove what omega asks, or have no guarantee."""
     outside = [row for row in solved if metrics.within_omega(row) is False]
     unproven = [row for row in solved if not row.solver and line.omega in metrics.NO_PROMISE and row.status != "optimal"]
     statuses = "status " + ", ".join(sorted({row.status for row in outside or unproven}))
@@ -357,29 +359,29 @@ def _guarantee(line, solved, lines):
 
 
 def _notes(results, rows, lines, problems):
-    """What a reader must know before comparing figures."""
+    """Yields what a reader must know before comparing figures."""
     for problem in problems:
         for omegas in _omegas(problem, lines):
-            yield (f"{PROBLEM_NAMES[problem.name].split(' (')[0]}: methods with different ω stand side by "
-                   f"side ({omegas}). The larger ω, the less there is to prove: success rates, times and "
-                   "speed-ups compare only so far.")
+            yield (f"{PROBLEM_NAMES[problem.name].split(' (')[0]}: methods with different ω are compared "
+                   f"({omegas}). The larger ω, the less there is to prove: success rates, times and "
+                   "speed-ups are comparable only to a limited extent.")
     solved = metrics.by_line([row for row in rows if row.solved])
     for line in lines.all:
         yield from _guarantee(line, solved.get(line, []), lines)
     others = sorted({lines.label(line_of(row)) for row in rows if row.solver})
     if others:
-        yield (f"What other solvers guarantee is not checked here ({_listed(others, 12)}): only that their plans are plans, "
-               "and what these cost.")
+        yield (f"Guarantees of other solvers are not checked here ({_listed(others, 12)}). Only the validity of their "
+               "plans and the costs are checked.")
     limits = sorted({row.time_limit_s for row in rows})
     if len(limits) > 1:
         yield (f"The rows have several time limits ({_listed(map(seconds_text, limits))}). No figure "
-               "mixes them: a method with several has a line for each. Between different limits, mean "
-               "runtimes and PAR-2 do not compare.")
+               "mixes them: a method with several limits has a line for each. Mean runtimes and PAR-2 are "
+               "not comparable between different limits.")
     seeds = sorted({row.seed for row in rows if row.seed is not None})
     if len(seeds) > 1:
-        yield (f"The rows have several seeds ({_listed(map(str, seeds))}). Runs that differ in the "
-               "seed alone are repetitions: rates and means are first over these, then over instances; where "
-               "instances are counted or compared one by one, the median run stands for its instance.")
+        yield (f"The rows have several seeds ({_listed(map(str, seeds))}). Runs that differ only in the "
+               "seed are repetitions: rates and means are taken over these first, then over instances. Where "
+               "instances are counted or compared one by one, the median run represents its instance.")
     for what, values in (("versions", {row.version for row in rows} - {""}),
                          ("machines", {row.machine for row in rows} - {""}),
                          ("numbers of ranks", {str(row.ranks) for row in rows if row.ranks is not None}),
@@ -387,21 +389,21 @@ def _notes(results, rows, lines, problems):
                                                  if row.threads is not None})):
         if len(values) > 1:
             yield (f"The rows come from runs with several {what} ({_listed(sorted(values))}): "
-                   "times compare only so far.")
+                   "times are comparable only to a limited extent.")
     digests = values_by((row for row in rows if row.instance_digest), lambda row: (row.problem, row.instance),
                         lambda row: row.instance_digest)
     ambiguous = sorted(instance for (_, instance), found in digests.items() if len(found) > 1)
     if ambiguous:
-        yield (f"Under one name stand several instances, or an instance has changed between runs: "
-               f"{_listed(ambiguous)}. Rows of these do not compare.")
+        yield (f"One name stands for several instances, or an instance has changed between runs: "
+               f"{_listed(ambiguous)}. Rows of these instances are not comparable.")
     for path in results.cut_off:
-        yield (f"{path}: the last line is cut off and was left out; the bench was killed, or still "
+        yield (f"{path}: the last line is cut off and was omitted; the bench was killed, or still "
                "runs.")
     if results.unreadable:
-        yield (f"Instances that could not be read: {_listed(results.unreadable)}. Their rows were left "
-               "out.")
+        yield (f"Instances that could not be read: {_listed(results.unreadable)}. Their rows were "
+               "omitted.")
     if results.repeated:
-        yield (f"{results.repeated} rows were left out: a later row repeats the run (the same instance, "
+        yield (f"{results.repeated} rows were omitted: a later row repeats the run (the same instance, "
                "method, ω, time limit and seed).")
     options = values_by(rows, line_of, lambda row: row.options)
     for line in lines.all:
@@ -415,14 +417,16 @@ def _notes(results, rows, lines, problems):
         if partial:
             yield (f"{PROBLEM_NAMES[problem.name].split(' (')[0]}: not every method was run on all "
                    f"{problem.instances} instances ({_listed(partial, 12, '; ')}). Cells without runs are "
-                   "gaps; totals compare only between methods with as many runs.")
+                   "gaps. Totals are comparable only between methods with equally many runs.")
 
 
 def _unsuitable(rows):
-    """Notes on runs that were none: the method is not for the instance."""
-    for method, group in sorted(grouped([row for row in rows if row.status == UNSUITABLE], lambda row: row.method).items()):
+    """Yields notes on instances that a method does not support."""
+    found = grouped([row for row in rows if row.status == UNSUITABLE], lambda row: row.method)
+    for method, group in sorted(found.items()):
         why = Counter(row.error for row in group).most_common(1)[0][0]
-        yield f"{method_name(method)} is not for {len(group)} of the instances, which are left out for it: {why}."
+        yield (f"{method_name(method)} does not support {len(group)} of the instances, which are omitted for it: "
+               f"{why}.")
 
 
 def _runs_figure(output, logs):
@@ -431,7 +435,7 @@ def _runs_figure(output, logs):
     named = {run.instance for run in logs}
     short = {name: Path(name).name for name in named} if len({Path(name).name for name in named}) == len(named) \
         else {name: name for name in named}
-    # Of a scenario the first rows, so many as there are agents.
+    # An instance of a scenario is its first N rows, so N belongs to the title.
     groups = grouped(logs, lambda run: short[run.instance]
                      + (f", N = {run.agents}" if run.instance.endswith(".scen") else ""))
     output.table("runs", ["log", "instance", "agents", "options", "status", "time_s", "cost", "lower_bound"],
@@ -456,16 +460,16 @@ def _best_known(output, rows, options):
 
 class Options(NamedTuple):
     baselines: tuple
-    problems: tuple           # to be told of; empty: those there are
-    study_methods: object     # None: found by their options
+    problems: tuple           # problems to report; empty: all in the results
+    study_methods: object     # None: lines whose options differ only in omega
     study_map: object         # None: a room map
-    study_agents: object      # None: 5
-    known_files: tuple = ()   # of MAPF Tracker
-    known: object = None      # {Place: Known}, of these
+    study_agents: object      # None: 5, else the smallest number
+    known_files: tuple = ()   # downloads of MAPF Tracker
+    known: object = None      # {Place: Known} of these files
 
 
 def make_report(results, logs, options, folder):
-    """Writes all figures and tables into `folder`; those of an earlier report go."""
+    """Writes all figures and tables into `folder`, removes those of an earlier report, and returns the Report."""
     everything = [row for row in results.rows if not options.problems or row.problem in options.problems]
     rows = [row for row in everything if row.status != UNSUITABLE]
     lines = Lines(rows, options.baselines)
@@ -475,7 +479,7 @@ def make_report(results, logs, options, folder):
     known_costs = {key: each.cost for key, each in known.items() if each.cost is not None}
     known_bounds = {key: each.bound for key, each in known.items() if each.bound is not None}
     best, bounds = metrics.best_costs(rows, known_costs), metrics.best_bounds(rows, known_bounds)
-    studies = _studies(output, rows_of, best, looks, options)  # first: it refuses options that fit no rows
+    studies = _studies(output, rows_of, best, looks, options)  # first: raises BadInput if options match no rows
     problems = [_problem(output, name, rows_of[name], best, bounds, lines, looks)
                 for name in PROBLEMS if name in rows_of]
     contradictions = proofs.contradictions(rows, known)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Reading results: CSV or JSON lines of `grove bench`, `grove-mpi batch` or experiments.py, or folders that hold
+"""Reads results: CSV or JSON lines of `grove bench`, `grove-mpi batch` or experiments.py, or directories that hold
 them."""
 import csv
 import json
@@ -10,17 +10,17 @@ from typing import NamedTuple, Optional
 from .tables import text_of_cell
 
 PROBLEMS = ("mg", "cts", "mixed", "mapf")
-WRONG, CLAIMED, UNSUITABLE = "wrong", "claimed", "unsuitable"  # of other solvers: the plan is none; a cost, no plan
+WRONG, CLAIMED, UNSUITABLE = "wrong", "claimed", "unsuitable"  # other solvers: invalid plan; cost without plan
 STATUSES = ("optimal", "bounded", "feasible", "infeasible", "unknown", "error", WRONG, CLAIMED, UNSUITABLE)
 STATUSES_WITH_PLAN = ("optimal", "bounded", "feasible")
 
 
 class BadInput(Exception):
-    """What is wrong with the input: file, place, what was expected. One line."""
+    """An error of the input in one line: file, place, what is wrong, what was expected."""
 
 
 class Point(NamedTuple):
-    """A plan on the way, as the run says."""
+    """A plan during the run, as the run reports it."""
     seconds: float
     cost: int
     lower_bound: Optional[int]
@@ -59,17 +59,17 @@ class Row(NamedTuple):
     error: str
     ranks: Optional[int]
     threads: Optional[int]
-    instance_digest: str  # of the files of the instance: the same id may mean two
-    counts: dict  # {name: number}: what else the search counted; empty: it does not tell
+    instance_digest: str  # of the instance files, because two instances may have one id
+    counts: dict  # {name: number}: other counters of the search; empty: none reported
     first_plan_s: Optional[float]
-    plan_file: str  # as one opens it from here; "": none was kept
-    solver: str     # the adapter of another solver; "": Grove itself
-    claimed_cost: Optional[int]  # what another solver says, believed in nothing
+    plan_file: str  # path relative to the working directory; "": none was kept
+    solver: str     # adapter of an external solver; "": Grove itself
+    claimed_cost: Optional[int]  # claims of an external solver, unchecked
     claimed_lower_bound: Optional[int]
     claimed_s: Optional[float]
-    anytime: bool   # it goes on until its limit
-    trace: tuple    # Points; empty: it does not tell
-    certified: Optional[bool]  # None: no certificate was asked for
+    anytime: bool   # improves its plan until the time limit
+    trace: tuple    # Points; empty: none reported
+    certified: Optional[bool]  # None: no certificate was requested
     verify_s: Optional[float]
     proof_bytes: Optional[int]
 
@@ -79,12 +79,12 @@ class Row(NamedTuple):
 
     @property
     def bounds_every_plan(self):
-        """What it proves is of all plans, not only of those in which nobody follows another closely."""
+        """Whether its lower bound holds for all plans, not only for plans without following conflicts."""
         return "--no-following" not in self.options
 
 
 def printable(text):
-    """File names may be any bytes, and JSON may spell what is no character."""
+    """Returns the text without lone surrogates, which file names and JSON strings may contain."""
     return text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
@@ -98,7 +98,7 @@ def _text(value):
 
 
 def _integer(value):
-    """Of at least 0."""
+    """Reads an integer of at least 0."""
     if isinstance(value, str) and value.isascii() and value.isdigit() and len(value) <= 18:
         return int(value)
     if isinstance(value, int) and not isinstance(value, bool) and value >= 0:
@@ -107,7 +107,7 @@ def _integer(value):
 
 
 def _number(value):
-    """Of at least 0, finite."""
+    """Reads a finite number of at least 0."""
     try:
         if isinstance(value, (str, int, float)) and not isinstance(value, bool):
             number = float(value)
@@ -134,7 +134,7 @@ def _omega(value):
     try:
         if isinstance(value, (str, int, float)) and not isinstance(value, bool):
             number = float(value)
-            if number >= 0:  # not so: nan
+            if number >= 0:  # false for nan
                 return f"{number:g}"
     except (ValueError, OverflowError):
         pass
@@ -157,25 +157,25 @@ def _one_of(words):
 
 
 def _counts(value):
-    """Of "bypasses=2 joint_pairs=77"."""
+    """Reads "bypasses=2 joint_pairs=77"."""
     try:
         pairs = [word.split("=") for word in value.split()]
         return {_text(name): _integer(number) for name, number in pairs}
     except (AttributeError, ValueError):
-        raise ValueError("numbers as name=7, with blanks between") from None
+        raise ValueError("numbers as name=7, separated by blanks") from None
 
 
 def _trace(value):
-    """Of "0.25:120:100 1.5:118:-": seconds, cost, lower bound."""
+    """Reads "0.25:120:100 1.5:118:-": seconds, cost, lower bound."""
     try:
         words = [word.split(":") for word in value.split()]
         return tuple(Point(_number(seconds), _integer(cost), None if bound == "-" else _integer(bound))
                      for seconds, cost, bound in words)
     except (AttributeError, ValueError):
-        raise ValueError("plans as seconds:cost:bound, with blanks between") from None
+        raise ValueError("plans as seconds:cost:bound, separated by blanks") from None
 
 
-# Column: how it is read, and what it is when absent; the columns without the latter are needed.
+# {column: (reader, value if absent)}; NEEDED: the column is required.
 NEEDED = object()
 COLUMNS = {
     "instance": (_text, NEEDED), "method": (_text, NEEDED), "options": (_text, ""),
@@ -207,26 +207,26 @@ def _shown(value):
 
 
 class Unreadable(NamedTuple):
-    """In place of a row: the instance could not be read, so nobody knows what it is."""
+    """Stands for a row without data of its instance, because grove bench could not read the instance."""
     instance: str
 
 
 class CutOff(NamedTuple):
-    """In place of a last line that is cut off: of a bench that was killed, or that still runs."""
+    """Stands for a last line that is cut off, because the bench was killed or still runs."""
 
 
 _OF_INSTANCE = tuple(_NAMES.index(name) for name in ("map", "agents", "tasks", "problem"))
 
 
 def _row(values, place):
-    """`values`: one for each column, in their order; None or "": absent."""
+    """Returns the Row, or Unreadable. `values`: one per column of COLUMNS, in order; None or "": absent."""
     if values[_NAMES.index("status")] == "error" and not any(values[at] for at in _OF_INSTANCE):
         return Unreadable(_text(str(values[0])))
     read = []
     for name, reader, absent, value in zip(_NAMES, _READERS, _ABSENT, values):
         if value is None or value == "":
             if absent is NEEDED:
-                raise BadInput(f"{place}, column {name}: nothing there; expected a value")
+                raise BadInput(f"{place}, column {name}: empty; expected a value")
             read.append(absent)
             continue
         try:
@@ -239,16 +239,16 @@ def _row(values, place):
         raise BadInput(f"{place}, column status: found '{row.status}' in a solved row; "
                        f"expected one of {', '.join(STATUSES_WITH_PLAN)}")
     if row.solved and row.cost is None:
-        raise BadInput(f"{place}, column cost: nothing there in a solved row; expected an integer")
+        raise BadInput(f"{place}, column cost: empty in a solved row; expected an integer")
     sqr = row.sqr
     if row.solved and sqr is None and row.root_cost is not None:
-        sqr = row.root_cost / row.cost if row.cost else 1.0  # a cost of 0: its bound is 0 too
+        sqr = row.root_cost / row.cost if row.cost else 1.0  # with a cost of 0 the root cost is 0, too
     return row._replace(runtime_s=row.runtime_s if row.solved else row.time_limit_s,
                         sqr=sqr if row.solved else None)
 
 
 def row_of(found, place):
-    """The row that a dictionary of columns is, whatever else it holds. `place`: for messages."""
+    """Returns the row of a dictionary of columns; other keys are ignored. `place`: for error messages."""
     return _row([found.get(name) for name in _NAMES], place)
 
 
@@ -256,11 +256,11 @@ def _check_columns(found, place):
     missing = [name for name, (_, absent) in COLUMNS.items()
                if absent is NEEDED and name not in found]
     if missing:
-        raise BadInput(f"{place}: no column {', '.join(missing)}; "
+        raise BadInput(f"{place}: missing column {', '.join(missing)}; "
                        "expected the columns that grove bench writes")
     twice = sorted({name for name in found if found.count(name) > 1})
     if twice:
-        raise BadInput(f"{place}: column {twice[0]} is there twice")
+        raise BadInput(f"{place}: found column {twice[0]} twice; expected it once")
 
 
 def _read_csv(path, file):
@@ -268,7 +268,7 @@ def _read_csv(path, file):
     try:
         header = next(reader, None)
         if header is None:
-            raise BadInput(f"{path}: empty; expected a line with the columns' names")
+            raise BadInput(f"{path}: empty; expected a line with the names of the columns")
         _check_columns(header, f"{path}: line 1")
         at = [header.index(name) if name in header else None for name in COLUMNS]
         for number, fields in enumerate(reader, 1):
@@ -304,8 +304,8 @@ READERS = {".csv": _read_csv, ".jsonl": _read_json_lines}
 
 
 def results_in(folder):
-    """None: there are none."""
-    for name in ("results.jsonl", "results.csv"):  # they hold the same; the first is never behind
+    """Returns the results file of a directory. Returns None if there is none."""
+    for name in ("results.jsonl", "results.csv"):  # same rows; only the first is always complete
         if (folder / name).exists():
             return folder / name
     return None
@@ -314,15 +314,15 @@ def results_in(folder):
 def _files(argument):
     path = Path(argument)
     if not path.exists():
-        raise BadInput(f"{path}: there is no such file or folder")
+        raise BadInput(f"{path}: no such file or directory")
     if not path.is_dir():
         if path.suffix not in READERS:
-            raise BadInput(f"{path}: unknown kind of file; expected .csv, .jsonl or a folder")
+            raise BadInput(f"{path}: unknown file type; expected .csv, .jsonl or a directory")
         return path
     found = results_in(path)
     if found:
         return found
-    raise BadInput(f"{path}: no results.jsonl and no results.csv in this folder; "
+    raise BadInput(f"{path}: no results.jsonl and no results.csv in this directory; "
                    "expected what grove bench or grove-mpi batch writes")
 
 
@@ -337,8 +337,8 @@ def _read_file(path):
 
 
 def _without_repeats(rows):
-    """Of runs of the same method on the same instance, with the same omega, limit and seed, the one
-    that ended last. Returns them, and how many others there were."""
+    """Returns (rows without repeats, number of omitted rows). Of rows with the same method, instance, omega, limit and
+    seed it keeps the one that ended last."""
     kept = {}
     for row in rows:
         key = (row.problem, row.instance, row.method, row.omega, row.time_limit_s, row.seed)
@@ -350,15 +350,16 @@ def _without_repeats(rows):
 class Results(NamedTuple):
     rows: list
     files: list     # (path as text, rows in it)
-    cut_off: list   # paths of files whose last line was, and was left out
-    repeated: int   # rows left out because a later one repeats their run
-    unreadable: list  # instances of the rows left out because these could not be read
+    cut_off: list   # paths of files whose last line is cut off and was omitted
+    repeated: int   # rows omitted because a later one repeats their run
+    unreadable: list  # instances that grove bench could not read; their rows are omitted
 
 
 NO_RESULTS = Results([], [], [], 0, [])
 
 
 def read_results(arguments):
+    """Reads the rows of all files and directories, sorted. Raises BadInput."""
     files = list(dict.fromkeys(_files(argument) for argument in arguments))
     rows, counts, cut_off, unreadable = [], [], [], []
     for path in files:
@@ -372,7 +373,7 @@ def read_results(arguments):
     if not rows:
         raise BadInput(f"{', '.join(path for path, _ in counts)}: no rows; expected at least one")
     kept, repeated = _without_repeats(rows)
-    # The order of the runs must not matter: they end as they like.
+    # The result must not depend on the order in which runs ended.
     kept.sort(key=lambda row: (row.problem, row.map, row.agents, row.tasks, row.scenario or 0,
                                row.instance, row.method, row.omega, row.time_limit_s,
                                -1 if row.seed is None else row.seed))

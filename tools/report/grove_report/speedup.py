@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Times of the baselines over those of the other methods, on the instances where it matters."""
+"""Ratios of the times of the baselines to the times of the other methods, on instances that are not trivial."""
 import math
 import statistics
 from collections import defaultdict
@@ -7,22 +7,22 @@ from typing import NamedTuple
 
 from .lines import Line
 
-# Below it an instance says more about start-up than about search.
+# Below this time an instance measures start-up rather than search.
 TRIVIAL_S = 1.0
-# What a clock that starts processes can tell.
+# Resolution of times that include the start of a process.
 RESOLUTION_S = 0.001
-# Not one method: on each instance whichever baseline was the fastest.
+# Virtual best baseline: on each instance the fastest baseline.
 BEST = Line("best baseline", "", 0.0)
 ALL_MAPS = ""
 
 
 class Speedup(NamedTuple):
-    map: str              # ALL_MAPS: of all
+    map: str              # ALL_MAPS: all maps
     baseline: Line        # or BEST
     line: Line
-    instances: int        # that both tried, and the best baseline solved in more than TRIVIAL_S
+    instances: int        # tried by both, and solved by the best baseline in more than TRIVIAL_S
     median_ratio: float   # time of the baseline / time of the line; a failure counts as the limit
-    sure: str             # what failures leave of it: "exactly", "at least", "at most", "about"
+    sure: str             # how failures affect the ratio: "exactly", "at least", "at most", "about"
     baseline_median_s: float
     line_median_s: float
     baseline_failed: int  # of `instances`
@@ -30,7 +30,7 @@ class Speedup(NamedTuple):
 
 
 def best_baseline(lines, is_baseline):
-    """The fastest row of a baseline that solved the instance; None: none did."""
+    """Returns the fastest solved row of a baseline. Returns None if no baseline solved the instance."""
     solved = [row for line, row in lines.items() if is_baseline(line) and row.solved]
     return min(solved, key=lambda row: row.runtime_s, default=None)
 
@@ -40,8 +40,8 @@ def _ratio(mine, other):
 
 
 def _sure(pairs, median):
-    """A failure would have taken longer than the limit: the ratio of a pair is then larger (the baseline
-    failed) or smaller (the other did), by nobody knows how much. Does the median depend on it?"""
+    """Returns whether the median depends on failures. A failed run would have taken longer than the limit, by an
+    unknown amount: the ratio of its pair is larger if the baseline failed, and smaller if the other method did."""
     highest = statistics.median(_ratio(*pair) if pair[0].solved else math.inf for pair in pairs)
     lowest = statistics.median(_ratio(*pair) if pair[1].solved else 0 for pair in pairs)
     return {(True, True): "exactly", (True, False): "at least",
@@ -49,7 +49,7 @@ def _sure(pairs, median):
 
 
 def _compared(pairs):
-    """`pairs`: (row of the baseline, row of the other)"""
+    """Returns the fields of Speedup after `line`. `pairs`: (row of the baseline, row of the other method)."""
     median = statistics.median(_ratio(*pair) for pair in pairs)
     return (len(pairs), median, _sure(pairs, median),
             statistics.median(mine.runtime_s for mine, _ in pairs),
@@ -58,12 +58,13 @@ def _compared(pairs):
 
 
 def hard_instances(runs, is_baseline):
-    """{instance: row of the best baseline} where that took more than TRIVIAL_S; `runs`: median_runs()"""
+    """Returns {instance: row of the best baseline} where this row took more than TRIVIAL_S. `runs`: median_runs()."""
     best = {instance: best_baseline(lines, is_baseline) for instance, lines in runs.items()}
     return {instance: row for instance, row in best.items() if row and row.runtime_s > TRIVIAL_S}
 
 
 def speedups(runs, is_baseline):
+    """Returns the Speedup of each line over each baseline and BEST, for all maps together and for each map."""
     pairs = defaultdict(list)
     for instance, best in hard_instances(runs, is_baseline).items():
         lines = runs[instance]

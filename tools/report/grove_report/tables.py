@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A table as CSV, and as HTML."""
+"""Writes tables as CSV and as HTML."""
 import csv
 import html
 import io
@@ -18,13 +18,15 @@ def csv_value(value):
 
 
 def _is_like_a_formula(text):
-    """Would a spreadsheet take it for one? (OWASP, CSV injection; src/io/csv.cpp has the same rule.)"""
+    """Returns whether a spreadsheet would interpret the text as a formula (OWASP, CSV injection; the same rule as in
+    src/io/csv.cpp)."""
     bare = text.lstrip("'")
-    return bare.startswith(("=", "+", "-", "@", "\t", "\r")) and not re.fullmatch(r"-[0-9]+(\.[0-9]*)?(e[-+]?[0-9]+)?", bare)
+    return bare.startswith(("=", "+", "-", "@", "\t", "\r")) and not re.fullmatch(
+        r"-[0-9]+(\.[0-9]*)?(e[-+]?[0-9]+)?", bare)
 
 
 def text_of_cell(cell):
-    """What csv_value() made this cell of."""
+    """Returns the text from which csv_value() made this cell."""
     return cell[1:] if cell.startswith("'") and _is_like_a_formula(cell) else cell
 
 
@@ -37,11 +39,11 @@ def csv_text(header, rows):
 
 
 class Entry(NamedTuple):
-    """What stands in a place of an HTML table."""
+    """One cell of an HTML table."""
     text: str
-    hint: str = ""        # shown when the pointer is over it
+    hint: str = ""        # tooltip
     strong: bool = False
-    number: bool = True   # to the right
+    number: bool = True   # right-aligned
 
 
 def word(text, hint=""):
@@ -52,7 +54,7 @@ NOTHING = Entry("–", "no rows")
 
 
 def seconds(value):
-    """Three digits that matter, and never more."""
+    """Formats seconds with three significant digits."""
     if value is None:
         return "–"
     if value < 0.001:
@@ -83,7 +85,7 @@ def _cell(tag, entry):
 
 
 def html_table(header, rows):
-    """`header`: texts, or Entries; `rows`: lists of Entries. The header stays in sight."""
+    """Returns a table with a sticky header. `header`: texts or Entries; `rows`: lists of Entries."""
     numbers = rows[0] if rows else [Entry("")] * len(header)
     heads = [entry if isinstance(entry, Entry) else Entry(entry, number=first.number)
              for entry, first in zip(header, numbers)]

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""MAPF Tracker (tracker.pathfinding.ai), an archive of the best plans and bounds for the Moving AI scenarios: its
-rows out, and its best known costs and bounds in."""
+"""Writes submissions to MAPF Tracker and reads its best known costs and bounds.
+
+MAPF Tracker (tracker.pathfinding.ai) is an archive of the best plans and bounds for the Moving AI scenarios.
+"""
 import csv
 import io
 import json
@@ -24,11 +26,11 @@ room-64-64-8 w_woundedcoast warehouse-10-20-10-2-1 warehouse-10-20-10-2-2 wareho
 warehouse-20-40-10-2-2""".split())
 SCENARIO = re.compile(r"(.+)-(even|random)-([0-9]{1,6})")
 COLUMNS = ["map_name", "scen_type", "type_id", "agents", "lower_cost", "solution_cost", "flip_up_down", "solution_plan"]
-ABSENT = ("", "null", "undefined", None)  # as its downloads have it
+ABSENT = ("", "null", "undefined", None)  # missing values in its downloads
 
 
 class Place(NamedTuple):
-    """Which instance: so many rows of a scenario."""
+    """An instance: the first `agents` rows of a scenario."""
     map: str
     type: str
     number: int
@@ -36,7 +38,7 @@ class Place(NamedTuple):
 
 
 def place_of(row):
-    """None: by its name it is the beginning of no Moving AI scenario."""
+    """Returns the Place of a row. Returns None if its name is not that of the first rows of a Moving AI scenario."""
     name = row.instance.rsplit("/", 1)[-1]
     found = SCENARIO.fullmatch(name.removesuffix(f"-{row.agents}"))
     if row.problem != "mapf" or not name.endswith(f"-{row.agents}") or not found or found[1] != row.map:
@@ -44,7 +46,7 @@ def place_of(row):
     return Place(row.map, found[2], int(found[3]), row.agents) if row.map in MAPS else None
 
 
-# --- out ---
+# --- Submissions ---
 
 class Submission(NamedTuple):
     text: str
@@ -53,20 +55,21 @@ class Submission(NamedTuple):
 
 
 def _lower_bound(rows, cost):
-    """The highest that is not refuted; proven here, or else as the solver says. None: none."""
+    """Returns the highest bound, proven or claimed, that does not exceed `cost`. Returns None if there is none."""
     bounds = [bound for row in rows if row.bounds_every_plan for bound in (row.lower_bound, row.claimed_lower_bound)
               if bound is not None and bound <= cost]
     return max(bounds, default=None)
 
 
 def _best_plan(rows, left_out):
-    """(cost, motion strings) of the cheapest plan that still is what the row says; None: there is none."""
+    """Returns (cost, motion strings) of the cheapest plan whose file still agrees with its row. Returns None if there
+    is none."""
     for row in sorted(rows, key=lambda row: (row.cost, row.seed or 0)):
         try:
             paths = read_plan(Path(row.plan_file), row.agents)
             cost = recounted(paths)
             if cost != row.cost:
-                raise BadPlan(f"costs {cost}; expected {row.cost}, as the row says")
+                raise BadPlan(f"costs {cost}; expected {row.cost} as in the row")
             return row.cost, [motion_string(path) for path in paths]
         except BadPlan as error:
             left_out[f"{row.plan_file}: {error}"] += 1
@@ -77,15 +80,16 @@ def _why_not(row):
     if row.problem != "mapf":
         return "not classical MAPF"
     if place_of(row) is None:
-        return "of no scenario of the Moving AI benchmark, by map and name (MAP-even-N-AGENTS, MAP-random-N-AGENTS)"
+        return ("not of a scenario of the Moving AI benchmark "
+                "(expected the name MAP-even-N-AGENTS or MAP-random-N-AGENTS)")
     if not has_plan(row):
         return f"without a checked plan (status {row.status})"
     return "" if row.plan_file else "without a plan file (grove bench --keep-plans)"
 
 
 def submission(rows, best):
-    """The CSV of one method's rows, the cheapest plan of each instance. `best`: best_costs() of all rows there are, to
-    leave out bounds above them."""
+    """Returns the CSV with the cheapest plan of each instance. `rows`: of one method. `best`: best_costs() of all rows;
+    bounds above these costs are omitted."""
     left_out = Counter()
     fit = []
     for row in rows:
@@ -103,12 +107,12 @@ def submission(rows, best):
         cost, motions = found
         bound = _lower_bound(group, min(best[row.problem, row.instance] for row in group))
         writer.writerow([*place, "" if bound is None else bound, cost, "FALSE", "\n".join(motions)])
-        left_out["beside a cheaper plan of the same instance"] += len(group) - 1
+        left_out["not the cheapest plan of the instance"] += len(group) - 1
         count += 1
     return Submission(file.getvalue(), count, +left_out)
 
 
-# --- in ---
+# --- Downloads ---
 
 class Known(NamedTuple):
     bound: Optional[int]
@@ -116,7 +120,7 @@ class Known(NamedTuple):
 
 
 def _named(path):
-    """What the name of a file says of its rows: MAP.csv, MAP-even-3.csv."""
+    """Returns the columns that the file name MAP.csv or MAP-even-3.csv gives for all its rows."""
     found = SCENARIO.fullmatch(path.stem)
     return {"map_name": found[1], "scen_type": found[2], "type_id": found[3]} if found else {"map_name": path.stem}
 
@@ -132,10 +136,10 @@ def _whole(value, place, column):
 
 
 def _known_row(found, place):
-    """(Place, Known)"""
+    """Returns (Place, Known) of one row. Raises BadInput."""
     for column in ("map_name", "scen_type", "type_id", "agents"):
         if found.get(column) in ABSENT:
-            raise BadInput(f"{place}: no {column}; expected the columns of a download of MAPF Tracker, "
+            raise BadInput(f"{place}: missing {column}; expected the columns of a download of MAPF Tracker, "
                            "or a file named MAP.csv or MAP-TYPE-NUMBER.csv")
     numbers = {column: _whole(found.get(column), place, column)
                for column in ("type_id", "agents", "lower_cost", "solution_cost")}
@@ -150,7 +154,8 @@ def _csv_rows(path, text):
         header = reader.fieldnames or []
         for column in ("agents", "lower_cost", "solution_cost"):
             if column not in header:
-                raise BadInput(f"{path}: line 1: no column {column}; expected the columns of a download of MAPF Tracker")
+                raise BadInput(f"{path}: line 1: missing column {column}; "
+                               "expected the columns of a download of MAPF Tracker")
         for row in reader:
             yield f"{path}: line {reader.line_num}", row
     except csv.Error as error:
@@ -171,10 +176,10 @@ def _json_rows(path, text):
 def _files(argument):
     path = Path(argument)
     if not path.exists():
-        raise BadInput(f"{path}: there is no such file or folder")
+        raise BadInput(f"{path}: no such file or directory")
     files = sorted(each for each in path.iterdir() if each.suffix in (".csv", ".json")) if path.is_dir() else [path]
     if not files or files[0].suffix not in (".csv", ".json"):
-        raise BadInput(f"{path}: expected a .csv or .json of MAPF Tracker, or a folder with some")
+        raise BadInput(f"{path}: expected a .csv or .json of MAPF Tracker, or a directory with such files")
     return files
 
 
@@ -184,7 +189,7 @@ def _better(one, other):
 
 
 def read_known(arguments):
-    """{Place: Known} of all files."""
+    """Returns {Place: Known} of all files, with the best values where files overlap."""
     known = {}
     for path in (path for argument in arguments for path in _files(argument)):
         try:
@@ -201,13 +206,13 @@ def read_known(arguments):
 
 
 class Comparison(NamedTuple):
-    """A line's best of an instance against what is known."""
+    """Best cost and bound of a line on one instance, with the best known ones."""
     instance: str
     place: Place
     known: Known
     line: object
-    cost: Optional[int]   # of the cheapest checked plan
-    bound: Optional[int]  # the highest proven
+    cost: Optional[int]   # cost of the cheapest checked plan
+    bound: Optional[int]  # highest proven lower bound
 
     @property
     def cost_ratio(self):
@@ -223,7 +228,7 @@ class Comparison(NamedTuple):
 
     @property
     def closes(self):
-        """Proves the optimum, where the archive does not know it."""
+        """Whether it proves an optimum that the archive does not have."""
         is_open = self.known.cost is None or self.known.bound is None or self.known.bound < self.known.cost
         best = min(cost for cost in (self.cost, self.known.cost) if cost is not None) \
             if (self.cost, self.known.cost) != (None, None) else None
@@ -231,13 +236,13 @@ class Comparison(NamedTuple):
 
 
 def known_of(rows, known):
-    """{(problem, instance): Known} of the instances that the archive knows."""
+    """Returns {(problem, instance): Known} of the instances in the archive."""
     places = {(row.problem, row.instance): place_of(row) for row in rows}
     return {key: known[place] for key, place in places.items() if place in known}
 
 
 def comparisons(rows, known):
-    """Of all rows whose instance is known; `known`: read_known()."""
+    """Returns the Comparisons of all rows whose instance is in the archive. `known`: read_known()."""
     found = []
     groups = grouped(rows, lambda row: (row.problem, row.instance, line_of(row)))
     for (_, instance, line), group in groups.items():

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Real cubes, by bleak (Debian: python3-bleak 0.20). Like simulated ones they have write, configure and three
-places for handlers of notifications. Untried with real cubes."""
+"""Real cubes, through bleak (Debian: python3-bleak 0.20). Not tested with real cubes.
+
+The interface is that of simulated cubes: write(), configure() and three handlers of notifications.
+"""
 import asyncio
 
 from grove_driving.bad_input import BadInput
@@ -16,9 +18,9 @@ RECONNECT_PAUSE = 1.0
 
 def _bleak():
     try:
-        import bleak  # here, so that simulated cubes need none
+        import bleak  # imported here so that simulated cubes do not need it
     except ModuleNotFoundError:
-        raise BadInput("--bluetooth: there is no bleak; expected the Debian package python3-bleak") from None
+        raise BadInput("--bluetooth: found no module bleak; expected the Debian package python3-bleak") from None
     return bleak
 
 
@@ -27,14 +29,14 @@ class BluetoothCube:
         self.bleak = _bleak()
         self.device = device
         self.on_motor = self.on_id = self.on_configuration = lambda data: None
-        self.configuration = None       # a cube forgets it with the connection
+        self.configuration = None       # a cube loses it with the connection
         self.wanted = False
         self.reconnecting = None
         self.client = self.bleak.BleakClient(device, disconnected_callback=self._lost, timeout=CONNECT_SECONDS)
 
     @property
     def label(self):
-        """Names need not differ."""
+        """Name and address, because names are not unique."""
         return f"{self.device.name or 'a cube'} ({self.device.address})"
 
     async def connect(self):
@@ -59,7 +61,7 @@ class BluetoothCube:
             try:
                 await self.connect()
             except (self.bleak.exc.BleakError, asyncio.TimeoutError, OSError, EOFError):
-                pass    # tried again; the driver says that nothing is heard of the cube
+                pass    # the loop tries again; the driver reports that the cube is silent
 
     async def disconnect(self):
         self.wanted = False
@@ -71,7 +73,7 @@ class BluetoothCube:
             pass
 
     async def write(self, data):
-        """What cannot be written counts as lost."""
+        """Writes a motor command. A failed write counts as a lost message."""
         await self._write(protocol.MOTOR, data, False)
 
     async def configure(self, data):
@@ -85,7 +87,7 @@ class BluetoothCube:
             pass
 
     async def read_position(self):
-        """None if it does not stand on a mat."""
+        """Returns (x, y). Returns None if the cube does not stand on a mat."""
         for _ in range(READ_TRIES):
             found = protocol.read_id_notification(bytes(await self.client.read_gatt_char(protocol.ID_INFORMATION)))
             if isinstance(found, protocol.Position):
@@ -95,19 +97,19 @@ class BluetoothCube:
 
 
 def choose_named(devices, named):
-    """{robot: device}, and the devices that nobody named."""
+    """Returns ({robot: device}, devices that are not named). Raises BadInput if a named device is missing."""
     chosen = {}
     for robot, name in named.items():
         found = [d for d in devices if name.lower() in (d.address.lower(), (d.name or "").lower())]
         if not found:
             known = ", ".join(sorted(d.name or d.address for d in devices)) or "none"
-            raise BadInput(f"--cube: found no cube called '{name}'; expected one of those that are on: {known}")
+            raise BadInput(f"--cube: found no cube '{name}'; expected one of the cubes that are on: {known}")
         chosen[robot] = found[0]
     return chosen, [d for d in devices if d not in chosen.values()]
 
 
 def choose_by_place(order, grid, robots, positions):
-    """{robot: label} by the start that each cube stands on; positions are {label: (x, y) or None}."""
+    """Returns {robot: label} by the start on which each cube stands. `positions`: {label: (x, y) or None}."""
     chosen = {}
     for robot in robots:
         start = grid.centre(order.robot(robot).start)
@@ -115,7 +117,7 @@ def choose_by_place(order, grid, robots, positions):
         if len(near) != 1:
             where = f"{list(order.robot(robot).start)}, the start of {robot}"
             raise BadInput(f"--bluetooth: found {len(near)} cubes on {where}; expected one ({len(positions)} cubes are "
-                           f"on; --cube {robot}=NAME tells which it is)")
+                           f"on; --cube {robot}=NAME selects one)")
         chosen[robot] = near[0]
     return chosen
 
@@ -125,7 +127,7 @@ async def _connect(device):
     try:
         await cube.connect()
     except (cube.bleak.exc.BleakError, asyncio.TimeoutError, OSError, EOFError) as error:
-        raise BadInput(f"--bluetooth: {cube.label} cannot be connected: {error or 'no answer'}") from None
+        raise BadInput(f"--bluetooth: cannot connect to {cube.label}: {error or 'no answer'}") from None
     return cube
 
 
@@ -134,12 +136,12 @@ async def _scan():
     try:
         return await bleak.BleakScanner.discover(timeout=SCAN_SECONDS, service_uuids=[protocol.SERVICE])
     except (bleak.exc.BleakError, OSError) as error:
-        raise BadInput(f"--bluetooth: cannot be searched for cubes: {error}; "
+        raise BadInput(f"--bluetooth: cannot scan for cubes: {error}; "
                        "expected a Bluetooth adapter that is on") from None
 
 
 async def connect_cubes(order, grid, named):
-    """{robot: cube}, all connected."""
+    """Returns {robot: cube}, all connected."""
     devices, others = choose_named(await _scan(), named)
     cubes = {}
     spare = []

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""Passing orders that cubes can drive: on the cells of a grid."""
+"""Reads passing orders on the cells of a grid, which cubes can drive."""
 import json
 
 from grove_driving.bad_input import at
 from grove_driving.order import is_cell, read_order
 
-HEADINGS = {"E": 0, "S": 90, "W": 180, "N": 270}  # as cubes count angles
+HEADINGS = {"E": 0, "S": 90, "W": 180, "N": 270}  # degrees in the convention of cubes
 
 
 def read_cell_order(file):
+    """Reads a passing order. Raises BadInput if it is on a roadmap."""
     order = read_order(file)
     for i, robot in enumerate(order.robots):
         if not is_cell(robot.start):
@@ -18,6 +19,6 @@ def read_cell_order(file):
 
 
 def size(order):
-    """Width and height of the cells in use."""
+    """Returns (width, height) of the cells in use."""
     cells = [c for r in order.robots for c in (r.start, *(a.place for a in r.actions))]
     return max(x for x, _ in cells) + 1, max(y for _, y in cells) + 1

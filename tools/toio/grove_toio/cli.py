@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The command line of grove toio."""
+"""Command line of grove toio."""
 import asyncio
 import contextlib
 import os
@@ -19,29 +19,29 @@ from .driver import Driver
 from .mat import MATS, MM, make_grid
 from .protocol import LEAST_SPEED, MOST_SPEED
 from .simulate import simulate
-from .simulated import Troubles
+from .simulated import Disturbances
 
 DEFAULT_CELLS = (7, 5)
 SIMULATION = ("loss", "slip", "noise", "lift", "fast", "seed")
 DEFAULTS = {"loss": 0.05, "slip": 0.05, "noise": 1.0, "lift": [], "fast": False, "seed": 0}
 
 DESCRIPTION = """\
-Drives toio cubes along a passing order, as 'grove execute INSTANCE PLAN --order ORDER.json' writes it for
-an instance on a grid. The cubes are simulated unless --bluetooth is given."""
+Drives toio cubes along a passing order that 'grove execute INSTANCE PLAN --order ORDER.json' has written
+for an instance on a grid. The cubes are simulated unless --bluetooth is given."""
 
 EPILOG = """\
-Each cube does its actions one after the other, each when the order allows it; an action is done when the
-cube is seen to stand on its cell. So cubes never touch, whatever is lost or late. A cube that was lifted
-goes on when it is put back near its cell; meanwhile others wait for it.
+Each cube does its actions one after the other, each when the order allows it. An action is done when the
+cube is detected at rest on its cell. So cubes never touch, even if messages or cubes are late or lost. A
+cube that was lifted continues when it is put back near its cell; until then others wait for it.
 
-Of simulated cubes the least distance between two centres is told; cubes are held for touching when it is
-below the diagonal of a cube, 45.3 mm, so however they are turned. Who waits for whom is said when
---time-limit is over.
+With simulated cubes the summary has the least distance between two centres. If it is below the diagonal of
+a cube, 45.3 mm, the cubes count as touching, whatever their orientation. If --time-limit is reached, the
+error message names the cubes that wait, and for which cubes.
 
 Exit codes:
   0    all actions are done
   1    not done within --time-limit, cubes touched (in simulation), or internal failure
-  2    bad usage or input: one line on stderr says where, what was found and what was expected
+  2    bad usage or input: one line on stderr with place, what was found and what was expected
   130  stopped by Ctrl-C (143 by SIGTERM); the cubes were stopped
 
 Examples:
@@ -66,7 +66,7 @@ def _speed(text):
 
 
 def _cells(text):
-    expected = "WIDTHxHEIGHT, as 7x5"
+    expected = "WIDTHxHEIGHT, for example 7x5"
     parts = text.split("x")
     if len(parts) != 2:
         raise wrong(text, expected)
@@ -103,44 +103,45 @@ def _parser():
     add("order", nargs="?", metavar="ORDER.json", help="passing order")
     add("--demo", action="store_true", help="solve and drive the demonstration: 3 cubes, 6 tasks, 7 x 5 cells")
     add("--mat", type=_mat, default=MATS["simple"], metavar="MAT",
-        help=f"{', '.join(MATS)}, or X0,Y0,X1,Y1, top left and bottom right (default: simple)")
-    add("--cells", type=_cells, metavar="WxH", help="cells on the mat (default: 7x5, more if the order has more)")
-    add("--pitch", type=positive, metavar="UNITS", help="from cell to cell (default: what the mat has room for)")
-    add("--speed", type=_speed, default=40, metavar="N", help="of the motors, 10 to 255 (default: 40)")
-    add("--step-seconds", type=positive, default=1.0, metavar="S", help="that a step of work takes (default: 1)")
-    add("--time-limit", type=positive, default=600.0, metavar="S", help="give up after so long (default: 600)")
-    add("--log", metavar="DRIVE.jsonl", help="write the drive, line by line, to this file")
-    add("--quiet", action="store_true", help="say nothing but what went wrong")
+        help=f"{', '.join(MATS)}, or the corners X0,Y0,X1,Y1: top left, bottom right (default: simple)")
+    add("--cells", type=_cells, metavar="WxH", help="cells on the mat (default: 7x5, or more if the order needs more)")
+    add("--pitch", type=positive, metavar="UNITS",
+        help="distance of neighbouring cells (default: as large as the mat allows)")
+    add("--speed", type=_speed, default=40, metavar="N", help="speed of the motors, 10 to 255 (default: 40)")
+    add("--step-seconds", type=positive, default=1.0, metavar="S", help="duration of one step of work (default: 1)")
+    add("--time-limit", type=positive, default=600.0, metavar="S", help="stop after S seconds (default: 600)")
+    add("--log", metavar="DRIVE.jsonl", help="write the execution log to this file")
+    add("--quiet", action="store_true", help="print only errors")
     kinds = parser.add_mutually_exclusive_group()
-    kinds.add_argument("--simulate", action="store_true", help="with simulated cubes (the default)")
-    kinds.add_argument("--bluetooth", action="store_true", help="with real cubes")
+    kinds.add_argument("--simulate", action="store_true", help="drive simulated cubes (default)")
+    kinds.add_argument("--bluetooth", action="store_true", help="drive real cubes")
     add("--cube", type=_cube, action="append", default=[], metavar="ROBOT=CUBE",
-        help="name or address of the cube of a robot (default: by where they stand)")
+        help="name or address of the cube of a robot (default: the cube on its start)")
     _add_simulation(parser.add_argument_group("simulated cubes").add_argument)
     return parser
 
 
 def _add_simulation(add):
-    """Without defaults, so that one sees whether they were given."""
-    add("--fast", action="store_const", const=True, help="as fast as it can, the same each time")
-    add("--loss", type=share, metavar="SHARE", help="of messages lost, each way (default: 0.05)")
-    add("--slip", type=amount, metavar="RATE", help="slips in a second of driving (default: 0.05)")
-    add("--noise", type=_noise, metavar="UNITS", help="that seen positions are off (default: 1)")
+    """Adds options without defaults, so that _parse() can detect which ones were given."""
+    add("--fast", action="store_const", const=True, help="run in virtual time: fast and repeatable")
+    add("--loss", type=share, metavar="SHARE", help="share of lost messages, in each direction (default: 0.05)")
+    add("--slip", type=amount, metavar="RATE", help="slips per second of driving (default: 0.05)")
+    add("--noise", type=_noise, metavar="UNITS", help="maximum error of notified positions (default: 1)")
     add("--lift", type=_lift, action="append", metavar="ROBOT@S=S",
-        help="lift a cube after so many seconds, for so many or 'never' back")
-    add("--seed", type=seed, metavar="N", help="of what happens by chance (default: 0)")
+        help="lift a cube at a time in seconds, for a duration in seconds or 'never' to put it back (repeatable)")
+    add("--seed", type=seed, metavar="N", help="seed of all random events (default: 0)")
 
 
 def _parse(arguments):
     a = _parser().parse_args(arguments)
     given = [name for name in SIMULATION if getattr(a, name) is not None]
     if a.bluetooth and given:
-        raise BadInput(f"--{given[0]}: found with --bluetooth; expected simulated cubes")
+        raise BadInput(f"--{given[0]}: requires simulated cubes; found --bluetooth")
     if a.cube and not a.bluetooth:
-        raise BadInput("--cube: found with simulated cubes; expected --bluetooth")
+        raise BadInput("--cube: requires --bluetooth")
     if a.demo == bool(a.order):
-        raise BadInput(f"ORDER.json: found {'one and' if a.demo else 'none and no'} --demo; expected one of the two "
-                       "(see 'grove toio --help')")
+        raise BadInput(f"ORDER.json: found {'both ORDER.json and' if a.demo else 'neither ORDER.json nor'} --demo; "
+                       "expected one of them (see 'grove toio --help')")
     for name in SIMULATION:
         setattr(a, name, DEFAULTS[name] if getattr(a, name) is None else getattr(a, name))
     return a
@@ -160,7 +161,7 @@ def _make_grid(a, order, file):
     used = size(order)
     width, height = a.cells or tuple(map(max, DEFAULT_CELLS, used))
     if used[0] > width or used[1] > height:
-        raise BadInput(f"--cells: found {width}x{height}; expected at least {used[0]}x{used[1]}, which the order uses")
+        raise BadInput(f"--cells: found {width}x{height}; expected at least {used[0]}x{used[1]} for this order")
     grid = make_grid(a.mat, width, height, a.pitch)
     for members in order.rings.values():
         cells = [order.robots[i].place_before(k) for i, k in members]
@@ -168,7 +169,7 @@ def _make_grid(a, order, file):
         if grid.pitch < least:
             i, k = members[0]
             raise at(file, f"/robots/{i}/actions/{k}/ring",
-                     f"{len(members)} robots that go round on cells of {grid.pitch:.1f} units",
+                     f"a ring of {len(members)} robots on cells of {grid.pitch:.1f} units",
                      f"at least {least:.1f}, so that cubes do not touch (a larger --mat, or fewer --cells)")
     return grid
 
@@ -184,12 +185,12 @@ async def _drive_real(a, order, grid, options):
 
 
 async def _drive(a, order, grid, options):
-    """(outcome, world); without a world where cubes are real."""
+    """Drives the order; returns (outcome, world). The world is None with real cubes."""
     task = asyncio.current_task()
     asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, task.cancel)
     if a.bluetooth:
         return await _drive_real(a, order, grid, options)
-    return await simulate(order, grid, Troubles(a.loss, a.slip, a.noise), a.seed, a.lift, a.time_limit, **options)
+    return await simulate(order, grid, Disturbances(a.loss, a.slip, a.noise), a.seed, a.lift, a.time_limit, **options)
 
 
 def _describe(a, order, grid, name):
@@ -230,7 +231,7 @@ def _failure(a, outcome, world):
     return None
 
 
-def _say(a):
+def _printer(a):
     return (lambda text: None) if a.quiet else (lambda text: print(text, flush=True))
 
 
@@ -240,7 +241,7 @@ def _run(arguments):
     order = demo.demo_order() if a.demo else read_cell_order(a.order)
     _check_robots(a, order)
     grid = _make_grid(a, order, name if a.demo else a.order)
-    say = _say(a)
+    say = _printer(a)
     for line in _describe(a, order, grid, name):
         say(line)
     with contextlib.ExitStack() as stack:

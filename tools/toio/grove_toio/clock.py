@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Time that passes as fast as the program can: an event loop that, where another would sleep, puts its clock
-forward. What runs on it is the same each time."""
+"""Event loop with virtual time: instead of sleeping it advances its clock, so that runs are fast and repeatable."""
 import asyncio
 import selectors
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The demonstration: three cubes, six tasks, 7 x 5 cells with obstacles, from the instance to the drive."""
+"""Demonstration from instance to execution: three cubes, six tasks, 7 x 5 cells with obstacles."""
 import json
 import subprocess
 import tempfile
@@ -16,7 +16,7 @@ SIZE = (7, 5)
 def _grove(*arguments):
     grove = Path(__file__).resolve().parents[1] / "grove"
     if not grove.exists():
-        raise BadInput(f"{grove}: there is no such file; expected grove beside grove-toio")
+        raise BadInput(f"{grove}: no such file; expected grove in the directory of grove-toio")
     done = subprocess.run([grove, *map(str, arguments)], capture_output=True, text=True, check=False)
     if done.returncode:
         raise BadInput(f"grove {arguments[0]}: {done.stderr.strip().removeprefix('grove: error: ')}")
@@ -31,13 +31,13 @@ def demo_order():
 
 
 def demo_visits():
-    """[(task, robot, cell)]: what has to be visited."""
+    """Returns [(task, robot, cell)] of all required visits."""
     instance = json.loads(INSTANCE.read_text(encoding="utf-8"))
     return [(task["id"], robot, tuple(task["cell"])) for task in instance["tasks"] for robot in task["agents"]]
 
 
 def tasks_left(order, done):
-    """The demonstration's tasks that somebody did not visit."""
+    """Returns the tasks of the demonstration that some robot has not visited."""
     seen = {(r.name, cell) for r in order.robots
             for cell in (r.start, *(a.place for a in r.actions[:done[r.name]]))}
     return sorted({task for task, robot, cell in demo_visits() if (robot, cell) not in seen})

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Drives cubes along a passing order.
 
-Each robot does its actions one after the other, each once the order allows it. An action counts as done by
-where the cube is seen to be, at rest within the tolerance of the grid (mat.py), never by what it responds:
-responses may be lost, and come up to 15 units early. A cube that drives on in the same direction or
-round a corner is seen within the tolerance of its next lane instead.
+Each robot does its actions one after the other, each once the order allows it. An action is done when the cube
+is detected at rest within the tolerance of the grid (mat.py). Its response does not count, because responses may
+be lost, and come up to 15 units early. For a cube that drives on, straight or round a corner, the action is done
+when the cube is detected within the tolerance of its next lane.
 
-Beside the order there is a second guard, for what no order knows - cubes that were lifted and put back
-elsewhere: nobody drives on a line that comes nearer to another cube, or to the line that it drives on, than
-cubes may come. Along the order that never happens.
+A second check covers events outside the order, such as cubes that were lifted and put back elsewhere: no cube
+drives a line that comes closer than the safe distance to another cube or to the line that the other cube drives.
+While cubes follow the order, this check never stops one.
 """
 import asyncio
 import math
@@ -24,24 +24,24 @@ from .simulated import UNITS_PER_SPEED
 
 POLL = 0.03
 CLEAR_TO_BEGIN, CLEAR_TO_GO_ON = BODY + 1.0, BODY
-BY_HAND = REACHED_BOX + 2       # units from which on a cube would not move by itself, and noise
+BY_HAND = REACHED_BOX + 2       # distance below which a cube ignores a target, and noise, units
 ROLL_SPEED = 20
-UNHEARD = 1.5                   # a cube at rest may seem to be so far beyond the tolerance
-ASTRAY = 0.75                   # cells from its lane: it is not driven back from there
+UNHEARD = 1.5                   # a cube at rest may seem to be this far beyond the tolerance, units
+ASTRAY = 0.75                   # distance from its lane beyond which a cube is not driven back, cells
 TURN_TOLERANCE = 8
 ASK_SECONDS = 0.5
-PATIENCE = 3.0                  # until a cube of which nothing was heard is missed
+PATIENCE = 3.0                  # time for the first position of a cube, seconds
 
 
 class Outcome(NamedTuple):
     seconds: float
     completed: bool
-    done: dict                  # actions of each robot
+    done: dict                  # {robot: number of actions done}
     all_actions: int
     writes: int
     repeats: int
-    corrections: int            # rolls over the last units
-    waits: list                 # if it is not completed: who waits for whom
+    corrections: int            # short rolls over the last units
+    waits: list                 # texts: why robots are not done
 
     @property
     def actions(self):
@@ -56,21 +56,21 @@ class Driver:
         self.log, self.say = log, say
         self.handles = [Handle(robot, cubes[robot.name], grid.centre(robot.start), self.now) for robot in order.robots]
         self.by_name = {h.name: h for h in self.handles}
-        self.at_ring = {ring: {} for ring in order.rings}     # robot: parts that it has ended
-        self.under_way = set()                                # rings
-        self.said = {}
+        self.at_ring = {ring: {} for ring in order.rings}     # ring: {robot: last part that it has ended}
+        self.under_way = set()                                # rings in progress
+        self.reported = {}                                    # {(robot, about): (kind, text)}
 
     def now(self):
         return self.loop.time() - self.begun
 
-    # ---- what the order allows
+    # ---- Conditions of the order
 
     def after_done(self, handle, k):
         after = handle.robot.actions[k].after
         return after is None or self.by_name[after[0]].done > after[1]
 
     def next_point(self, handle, k):
-        """Where action k + 1 leads if the cube may drive on to there without a stop."""
+        """Returns the goal of action k + 1 if the cube may drive on to it without a stop. Returns None otherwise."""
         actions = handle.robot.actions
         if k + 1 >= len(actions):
             return None
@@ -95,7 +95,7 @@ class Driver:
         self.under_way.add(ring)
         return True
 
-    # ---- one robot
+    # ---- One robot
 
     async def run_robot(self, handle):
         await self.reach(handle, handle.place, self.grid.tolerance)
@@ -128,7 +128,7 @@ class Driver:
             await self.poll(handle)
 
     async def work(self, handle, _, action):
-        """Only time in which it stands on its cell counts."""
+        """Works; only time in which the cube stands on its cell counts."""
         left, then = action.steps * self.step_seconds, self.now()
         while left > 1e-6:
             if self.stands(handle):
@@ -142,7 +142,7 @@ class Driver:
             then = self.now()
 
     async def go_round(self, handle, ring):
-        """Part by part, nobody before all have ended the one before."""
+        """Drives a ring part by part; no robot begins a part before all have ended the one before."""
         those = [self.handles[i] for i, _ in self.order.rings[ring]]
         path = rings.wide_paths(self.ring_cells(ring))[those.index(handle)]
         tolerance = min(self.grid.tolerance, rings.TOLERANCE)
@@ -161,7 +161,7 @@ class Driver:
             and distance(handle.mean, handle.place) <= self.grid.tolerance + UNHEARD
 
     async def stand_until(self, handle, may, state="waiting"):
-        """A cube that was pushed aside meanwhile goes back to its place."""
+        """Waits until may(). A cube that is pushed aside in the meantime returns to its place."""
         while not may():
             if not self.fit(handle):
                 pass
@@ -175,10 +175,10 @@ class Driver:
         await asyncio.sleep(POLL)
         handle.settle()
 
-    # ---- motion
+    # ---- Motion
 
     async def reach(self, handle, goal, tolerance, onward=lambda: None):
-        """Until it stands at the goal, or is seen on the way from there to where `onward` leads."""
+        """Drives until the cube stands at the goal, or is detected on the lane from the goal to onward()."""
         handle.goal = goal
         while True:
             handle.far = far = onward()
@@ -199,10 +199,10 @@ class Driver:
         blocker = self.in_the_way(handle, path)
         if blocker:
             self.set_state(handle, "waiting")
-            self.tell(handle, "blocked", f"waits for {blocker.name}, which stands in its way")
+            self.report(handle, "blocked", f"waits for {blocker.name}, which blocks its lane")
             await self.hold(handle)
             return
-        self.told_off(handle, "blocked")
+        self.withdraw(handle, "blocked")
         self.set_state(handle, "moving")
         if handle.command:
             await self.redirect(handle, path)
@@ -211,13 +211,13 @@ class Driver:
 
     @staticmethod
     async def hold(handle):
-        """Until it stands: a stop may be lost, too."""
+        """Stops the cube; repeats this until it is at rest, because a stop may be lost, too."""
         stopping = handle.command is not None and handle.command.kind == "stop"
         if handle.seen_now and not stopping and not handle.at_rest:
             await handle.stop()
 
     async def redirect(self, handle, path):
-        """A journey under way is lengthened or cut; other motions are short, and end first."""
+        """Extends or shortens a journey in progress. Other motions are short and end first."""
         if handle.command.kind != "journey" or handle.command.path[-1] == path[-1]:
             return
         if len(path) == 2 or not self.within_hand(handle.position, path[0]):
@@ -236,7 +236,7 @@ class Driver:
         return abs(goal[0] - point[0]) <= BY_HAND and abs(goal[1] - point[1]) <= BY_HAND
 
     async def by_hand(self, handle, goal):
-        """The last units, which a cube holds for none: turned towards the goal or away from it, then rolled."""
+        """Drives the last units, which the cube itself ignores: turns it towards or away from the goal, then rolls."""
         dx, dy = goal[0] - handle.mean[0], goal[1] - handle.mean[1]
         way, bearing = math.hypot(dx, dy), math.degrees(math.atan2(dy, dx))
         off = turn_between(handle.angle, bearing)
@@ -256,59 +256,60 @@ class Driver:
         return next((other for other in self.handles
                      if other is not handle and nearer(lane, other.lane(), least)), None)
 
-    # ---- troubles
+    # ---- Failures
 
     def fit(self, handle):
-        """Whether it can be driven. What is wrong is said once."""
+        """Returns whether the cube can be driven. Reports each cause once."""
         if handle.trouble:
             return self.unfit(handle, "lost", handle.trouble)
         if handle.missing:
             return self.unfit(handle, "lifted", "is off the mat")
         if handle.silent or handle.position is None:
-            return self.unfit(handle, "lost", "is not heard of any more")
+            return self.unfit(handle, "lost", "has stopped sending positions")
         if handle.strays() > ASTRAY * self.grid.pitch:
             stands, wanted = self.grid.cell(handle.position), self.grid.cell(handle.goal)
-            return self.unfit(handle, "lost", f"stands at [{stands[0]:.1f}, {stands[1]:.1f}], far from its way to "
-                              f"[{wanted[0]:.1f}, {wanted[1]:.1f}]: put it there")
-        self.told_off(handle, "unfit", "goes on")
+            return self.unfit(handle, "lost", f"stands at [{stands[0]:.1f}, {stands[1]:.1f}], far from its lane to "
+                              f"[{wanted[0]:.1f}, {wanted[1]:.1f}]; put the cube on its lane")
+        self.withdraw(handle, "unfit", "continues")
         return True
 
     def unfit(self, handle, state, why):
         if handle.position is None and self.now() < PATIENCE:
-            return False    # it has just been asked for its first position
+            return False    # the first position has just been requested
         self.set_state(handle, state)
-        self.tell(handle, "unfit", why)
+        self.report(handle, "unfit", why)
         return False
 
-    def tell(self, handle, about, text):
-        """Once, while it is the same."""
+    def report(self, handle, about, text):
+        """Prints the text once, as long as its kind stays the same."""
         kind = text.split(",")[0].split("[")[0]
-        if self.said.get((handle.name, about), ("",))[0] != kind:
-            self.said[handle.name, about] = kind, text
+        if self.reported.get((handle.name, about), ("",))[0] != kind:
+            self.reported[handle.name, about] = kind, text
             self.say(f"{self.now():7.1f} s  {handle.name} {text}")
 
-    def told_off(self, handle, about, text=None):
-        if self.said.pop((handle.name, about), None) and text:
+    def withdraw(self, handle, about, text=None):
+        """Clears a report, and prints `text` if there was one."""
+        if self.reported.pop((handle.name, about), None) and text:
             self.say(f"{self.now():7.1f} s  {handle.name} {text}")
 
     def waits_of(self, handle):
-        """Why it has not gone on: a text, or None for one that has done all it has to."""
+        """Returns a text that says why the robot does not continue. Returns None if it has done all its actions."""
         k = handle.done
-        if (handle.name, "unfit") in self.said:
-            return f"{handle.name} {self.said[handle.name, 'unfit'][1]}"
-        if (handle.name, "blocked") in self.said:
-            return f"{handle.name} {self.said[handle.name, 'blocked'][1]}"
+        if (handle.name, "unfit") in self.reported:
+            return f"{handle.name} {self.reported[handle.name, 'unfit'][1]}"
+        if (handle.name, "blocked") in self.reported:
+            return f"{handle.name} {self.reported[handle.name, 'blocked'][1]}"
         if k == len(handle.robot.actions):
             return None
         action = handle.robot.actions[k]
         if not self.after_done(handle, k):
-            return f"{handle.name} waits for {action.after[0]} to end its action {action.after[1]}"
+            return f"{handle.name} waits for {action.after[0]} to end action {action.after[1]}"
         if action.ring is not None:
             others = [self.handles[i].name for i, _ in self.order.rings[action.ring]]
-            return f"{handle.name} waits to go round with {', '.join(n for n in others if n != handle.name)}"
-        return f"{handle.name} is at its action {k}"
+            return f"{handle.name} waits for its ring with {', '.join(n for n in others if n != handle.name)}"
+        return f"{handle.name} is doing action {k}"
 
-    # ---- all robots
+    # ---- All robots
 
     def set_state(self, handle, state):
         if handle.state != state:
@@ -339,7 +340,7 @@ class Driver:
             await asyncio.sleep(POLL)
 
     async def drive(self, seconds=math.inf):
-        """Until all have done their actions, for so many seconds at most. However it ends, cubes stand."""
+        """Drives until all robots are done, for at most `seconds`. Stops all cubes at the end, even after errors."""
         tasks = [asyncio.create_task(work) for handle in self.handles
                  for work in (self.ask_for_positions(handle), self.run_robot(handle))]
         tasks.append(asyncio.create_task(self.log_all()))
@@ -362,7 +363,7 @@ class Driver:
                 task.result()
 
     async def stop_all(self):
-        """Thrice, for what is lost."""
+        """Stops all cubes; writes three times, because messages may be lost."""
         for _ in range(3):
             await asyncio.gather(*(h.stop() for h in self.handles))
             await asyncio.sleep(0.05)

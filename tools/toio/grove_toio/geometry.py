@@ -8,7 +8,7 @@ def distance(a, b):
 
 
 def turn_between(angle, wanted):
-    """Degrees to turn from one angle to the other the shorter way, -180 to 180."""
+    """Returns the smaller rotation from one angle to the other, in degrees from -180 to 180."""
     return (wanted - angle + 180) % 360 - 180
 
 
@@ -45,7 +45,7 @@ def path_to_path(one, other):
 
 
 def nearer(one, other, least):
-    """Whether two paths come nearer to each other than that; mostly their first points tell that they do not."""
+    """Returns whether the distance of two paths is below `least`. Their first points and lengths usually suffice."""
     if distance(one[0], other[0]) >= least + _length(one) + _length(other):
         return False
     return path_to_path(one, other) < least

@@ -1,42 +1,42 @@
 # SPDX-License-Identifier: MIT
-"""What the driver knows of one cube: where it was last seen, what it was told, whether it is still at it."""
+"""State of one cube for the driver: last position, current command, and whether the command is still running."""
 from collections import deque
 from typing import NamedTuple
 
 from . import protocol
 from .geometry import distance, point_to_segment, turn_between
 
-ANSWER_SECONDS = 0.5        # a cube that for so long neither moves nor responds has lost a message, or stopped
-SETTLE_SECONDS = 0.06       # after the end of a motion, till positions are those of a cube at rest
+ANSWER_SECONDS = 0.5        # a cube that neither moves nor responds for this time has lost a message, or stopped
+SETTLE_SECONDS = 0.06       # time after the end of a motion until positions are those of a cube at rest
 SILENT_SECONDS = 1.0
-MOVED, TURNED = 3.5, 7      # units and degrees that are more than noise
-SEEN_AT_REST = 3            # so many positions make an arrival
-TIMEOUT = 5                 # of the cube's own, seconds for each target
+MOVED, TURNED = 3.5, 7      # thresholds of motion above noise, units and degrees
+SEEN_AT_REST = 3            # positions required for an arrival
+TIMEOUT = 5                 # time limit of the cube for each target, seconds
 
 
 class Command(NamedTuple):
     kind: str               # journey, turn, wheels or stop
-    path: tuple             # where it leads
+    path: tuple             # points that it leads to
     number: int
     written: float
-    until: float            # of wheels: when they stop
+    until: float            # when wheels or a stop end
 
 
 class Handle:
-    """Of a cube and of the robot whose actions it does."""
+    """A cube and the robot whose actions it does."""
 
     def __init__(self, robot, cube, place, now):
         self.robot, self.cube, self.name, self.now = robot, cube, robot.name, now
-        self.place = self.goal = place      # centres of where it is or comes from, and goes to
-        self.far = None                     # where it may drive on to from the goal without a stop
-        self.done = 0                       # actions
+        self.place = self.goal = place      # centres of its current or last cell, and of the next
+        self.far = None                     # point that it may drive on to from the goal without a stop
+        self.done = 0                       # number of actions done
         self.state = "waiting"
         self.command = None
         self.number = 0
         self.position = self.angle = None
         self.seen = now()
         self.missing = False
-        self.trouble = None                 # a text: why nothing can be done with it
+        self.trouble = None                 # text: why it cannot be driven
         self.configured = False
         self.moved_at, self.moved_from = now(), None
         self.rest_since = now()
@@ -73,9 +73,9 @@ class Handle:
         if found.code == protocol.BAD_STATE:
             self.trouble = "is being switched off"
         elif found.code == protocol.UNSUPPORTED:
-            self.trouble = "does not take the commands (is its software older than 2.1.0, or --speed too low?)"
-        # What else there is - done, timed out, off the mat, nothing to do, replaced - ends the motion; what
-        # comes next is decided by where the cube then is.
+            self.trouble = "does not accept the commands (firmware older than 2.1.0, or --speed too low?)"
+        # All other codes (done, timeout, off the mat, nothing to do, replaced) end the motion. The position of the
+        # cube then determines the next command.
         if self.command.kind in ("journey", "turn"):
             self._end_command()
 
@@ -83,7 +83,7 @@ class Handle:
         self.command, self.rest_since = None, self.now() + SETTLE_SECONDS
 
     def settle(self):
-        """Ends a command that no response has ended."""
+        """Ends a command that has run out of time without a response."""
         if self.command is None:
             return
         if self.command.kind in ("wheels", "stop"):
@@ -93,7 +93,7 @@ class Handle:
         if over:
             self._end_command()
 
-    # ---- what is known
+    # ---- State
 
     @property
     def silent(self):
@@ -108,7 +108,7 @@ class Handle:
 
     @property
     def at_rest(self):
-        """Positions say so: of a moving cube they differ."""
+        """Whether the last positions are equal up to noise; those of a moving cube differ."""
         if self.command is not None or not self.seen_now:
             return False
         those = self._positions_at_rest()
@@ -123,7 +123,7 @@ class Handle:
         return point_to_segment(self.position, a, b) <= tolerance
 
     def lane(self):
-        """The path that it may take up from now on."""
+        """Returns the path that it may occupy from now on."""
         if not self.seen_now:
             return [self.place, self.goal]
         if self.command is None or self.command.kind == "stop":
@@ -132,7 +132,7 @@ class Handle:
         return [self.position] + (path[path.index(self.goal):] if self.goal in path else path)
 
     def strays(self):
-        """How far it is from where it has to be."""
+        """Returns the distance from its lane, units."""
         path = [self.place, self.goal, *([self.far] if self.far else [])]
         return min(point_to_segment(self.position, a, b) for a, b in zip(path, path[1:]))
 
@@ -148,7 +148,7 @@ class Handle:
         return self.number
 
     async def travel(self, path, speed):
-        """To one point, or to a second one by the first."""
+        """Starts a journey to one point, or through a first to a second one."""
         self.repeats += tuple(path) == self.last_path
         self.last_path = tuple(path)
         those = [protocol.Target(round(x), round(y)) for x, y in path]
@@ -162,7 +162,7 @@ class Handle:
         await self._write(protocol.one_target(self._next_number(), target, speed, TIMEOUT), "turn", [self.goal])
 
     async def roll(self, speed, milliseconds):
-        """Straight on, or back, for so long: what is lost of this does no harm."""
+        """Drives straight forwards or backwards for `milliseconds`. The loss of this command does no harm."""
         self.corrections += 1
         data = protocol.wheels(speed, speed, milliseconds)
         await self._write(data, "wheels", [self.goal], milliseconds / 1000 + 0.1)
@@ -171,5 +171,5 @@ class Handle:
         await self._write(protocol.stop(), "stop", [], 0.1)
 
     async def ask_for_positions(self):
-        """All the time, also of a cube that stands still: so that one notices what was lost."""
+        """Requests positions continuously, even at rest, so that lost messages are noticed."""
         await self.cube.configure(protocol.notify_positions(3, 0))

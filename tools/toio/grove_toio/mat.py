@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: MIT
-"""Cells on a mat, and how exactly cubes must keep to them.
+"""Cells on a mat, and the position tolerance of cubes.
 
 Lengths are in units of the mat's position ids, 1.36 mm each (560 mm are 410 of them on the mat of the toio
-COLLECTION). A cube is a square of 32 mm, 23.5 units; since it turns on the spot, the room it may take up is
-a disc over its diagonal: 33.3 units, BODY. So two cubes never touch while their centres are BODY apart.
+COLLECTION). A cube is a square of 32 mm, 23.5 units. Since it turns on the spot, it may occupy the disc over its
+diagonal, BODY = 33.3 units. So two cubes never touch while their centres are BODY apart.
 
-A cube stands on the centre of a cell or moves to a neighbouring one, straight. It holds both cells until it
-has arrived, so two cubes drive on lanes of different cells, never nearer than the pitch of the cells. What
-is left of the pitch, (pitch - BODY) / 2, is what each of the two may be off its lane. RESERVE of it are
-for errors of the notified positions, of steering and for what happens until they are heard; the rest is the
-tolerance: a cube has arrived when it stands so near to the centre, by its notified position.
+A cube stands on the centre of a cell or moves straight to a neighbouring one. It holds both cells until it
+has arrived, so two cubes drive on lanes of different cells, which are at least the pitch of the cells apart. Each
+of the two may deviate by (pitch - BODY) / 2 from its lane. RESERVE of this is for errors of the notified
+positions and of steering, and for the delay of notifications. The rest is the tolerance: a cube has arrived when
+it stands this near to the centre, by its notified position.
 
-A 7 x 5 grid on the simple mat has a pitch of 43.2 units (59 mm): 9.9 to spare, so a tolerance of 2.9 units
-(4 mm). A cube by itself holds a target for reached 15 units before it: those near neighbours would touch
-(43.2 - 15 < 33.3). That is why arrival is not what a cube responds, and why cubes are moved the rest
-of the way by hand, so to say: turned, then wheels for some hundredths of a second.
+A 7 x 5 grid on the simple mat has a pitch of 43.2 units (59 mm), 9.9 more than BODY, so the tolerance is 2.9 units
+(4 mm). The cube itself treats a target as reached 15 units before it. Two such neighbours would touch
+(43.2 - 15 < 33.3). Therefore the response of a cube does not count as arrival, and the driver controls the rest
+of the way directly: it turns the cube, then runs the wheels for some hundredths of a second.
 """
 import math
 from typing import NamedTuple
@@ -28,15 +28,15 @@ RESERVE = 2.0
 LEAST_TOLERANCE, MOST_TOLERANCE = 2.0, 4.0
 LEAST_PITCH = BODY + 2 * (RESERVE + LEAST_TOLERANCE)
 
-# Top left and bottom right: the specification's page "Position ID"; of the twelve sheets for development, three
-# beside and four below each other, what the toio SDK for Unity has.
+# Top left and bottom right corner, from the page "Position ID" of the specification; for the twelve development
+# sheets, three columns of four, from the toio SDK for Unity.
 MATS = {"simple": (98, 142, 402, 358),
         "collection": (45, 45, 455, 455),
         "development": (34, 35, 949, 898)}
 
 
 class Grid(NamedTuple):
-    """Cell [x, y] has its centre at (left + x * pitch, top + y * pitch)."""
+    """A grid on a mat. Cell [x, y] has its centre at (left + x * pitch, top + y * pitch)."""
     mat: tuple
     width: int
     height: int
@@ -48,7 +48,7 @@ class Grid(NamedTuple):
         return (self.left + cell[0] * self.pitch, self.top + cell[1] * self.pitch)
 
     def cell(self, point):
-        """In cells, real numbers."""
+        """Returns the point in cells, as real numbers."""
         return ((point[0] - self.left) / self.pitch, (point[1] - self.top) / self.pitch)
 
     @property
@@ -57,7 +57,7 @@ class Grid(NamedTuple):
 
 
 def make_grid(mat, width, height, pitch=None):
-    """Cells in the middle of the mat; as far apart as it has room for if that is not said."""
+    """Returns a grid in the middle of the mat. Without `pitch` the cells are as large as the mat allows."""
     x0, y0, x1, y1 = mat
     room = min((x1 - x0) / width, (y1 - y0) / height)
     size = f"{x1 - x0:g} x {y1 - y0:g} units"

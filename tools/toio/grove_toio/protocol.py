@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The bytes that cubes and this program exchange: toio Core Cube specification 2.4.0, pages "Motor",
-"Identification sensor" and "Configuration" (https://toio.github.io/toio-spec/en/). Numbers are
-little-endian; angles are degrees, 0 along x, clockwise."""
+"""Message formats of cubes.
+
+Source: toio Core Cube specification 2.4.0, pages "Motor", "Identification sensor" and "Configuration"
+(https://toio.github.io/toio-spec/en/). Numbers are little-endian. Angles are degrees, 0 along x, clockwise.
+"""
 import struct
 from typing import NamedTuple
 
@@ -13,11 +15,11 @@ CONFIGURATION = "10b201ff-5b3b-4571-9508-cf3efcd7bbae"
 ROTATE_THEN_STRAIGHT = 2
 CONSTANT_SPEED = 0
 OVERWRITE, APPEND = 0, 1
-SAME = 0xffff               # of x and y: where the cube is at that moment
+SAME = 0xffff               # for x and y: current position of the cube
 SHORTEST, NO_ROTATION, SAME_ANGLE = 0, 5, 6
 LEAST_SPEED, MOST_SPEED = 10, 255
 MOST_TARGETS = 29
-REACHED_BOX = 15            # units of x and of y within which a cube holds a target for reached
+REACHED_BOX = 15            # a cube treats a target as reached within this distance in x and in y, units
 REACHED_ANGLE = 4
 
 DONE, TIMEOUT, ID_MISSED, BAD_PARAMETERS, BAD_STATE, REPLACED, UNSUPPORTED, CANNOT_APPEND = range(8)
@@ -31,7 +33,7 @@ class Target(NamedTuple):
 
 
 class Wheels(NamedTuple):
-    """Speeds of the wheels, negative ones backwards, for so long; 0 is for ever."""
+    """Speeds of the wheels, negative for backwards, and their duration; 0: unlimited."""
     left: int
     right: int
     milliseconds: int
@@ -40,8 +42,8 @@ class Wheels(NamedTuple):
 class Journey(NamedTuple):
     """One target (kind 0x03) or several (0x04)."""
     kind: int
-    number: int             # comes back in the response
-    seconds: int            # for each target; 0 is 10
+    number: int             # repeated in the response
+    seconds: int            # time limit for each target; 0: 10 s
     movement: int
     speed: int
     profile: int
@@ -65,16 +67,16 @@ class Position(NamedTuple):
 
 
 class Missed(NamedTuple):
-    """The cube sees no position: it was lifted, or is beside the mat."""
+    """The cube detects no position: it was lifted, or is outside the mat."""
 
 
 class Notifying(NamedTuple):
-    """How often positions are notified."""
-    interval: int           # in 10 ms, at least
-    condition: int          # 0 always, 1 on a change, 0xff until 300 ms after one
+    """Configuration of the position notifications."""
+    interval: int           # least interval, in units of 10 ms
+    condition: int          # 0: always; 1: on a change; 0xff: until 300 ms after a change
 
 
-# ---- to the cube
+# ---- Messages to the cube
 
 def stop():
     return wheels(0, 0)
@@ -85,7 +87,7 @@ def _wheel(number, speed):
 
 
 def wheels(left, right, milliseconds=None):
-    """Without a time the wheels turn until the next write; else for it, in steps of 10 ms."""
+    """Returns a command that runs the wheels for `milliseconds`, in steps of 10 ms; None: until the next write."""
     both = _wheel(1, left) + _wheel(2, right)
     if milliseconds is None:
         return b"\x01" + both
@@ -122,7 +124,7 @@ def _read_wheels(data, milliseconds):
 
 
 def read_motor_write(data):
-    """Wheels or a Journey; None if a cube would discard it."""
+    """Returns Wheels or a Journey. Returns None if a cube would discard the data."""
     kind, size = data[0], len(data)
     if kind == 0x01 and size == 7:
         return _read_wheels(data, 0)
@@ -140,7 +142,7 @@ def read_configuration_write(data):
     return Notifying(data[2], data[3]) if data[0] == 0x18 and len(data) == 4 else None
 
 
-# ---- from the cube
+# ---- Messages from the cube
 
 def response(kind, number, code):
     return bytes((kind | 0x80, number, code))
@@ -159,12 +161,12 @@ def notifying_set():
 
 
 def read_motor_notification(data):
-    """A Response, or None for what is of no use here."""
+    """Returns a Response. Returns None for other notifications."""
     return Response(*data[:3]) if len(data) >= 3 and data[0] in (0x83, 0x84) else None
 
 
 def read_id_notification(data):
-    """A Position, Missed, or None for what is of no use here."""
+    """Returns a Position or Missed. Returns None for other notifications."""
     if data[:1] == b"\x01" and len(data) == 13:
         return Position(*struct.unpack_from("<6H", data, 1))
     return Missed() if data[:1] in (b"\x02", b"\x03", b"\x04") else None

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Robots that follow each other round a circle, each into the cell that the next one leaves.
+"""Motion of robots in a ring: each enters the cell that the next one leaves.
 
-Were they to drive straight, two would be half a cell from a corner at one time, 0.7 cells apart; and
-more so if one lags. So they take the corners wide, four robots of a square their common circle, and
-they go in PARTS: nobody begins a part before all have ended the one before. Whether that keeps them
-apart is worked out for every ring on its grid before anything moves.
+If the robots drove straight, two of them would be half a cell from a corner at the same time, only 0.7 cells apart,
+and even closer if one lags. So they take the corners wide (four robots of a square drive on one circle), and they
+drive in PARTS: no robot begins a part before all have ended the one before. least_pitch() determines for every
+ring whether this keeps the robots apart, before any robot moves.
 """
 import math
 
@@ -12,8 +12,8 @@ from .geometry import segment_to_segment
 from .mat import BODY
 
 PARTS = 4
-TOLERANCE = 3.0             # at the ends of parts, units
-ERRORS = 1.0                # of each cube's notified position and steering
+TOLERANCE = 3.0             # of positions at the ends of parts, units
+ERRORS = 1.0                # error of each cube's notified position and steering, units
 SPARE = 1.0
 
 
@@ -22,7 +22,7 @@ def _direction(a, b):
 
 
 def _turn(a, b):
-    """1 to the right (y is down), -1 to the left, 0 straight on."""
+    """Returns 1 for right (y is down), -1 for left, 0 for straight on."""
     return a[0] * b[1] - a[1] * b[0]
 
 
@@ -39,7 +39,7 @@ def _wide_path(cell, direction, turn_before, turn_after):
 
 
 def wide_paths(cells):
-    """For the robot on each cell of the ring the ends of its parts, in cells, its own cell first."""
+    """Returns for the robot on each cell of the ring the ends of its parts, in cells, starting with its own cell."""
     count = len(cells)
     directions = [_direction(cells[i], cells[(i + 1) % count]) for i in range(count)]
     turns = [_turn(directions[i - 1], directions[i]) for i in range(count)]
@@ -47,16 +47,16 @@ def wide_paths(cells):
 
 
 def least_gap(paths):
-    """How near two robots on these paths may come, wherever in the same part they are."""
+    """Returns the least distance between two robots on these paths that are anywhere in the same part."""
     return min(segment_to_segment(*one[part:part + 2], *other[part:part + 2])
                for i, one in enumerate(paths) for other in paths[:i] for part in range(PARTS))
 
 
 def least_pitch(cells):
-    """The pitch from which on robots may go round this ring."""
+    """Returns the least pitch of the grid with which robots may drive this ring."""
     return (BODY + SPARE + 2 * (TOLERANCE + ERRORS)) / least_gap(wide_paths(cells))
 
 
 def near(cells, others):
-    """Whether robots that go round both rings at a time could meet where they take corners wide."""
+    """Returns whether robots of two rings, driven at the same time, could meet where they take corners wide."""
     return any(max(abs(a[0] - b[0]), abs(a[1] - b[1])) <= 1 for a in cells for b in others)

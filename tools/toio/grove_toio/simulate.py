@@ -1,30 +1,33 @@
 # SPDX-License-Identifier: MIT
-"""Cubes on a simulated mat, each near the centre of the cell where its robot starts."""
+"""Simulation of cubes on a mat, each near the centre of the cell where its robot starts."""
 import asyncio
 import random
 
 from .driver import Driver
-from .simulated import SimulatedCube, Troubles
+from .simulated import Disturbances, SimulatedCube
 from .world import Lift, World
 
-PUT_DOWN = 2.0              # units from the centre, as a hand does
+PUT_DOWN = 2.0              # error of the manual placement, units from the centre
 
 
-def make_world(order, grid, troubles, seed):
-    """The world, and {robot: cube}."""
+def make_world(order, grid, disturbances, seed):
+    """Returns (world, {robot: cube})."""
     world = World(grid.mat, seed)
     hand = random.Random(f"start {seed}")
     cubes = {}
     for robot in order.robots:
         x, y = grid.centre(robot.start)
         cubes[robot.name] = SimulatedCube(robot.name, world, x + hand.uniform(-PUT_DOWN, PUT_DOWN),
-                                          y + hand.uniform(-PUT_DOWN, PUT_DOWN), hand.uniform(0, 360), troubles, seed)
+                                          y + hand.uniform(-PUT_DOWN, PUT_DOWN), hand.uniform(0, 360), disturbances,
+                                          seed)
     return world, cubes
 
 
-async def simulate(order, grid, troubles=Troubles(), seed=0, lifts=(), seconds=float("inf"), kind=Driver, **options):
-    """(outcome, world). A lift is (robot, at, seconds) or with a point to be put down at."""
-    world, cubes = make_world(order, grid, troubles, seed)
+async def simulate(order, grid, disturbances=Disturbances(), seed=0, lifts=(), seconds=float("inf"), kind=Driver,
+                   **options):
+    """Drives the order; returns (outcome, world). A lift is (robot, at, seconds) or (robot, at, seconds, point), where
+    the point is where the cube is put down."""
+    world, cubes = make_world(order, grid, disturbances, seed)
     world.lifts = [Lift(cubes[robot], *those) for robot, *those in lifts]
     running = asyncio.create_task(world.run())
     try:

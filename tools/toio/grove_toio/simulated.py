@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""A cube that is not there: it takes and sends the bytes that a real one does, drives on two wheels, slips,
-stops short and loses messages. It is drawn from the specification; what that leaves open is made hard:
-every journey ends somewhere up to 15 units before its target."""
+"""Simulated cube: exchanges the bytes of a real one, drives on two wheels, slips, stops short and loses messages.
+
+It follows the specification and assumes the worst where the specification is open: every journey ends up to 15
+units before its target.
+"""
 import asyncio
 import math
 import random
@@ -11,23 +13,23 @@ from . import protocol
 from .geometry import turn_between
 from .mat import MM
 
-# Measured by the authors of the toio SDK for Unity (its simulator says so); not in the specification.
-UNITS_PER_SPEED = 2.04      # units a second by a step of speed
-TREAD = 26.6 / MM           # between the wheels
-SENSOR_AHEAD = 3.0          # the sensor is before the centre: some units, by the specification's examples
-MISSED_AFTER = 0.07
-DELAYS = (0.010, 0.035)     # of messages, seconds
-EASE_ANGLE, EASE_WAY = 40.0, 12.0   # degrees and units before the end from which on it is slower
+# From the simulator of the toio SDK for Unity, whose authors measured it; not in the specification.
+UNITS_PER_SPEED = 2.04      # units per second for one step of speed
+TREAD = 26.6 / MM           # distance between the wheels, units
+SENSOR_AHEAD = 3.0          # sensor before the centre, units, from the examples of the specification
+MISSED_AFTER = 0.07         # off the mat until the notification, seconds
+DELAYS = (0.010, 0.035)     # range of the delay of a message, seconds
+EASE_ANGLE, EASE_WAY = 40.0, 12.0   # degrees and units before the end at which it begins to brake
 
 
-class Troubles(NamedTuple):
-    loss: float = 0.0       # share of messages lost, each way
-    slip: float = 0.0       # slips in a second of driving
-    noise: float = 1.0      # units that notified positions are off, at most
+class Disturbances(NamedTuple):
+    loss: float = 0.0       # share of lost messages, in each direction
+    slip: float = 0.0       # slips per second of driving
+    noise: float = 1.0      # maximum error of notified positions, units
 
 
 class _Driving:
-    """What is left of a journey."""
+    """Rest of a journey."""
 
     def __init__(self, journey, now, box):
         self.journey, self.index, self.begun, self.box = journey, 0, now, box
@@ -37,14 +39,14 @@ class _Driving:
 
 
 class SimulatedCube:
-    def __init__(self, name, world, x, y, angle, troubles=Troubles(), seed=0):
-        self.name, self.world, self.troubles = name, world, troubles
+    def __init__(self, name, world, x, y, angle, disturbances=Disturbances(), seed=0):
+        self.name, self.world, self.disturbances = name, world, disturbances
         self.x, self.y, self.angle = x, y, angle
         self.random = random.Random(f"{name} {seed}")
         self.bias = self.random.uniform(0.95, 1.05)
         self.lifted = False
         self.lifted_at = None
-        self.said_missed = False
+        self.missed_sent = False
         self.on_motor = self.on_id = self.on_configuration = lambda data: None
         self.notifying = protocol.Notifying(1, 0xff)
         self.notified_at = self.changed_at = -math.inf
@@ -64,15 +66,15 @@ class SimulatedCube:
         pass
 
     async def write(self, data):
-        """To the characteristic Motor, without a response: it may be lost."""
+        """Writes to the characteristic Motor, without response; the message may be lost."""
         self.next_in = self._send(self.next_in, self._receive, bytes(data))
 
     async def configure(self, data):
         self.next_in = self._send(self.next_in, self._receive_configuration, bytes(data))
 
     def _send(self, not_before, handler, data):
-        """Messages of one direction do not overtake each other."""
-        if self.random.random() < self.troubles.loss:
+        """Delivers or loses a message; returns its time of arrival. Messages of one direction keep their order."""
+        if self.random.random() < self.disturbances.loss:
             return not_before
         loop = asyncio.get_running_loop()
         when = max(not_before + 1e-5, loop.time() + self.random.uniform(*DELAYS))
@@ -144,22 +146,22 @@ class SimulatedCube:
 
     def tick(self, seconds, now):
         if not self._sees():
-            self._be_blind(now)
+            self._off_mat(now)
             return
-        self.lifted_at, self.said_missed = None, False
+        self.lifted_at, self.missed_sent = None, False
         left, right = self._speeds(now)
         if left or right:
             self._move(left, right, seconds, now)
-        self._tell_position(now)
+        self._notify_position(now)
 
-    def _be_blind(self, now):
+    def _off_mat(self, now):
         self.wheels = None
         if self.driving:
             self._end(protocol.ID_MISSED)
         self.lifted_at = now if self.lifted_at is None else self.lifted_at
-        if now - self.lifted_at >= MISSED_AFTER and not self.said_missed:
+        if now - self.lifted_at >= MISSED_AFTER and not self.missed_sent:
             self._notify(self.on_id, protocol.missed())
-            self.said_missed = True
+            self.missed_sent = True
 
     def _speeds(self, now):
         if self.wheels:
@@ -203,7 +205,7 @@ class SimulatedCube:
         return (turning, -turning) if off > 0 else (-turning, turning)
 
     def _way_speeds(self, driving, dx, dy):
-        """Movement type 2: turn first, then straight; the others steer on the way."""
+        """Returns the wheel speeds. Movement type 2 turns first, then drives straight; others steer while driving."""
         off = turn_between(self.angle, math.degrees(math.atan2(dy, dx)))
         speed = driving.journey.speed
         if driving.journey.movement == protocol.ROTATE_THEN_STRAIGHT:
@@ -223,8 +225,8 @@ class SimulatedCube:
         self.y += way * math.sin(math.radians(self.angle))
 
     def _grip(self, seconds, now):
-        """Share of the wheels' way that the cube makes. A slip may turn it, and may stop it for good."""
-        if now >= self.slips_until and self.random.random() < self.troubles.slip * seconds:
+        """Returns the share of the wheels' way that the cube covers. A slip may turn the cube and end its motion."""
+        if now >= self.slips_until and self.random.random() < self.disturbances.slip * seconds:
             self.slips_until = now + self.random.uniform(0.1, 0.6)
             self.angle += self.random.uniform(-12, 12)
             if self.random.random() < 0.3:
@@ -234,9 +236,9 @@ class SimulatedCube:
     # ---- positions
 
     def _seen(self, value):
-        return max(0, round(value + self.random.uniform(-self.troubles.noise, self.troubles.noise)))
+        return max(0, round(value + self.random.uniform(-self.disturbances.noise, self.disturbances.noise)))
 
-    def _tell_position(self, now):
+    def _notify_position(self, now):
         if now - self.notified_at < 0.01 * self.notifying.interval - 1e-9:
             return
         here = (round(self.x), round(self.y), round(self.angle))

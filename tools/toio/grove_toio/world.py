@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A mat with simulated cubes on it, seen from above: where they truly are, and how near they came."""
+"""Simulated mat with the true positions of the cubes and the least distance between two of them."""
 import asyncio
 import math
 import random
@@ -8,12 +8,12 @@ from .geometry import distance
 from .mat import BODY, MM
 
 TICK = 0.01
-SPREAD = 12                 # units from where it was that a hand puts a cube back
-MOST_TICKS = 20             # made up for at once, where the machine was busy
+SPREAD = 12                 # distance, per axis, at which a hand puts a cube back, units
+MOST_TICKS = 20             # maximum number of late ticks run at once on a busy machine
 
 
 class Lift:
-    """A cube that a hand takes away at a time, and puts back later, at a place or near where it was."""
+    """A cube that a hand lifts at a time and puts back later, at a place or near its last position."""
 
     def __init__(self, cube, at, seconds, where=None):
         self.cube, self.at, self.until, self.where = cube, at, at + seconds, where
@@ -24,7 +24,7 @@ class World:
         self.mat = mat
         self.cubes = []
         self.lifts = []
-        self.least = math.inf       # between two centres, units
+        self.least = math.inf       # least distance between two centres, units
         self.least_pair = None
         self.least_at = None
         self.random = random.Random(f"world {seed}")
@@ -73,7 +73,7 @@ class World:
                 self.lifts.remove(lift)
 
     def _put_back(self, lift):
-        """Where nobody is in the way of the hand."""
+        """Puts the cube back at a free position. Returns False if it found none."""
         for _ in range(20):
             x, y = lift.where or [at + self.random.uniform(-SPREAD, SPREAD) for at in (lift.cube.x, lift.cube.y)]
             if self.on_mat(x, y) and all(distance((x, y), (c.x, c.y)) > BODY + 6

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The command line of grove vda5050."""
+"""Command line of grove vda5050."""
 import contextlib
 import functools
 import json
@@ -22,34 +22,34 @@ from grove_driving.program import FAILURE, complain, exit_code
 from . import trial
 from .clock import Clock
 from .control import Control, Limits
-from .fleet import Fleet, Troubles
+from .fleet import Disturbances, Fleet
 from .messages import Style
+from .monitor import Monitor
 from .mqtt import Broker, Connection
 from .protocol import PROTOCOLS, Header, Topics
 from .release import Releases
 from .route import ALLOWED, THETA, check_order, make_route, readable
-from .watch import Watch
 
 TICK = 0.2
 PROGRAM = Path(sys.argv[0]).resolve()
 
 DESCRIPTION = """\
-Drives vehicles along a passing order, as 'grove execute INSTANCE PLAN --order ORDER.json' writes it, by
-VDA 5050 2.1.0 or 3.0.0: what of its way a vehicle may drive is released to it when the order lets it go
-there, however late anybody is. Needs plans without rings: grove solve --no-following."""
+Drives vehicles by VDA 5050 2.1.0 or 3.0.0 along a passing order that 'grove execute INSTANCE PLAN --order
+ORDER.json' has written. A node is released to a vehicle when the passing order allows the vehicle to drive
+there, however late vehicles are. Requires plans without rings: grove solve --no-following."""
 
 EPILOG = """\
-  grove vda5050 orders ORDER.json -o FOLDER    first order of each vehicle, as files, to look at
+  grove vda5050 orders ORDER.json -o DIR       writes the first order of each vehicle to a file, for inspection
   grove vda5050 drive ORDER.json --broker ...  fleet control: drives the vehicles that are on a broker
   grove vda5050 vehicles ORDER.json --broker ...  simulated vehicles, on their starts
-  grove vda5050 watch --broker ...             looks on: messages as the schemas want them, nothing released twice
-  grove vda5050 trial ORDER.json               all of these and a broker, on this machine
+  grove vda5050 watch --broker ...             monitor: checks messages by the schemas, and releases for conflicts
+  grove vda5050 trial ORDER.json               drive, vehicles, watch and a broker, on this machine
 
 Exit codes:
-  0    all vehicles have done everything (of watch: nothing is wrong)
-  1    not done within --time-limit, something is wrong, or internal failure
-  2    bad usage or input: one line on stderr says where, what was found and what was expected
-  130  stopped by Ctrl-C (143 by SIGTERM): vehicles stop where their bases end"""
+  0    all vehicles have done all actions (watch: no violation)
+  1    not done within --time-limit, a violation or collision, or internal failure
+  2    bad usage or input: one line on stderr with place, what was found and what was expected
+  130  stopped by Ctrl-C (143 by SIGTERM); vehicles stop where their bases end"""
 
 
 def _broker(text):
@@ -94,53 +94,59 @@ def _stop(text):
 
 def _add_protocol(add):
     add("--protocol", type=_protocol, default=PROTOCOLS["2.1.0"], metavar="VERSION",
-        help="of VDA 5050: 2.1 or 3.0 (default: 2.1)")
-    add("--interface", type=_level, metavar="NAME", help="first level of topics (default: uagv; of 3.0: vda5050)")
-    add("--manufacturer", type=_level, default="grove", metavar="NAME", help="third level (default: grove)")
+        help="version of VDA 5050: 2.1 or 3.0 (default: 2.1)")
+    add("--interface", type=_level, metavar="NAME", help="first level of topics (default: uagv; with 3.0: vda5050)")
+    add("--manufacturer", type=_level, default="grove", metavar="NAME", help="third level of topics (default: grove)")
     add("--serial", type=_serial, action="append", default=[], metavar="ROBOT=SERIAL",
         help="serial number of a robot's vehicle (default: its id)")
 
 
 def _add_broker(add):
-    add("--broker", type=_broker, required=True, metavar="HOST[:PORT]", help="of MQTT (default port: 1883)")
-    add("--username", metavar="NAME", help="at the broker; the password is in the variable GROVE_MQTT_PASSWORD")
-    add("--tls", action="store_true", help="the broker speaks TLS")
+    add("--broker", type=_broker, required=True, metavar="HOST[:PORT]", help="MQTT broker (default port: 1883)")
+    add("--username", metavar="NAME",
+        help="user name at the broker; the password is in the variable GROVE_MQTT_PASSWORD")
+    add("--tls", action="store_true", help="connect with TLS")
     add("--ca-file", metavar="FILE", help="with --tls: certificates to trust (default: those of the system)")
 
 
 def _add_style(add):
-    add("--base", type=_count, default=10, metavar="N", help="nodes released ahead of a vehicle, at most (default: 10)")
-    add("--horizon", type=_count0, default=5, metavar="N", help="nodes shown beyond the base (default: 5)")
+    add("--base", type=_count, default=10, metavar="N",
+        help="maximum number of nodes released ahead of a vehicle (default: 10)")
+    add("--horizon", type=_count0, default=5, metavar="N", help="number of nodes shown beyond the base (default: 5)")
     add("--map-id", type=_level, default="map", metavar="ID", help="mapId of all nodes (default: map)")
     add("--deviation", type=amount, default=0.1, metavar="METRES",
-        help="that a vehicle may be off a node it has reached (default: 0.1)")
+        help="allowed deviation from a reached node (default: 0.1)")
     add("--work-action", type=_level, default="work", metavar="TYPE", help="actionType of work (default: work)")
     add("--visit-action", type=_level, default="visit", metavar="TYPE",
         help="actionType of visits without duration (default: visit)")
-    add("--step-seconds", type=positive, default=1.0, metavar="S", help="that a step of work takes (default: 1)")
+    add("--step-seconds", type=positive, default=1.0, metavar="S", help="duration of one step of work (default: 1)")
 
 
 def _add_drive(add):
-    add("--time-limit", type=positive, default=3600.0, metavar="S", help="give up after so many real seconds (default: 3600)")
-    add("--log", metavar="DRIVE.jsonl", help="write the drive, line by line, to this file (docs/drive-log.md)")
-    add("--quiet", action="store_true", help="say nothing but what went wrong")
+    add("--time-limit", type=positive, default=3600.0, metavar="S",
+        help="stop after S real seconds (default: 3600)")
+    add("--log", metavar="DRIVE.jsonl", help="write the execution log to this file (docs/drive-log.md)")
+    add("--quiet", action="store_true", help="print only errors")
 
 
 def _add_pace(add):
     add("--pace", type=positive, default=1.0, metavar="X",
-        help="simulated vehicles: so many times as fast as real ones; all times but --time-limit, those of the log too, "
-             "are theirs (default: 1)")
+        help="speed of simulated vehicles: vehicle seconds per real second; all times except --time-limit, also in the "
+             "log, are vehicle seconds (default: 1)")
 
 
 def _add_vehicles(add):
-    add("--speed", type=positive, default=1.0, metavar="M/S", help="of the vehicles (default: 1)")
-    add("--turn-speed", type=positive, default=90.0, metavar="DEG/S", help="(default: 90)")
-    add("--delayed", type=share, default=0.0, metavar="SHARE", help="of messages that come late, each way (default: 0)")
-    add("--delay", type=amount, default=2.0, metavar="S", help="how late at most (default: 2)")
-    add("--lost", type=share, default=0.0, metavar="SHARE", help="of messages that are lost (default: 0)")
+    add("--speed", type=positive, default=1.0, metavar="M/S", help="speed of the vehicles (default: 1)")
+    add("--turn-speed", type=positive, default=90.0, metavar="DEG/S",
+        help="turning speed of the vehicles (default: 90)")
+    add("--delayed", type=share, default=0.0, metavar="SHARE",
+        help="share of delayed messages, in each direction (default: 0)")
+    add("--delay", type=amount, default=2.0, metavar="S", help="maximum delay of a message (default: 2)")
+    add("--lost", type=share, default=0.0, metavar="SHARE",
+        help="share of lost messages, in each direction (default: 0)")
     add("--stop", type=_stop, action="append", default=[], metavar="ROBOT@S=S",
-        help="a vehicle stands still, from a second on, for so many")
-    add("--seed", type=seed, default=0, metavar="N", help="of what happens by chance (default: 0)")
+        help="stop a vehicle at a time in seconds, for a duration in seconds (repeatable)")
+    add("--seed", type=seed, default=0, metavar="N", help="seed of all random events (default: 0)")
 
 
 def _parser():
@@ -160,19 +166,21 @@ def _parser():
     protocol, style = ("the protocol", [_add_protocol]), ("the orders", [_add_style])
     broker, vehicles = ("the broker", [_add_broker]), ("the vehicles", [_add_vehicles, _add_pace])
     orders = command("orders", "writes the first order of each vehicle as a file", protocol, style)
-    orders.add_argument("-o", "--output", required=True, metavar="FOLDER", help="for ROBOT.order.json of each robot")
-    command("drive", "fleet control: drives the vehicles that are on a broker", (None, [_add_drive, _add_pace]), broker, protocol,
-            style)
+    orders.add_argument("-o", "--output", required=True, metavar="DIR",
+                        help="directory for SERIAL.order.json of each vehicle; created if missing")
+    command("drive", "fleet control: drives the vehicles that are on a broker", (None, [_add_drive, _add_pace]), broker,
+            protocol, style)
     command("vehicles", "simulated vehicles, each on its start, until Ctrl-C", broker, protocol, vehicles)
-    watch = command("watch", "looks on at a broker, until Ctrl-C", broker, protocol, order=False)
-    watch.add_argument("--seconds", type=positive, default=math.inf, metavar="S", help="end after so long")
-    command("trial", "broker, simulated vehicles, control and one who looks on, all on this machine",
+    watch = command("watch", "monitor of all messages of a broker, until Ctrl-C", broker, protocol, order=False)
+    watch.add_argument("--seconds", type=positive, default=math.inf, metavar="S",
+                       help="stop after S seconds (default: no limit)")
+    command("trial", "broker, simulated vehicles, fleet control and monitor, all on this machine",
             (None, [_add_drive]), protocol, style, vehicles)
     return parser
 
 
 class Setup:
-    """What the options say of topics, vehicles and orders."""
+    """Topics, routes and message style, from the options and the passing order."""
 
     def __init__(self, a):
         self.topics = Topics(a.protocol, a.interface or a.protocol.interface, a.manufacturer)
@@ -186,7 +194,7 @@ class Setup:
         for i, serial in enumerate(serials):
             if serial in serials[:i]:
                 raise BadInput(f"--serial: found {serial} for {names[serials.index(serial)]} and {names[i]}; expected "
-                               "one for each")
+                               "different serial numbers")
         self.robots = {route.serial: name for name, route in self.routes.items()}
         self.frame = Frame(self.order)
         if "base" in a:
@@ -201,19 +209,19 @@ class Setup:
         return given.get(name, readable(name))
 
     def headings(self):
-        """Of each robot at its start, radians; without headings they are drawn nowhere and may look anywhere."""
+        """Returns the heading of each robot at its start, radians; 0 if the order has no headings."""
         return {r.name: THETA.get(r.heading, 0.0) for r in self.order.robots}
 
 
 def _make_broker(a):
     if a.ca_file and not a.tls:
-        raise BadInput("--ca-file: found without --tls; expected --tls (see 'grove vda5050 drive --help')")
+        raise BadInput("--ca-file: requires --tls (see 'grove vda5050 drive --help')")
     if a.ca_file and not os.path.exists(a.ca_file):
         raise BadInput(f"{a.ca_file}: cannot be read; expected a file of certificates")
     return Broker(*a.broker, a.username, os.environ.get("GROVE_MQTT_PASSWORD"), a.ca_file, a.tls)
 
 
-def _say(a):
+def _printer(a):
     return (lambda text: None) if getattr(a, "quiet", False) else (lambda text: print(text, flush=True))
 
 
@@ -226,7 +234,7 @@ def _orders(a):
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise BadInput(f"{folder}: cannot be made: {error.strerror}") from None
+        raise BadInput(f"{folder}: cannot be created: {error.strerror}") from None
     for name, route in setup.routes.items():
         released = min(releases.allowed[name], a.base)
         content = setup.style.order(route, f"grove-{readable(name)}", 0, 0, released,
@@ -241,11 +249,11 @@ def _orders(a):
 # ---- drive
 
 class _Drive:
-    """Control on a connection."""
+    """Fleet control on a connection to a broker."""
 
     def __init__(self, a, setup, connection, clock, log, say):
         self.a, self.setup, self.connection, self.clock, self.say = a, setup, connection, clock, say
-        self.seconds = ()               # that it took, real ones and those of the vehicles
+        self.seconds = ()               # duration: (real seconds, vehicle seconds)
         topics = setup.topics
         headers = {name: Header(a.protocol, a.manufacturer, route.serial) for name, route in setup.routes.items()}
 
@@ -256,20 +264,20 @@ class _Drive:
                                Limits(a.base, a.horizon), send, clock, log, say)
 
     def step(self):
-        """Hears what there is, for some time, and says what is due. Is everything done?"""
+        """Receives messages for TICK seconds and sends due orders. Returns whether all vehicles are done."""
         until = self.clock.real() + TICK
         while (left := until - self.clock.real()) > 0:
             try:
                 message = self.connection.inbox.get(timeout=left)
             except queue.Empty:
                 break
-            self._hear(message)
+            self._receive(message)
         if self.connection.failure:
-            raise BadInput(f"--broker: refused: {self.connection.failure}")
+            raise BadInput(f"--broker: connection refused: {self.connection.failure}")
         self.control.tick()
         return self.control.completed
 
-    def _hear(self, message):
+    def _receive(self, message):
         serial, name = self.setup.topics.serial_and_name(message.topic)
         robot = self.setup.robots.get(serial)
         try:
@@ -277,10 +285,10 @@ class _Drive:
             if robot and isinstance(content, dict):
                 (self.control.on_state if name == "state" else self.control.on_connection)(robot, content)
         except (ValueError, KeyError, TypeError, AttributeError) as error:
-            self.say(f"{self.clock.now():7.1f} s  {serial}: a {name} that cannot be read: {error}")
+            self.say(f"{self.clock.now():7.1f} s  {serial}: invalid {name} message: {error}")
 
     def run(self):
-        """Is everything done?"""
+        """Drives until all vehicles are done or the time limit. Returns whether all are done."""
         completed = self.step()
         while not completed and self.clock.real() <= self.a.time_limit:
             completed = self.step()
@@ -294,7 +302,7 @@ class _Drive:
         yield f"Time          {seconds:.1f} s" + (f" of the vehicles, {real:.1f} s real" if self.clock.pace != 1 else "")
         yield f"Vehicles      {sum(v.completed for v in control.vehicles.values())} of {len(control.vehicles)} done"
         yield f"Actions       {done} of {sum(len(r.actions) for r in self.setup.order.robots)} of the passing order"
-        yield f"Orders        {control.messages} messages, {control.resent} of them again"
+        yield f"Orders        {control.messages} messages, {control.resent} of them repeats"
 
     def failure(self):
         reasons = list(self.control.reasons())
@@ -303,7 +311,7 @@ class _Drive:
 
 
 def _control_connection(broker, topics):
-    # States first: a vehicle's connection is kept by the broker, and comes at once.
+    # States first, because the broker retains connection messages and delivers them at once.
     return Connection(broker, [(topics.topic("+", "state"), 0), (topics.topic("+", "connection"), 1)])
 
 
@@ -316,7 +324,7 @@ def _describe(a, setup):
 
 @contextlib.contextmanager
 def _log(a, setup):
-    """A function that writes a line, or None."""
+    """Yields a function that writes a line of the log. Yields None without --log."""
     if not a.log:
         yield None
         return
@@ -331,7 +339,7 @@ def _log(a, setup):
 
 def _drive(a):
     setup = Setup(a)
-    broker, say = _make_broker(a), _say(a)
+    broker, say = _make_broker(a), _printer(a)
     with _log(a, setup) as log:
         drive = _Drive(a, setup, _control_connection(broker, setup.topics), Clock(a.pace), log, say)
         for line in _describe(a, setup):
@@ -355,7 +363,7 @@ def _check_stops(a, setup):
 
 def _fleet(a, setup, connect, clock):
     return Fleet(connect, setup.topics, setup.routes, setup.headings(), setup.frame.cell, a.speed,
-                 math.radians(a.turn_speed), Troubles(a.delayed, a.delay, a.lost, tuple(a.stop)), a.seed, clock)
+                 math.radians(a.turn_speed), Disturbances(a.delayed, a.delay, a.lost, tuple(a.stop)), a.seed, clock)
 
 
 def _vehicles(a):
@@ -373,13 +381,13 @@ def _vehicles(a):
     print(f"Done          {sum(v.acted for v in fleet.vehicles)} works and visits")
     if world.least_pair:
         print(f"Distance      at least {world.least:.2f} m between centres, of {' and '.join(world.least_pair)}")
-    print("Places        " + (world.collisions[0] if world.collisions else "nobody drove to where another was"))
+    print("Places        " + (world.collisions[0] if world.collisions else "no vehicle drove to an occupied place"))
     return FAILURE if world.collisions else 0
 
 
 # ---- watch
 
-def _hear_all(watch, connection, until):
+def _receive_all(monitor, connection, until):
     while True:
         left = until - time.monotonic()
         if left <= 0 and connection.inbox.empty():
@@ -388,28 +396,29 @@ def _hear_all(watch, connection, until):
             message = connection.inbox.get(timeout=min(max(left, 0), 3600))
         except queue.Empty:
             continue
-        watch.on_message(message.topic, message.payload)
+        monitor.on_message(message.topic, message.payload)
 
 
-def _watched(watch):
-    said = ", ".join(f"{count} {name}" for name, count in sorted(watch.messages.items())) or "none"
-    yield f"Watched       {said}; " + ("not checked by schemas: no python3-jsonschema" if watch.validators is None
-                                       else f"all checked by the schemas of {watch.topics.protocol.version}")
-    yield f"Released      {watch.violations or 'nothing'} wrong, {watch.actions} actions reported finished"
+def _monitored(monitor):
+    counts = ", ".join(f"{count} {name}" for name, count in sorted(monitor.messages.items())) or "none"
+    checked = ("not checked by schemas: python3-jsonschema is missing" if monitor.validators is None
+               else f"all checked by the schemas of {monitor.topics.protocol.version}")
+    yield f"Watched       {counts}; {checked}"
+    yield f"Released      {monitor.violations or 'nothing'} wrong, {monitor.actions} actions reported finished"
 
 
 def _watch(a):
     topics = Setup(a).topics
-    watch = Watch(topics, lambda text: print(text, flush=True))
+    monitor = Monitor(topics, lambda text: print(text, flush=True))
     broker = _make_broker(a)
-    connection = trial.onlooker(broker, topics)
+    connection = trial.monitor_connection(broker, topics)
     print(f"Watching      {topics.topic('...', '...')} at {broker}", flush=True)
     with contextlib.suppress(KeyboardInterrupt, _Terminated):
-        _hear_all(watch, connection, time.monotonic() + a.seconds)
+        _receive_all(monitor, connection, time.monotonic() + a.seconds)
     connection.close()
-    for line in _watched(watch):
+    for line in _monitored(monitor):
         print(line)
-    return FAILURE if watch.violations else 0
+    return FAILURE if monitor.violations else 0
 
 
 # ---- trial
@@ -427,24 +436,24 @@ def _vehicle_arguments(a, broker):
 
 
 def _trial(a):
-    setup, say = Setup(a), _say(a)
+    setup, say = Setup(a), _printer(a)
     _check_stops(a, setup)
     for line in _describe(a, setup):
         say(line)
-    watch = Watch(setup.topics, say)
+    monitor = Monitor(setup.topics, say)
     with trial.own_broker() as broker, _log(a, setup) as log:
-        onlooker = trial.onlooker(broker, setup.topics)
+        listener = trial.monitor_connection(broker, setup.topics)
         with trial.own_vehicles(PROGRAM, list(_vehicle_arguments(a, broker))) as process:
             drive = _Drive(a, setup, _control_connection(broker, setup.topics), Clock(a.pace), log, say)
             completed = drive.run()
             vehicles_code, vehicles_text = trial.end_vehicles(process)
         drive.connection.close()
-        _hear_all(watch, onlooker, time.monotonic() + 1)
-        onlooker.close()
-    for line in (*drive.summary(), *vehicles_text.splitlines(), *_watched(watch)):
+        _receive_all(monitor, listener, time.monotonic() + 1)
+        listener.close()
+    for line in (*drive.summary(), *vehicles_text.splitlines(), *_monitored(monitor)):
         say(line)
     failures = [text for failed, text in ((not completed, drive.failure()), (vehicles_code, "vehicles collided"),
-                                          (watch.violations, "messages were wrong")) if failed]
+                                          (monitor.violations, "messages were wrong")) if failed]
     if failures:
         complain("; ".join(failures))
     return FAILURE if failures else 0

@@ -1,18 +1,19 @@
 # SPDX-License-Identifier: MIT
-"""Fleet control: sends each vehicle along its route, as far as the passing order lets it.
+"""Fleet control: sends each vehicle along its route, as far as the passing order allows.
 
-Messages get lost, come late and overtake each other. So nothing is concluded from a single one but what stays
-true: a node once reported stays reached, an action once finished stays finished, an update once held was
-received. To a vehicle there is one update under way at a time: the next continues the base that it is known
-to hold, and it is sent again until the vehicle's state names it."""
+Messages may be lost, late or out of order. So control infers from a message only what stays true: a node once
+reported stays reached, a finished action stays finished, and an update in a vehicle's state was received. Each
+vehicle has at most one unconfirmed update at a time. The next update continues the base that the vehicle has
+confirmed, and control sends it again until the vehicle's state contains its number.
+"""
 from .route import actions_done
 
-RESEND_SECONDS = 3.0        # of the vehicles
-SILENT_SECONDS = 40.0       # real ones: vehicles say something every 30
+RESEND_SECONDS = 3.0        # vehicle seconds
+SILENT_SECONDS = 40.0       # real seconds: vehicles send a state at least every 30
 
 
 class Limits:
-    """How many nodes a vehicle's base reaches beyond the one that it is on, and the horizon beyond that."""
+    """Number of nodes of a vehicle's base beyond its current node, and of the horizon beyond the base."""
 
     def __init__(self, base, horizon):
         self.base, self.horizon = base, horizon
@@ -22,16 +23,16 @@ class Vehicle:
     def __init__(self, route):
         self.route = route
         self.online = False
-        self.heard = None           # real seconds
-        self.reached = -1           # node; -1: it has taken no order yet
+        self.heard = None           # time of the last state, real seconds
+        self.reached = -1           # node; -1: it has accepted no order yet
         self.finished = set()       # ids of works
-        self.failed = {}            # id of a work: why
-        self.update = -1            # the last one sent, with the base up to there
-        self.released = -1
-        self.confirmed = -1
+        self.failed = {}            # {id of a failed work: True}
+        self.update = -1            # last update sent
+        self.released = -1          # last node of its base
+        self.confirmed = -1         # last update that the vehicle has confirmed
         self.message = None
-        self.sent = None            # when
-        self.timestamp = ""         # of the latest state; older ones are no news of what follows
+        self.sent = None            # time of the last update, vehicle seconds
+        self.timestamp = ""         # of the latest state; older states do not change the fields below
         self.errors = ()
         self.driving = self.working = self.lost = False
         self.at = self.theta = None
@@ -43,7 +44,10 @@ class Vehicle:
 
 
 class Control:
-    """send(vehicle, content) publishes an order; log(seconds, vehicle, ...) writes a line, in seconds of the vehicles."""
+    """Controls all vehicles of an order.
+
+    send(vehicle, content) publishes an order; log(seconds, vehicle, ...) writes a line, in vehicle seconds.
+    """
 
     def __init__(self, releases, style, order_id, limits, send, clock, log=None, say=lambda text: None):
         self.releases, self.style, self.order_id, self.limits = releases, style, order_id, limits
@@ -51,7 +55,7 @@ class Control:
         self.vehicles = {name: Vehicle(route) for name, route in releases.routes.items()}
         self.messages = self.resent = 0
 
-    # ---- what vehicles say
+    # ---- Messages from vehicles
 
     def on_connection(self, name, message):
         vehicle = self.vehicles[name]
@@ -67,14 +71,14 @@ class Control:
         vehicle.heard, vehicle.online, vehicle.lost = self.clock.real(), True, False
         if message.get("timestamp", "") >= vehicle.timestamp:
             vehicle.timestamp = message.get("timestamp", "")
-            self._hear_errors(name, message.get("errors", []))
-            self._see(vehicle, message)
+            self._read_errors(name, message.get("errors", []))
+            self._read_position(vehicle, message)
         if message.get("orderId") == self.order_id:
-            self._hear_progress(name, message)
+            self._read_progress(name, message)
         self.log_line(name)
         self.extend(name)
 
-    def _hear_progress(self, name, message):
+    def _read_progress(self, name, message):
         vehicle = self.vehicles[name]
         update = message.get("orderUpdateId", -1)
         if vehicle.confirmed < update <= vehicle.update:
@@ -93,17 +97,17 @@ class Control:
             for other in self.releases.complete(name, done):
                 self.extend(other)
 
-    def _hear_errors(self, name, errors):
-        """Each is said once."""
+    def _read_errors(self, name, errors):
+        """Prints each error once."""
         vehicle = self.vehicles[name]
-        said = tuple(f"{e.get('errorType')}" + (f": {e['errorDescription']}" if e.get("errorDescription") else "")
-                     for e in errors)
-        for each in said:
+        found = tuple(f"{e.get('errorType')}" + (f": {e['errorDescription']}" if e.get("errorDescription") else "")
+                      for e in errors)
+        for each in found:
             if each not in vehicle.errors:
                 self.say(f"{self.clock.now():7.1f} s  {name}: {each}")
-        vehicle.errors = said
+        vehicle.errors = found
 
-    def _see(self, vehicle, message):
+    def _read_position(self, vehicle, message):
         position = message.get(self.style.protocol.position)
         if position and position.get(self.style.protocol.localized):
             vehicle.at, vehicle.theta = (position["x"], position["y"]), position["theta"]
@@ -111,10 +115,10 @@ class Control:
         vehicle.working = any(a.get("actionStatus") in ("INITIALIZING", "RUNNING")
                               for a in message.get("actionStates", []))
 
-    # ---- what they are told
+    # ---- Orders to vehicles
 
     def extend(self, name):
-        """Sends what may be released now, unless an update is under way."""
+        """Sends the nodes that may be released now, unless an update is unconfirmed."""
         vehicle = self.vehicles[name]
         if not vehicle.online or vehicle.confirmed < vehicle.update:
             return
@@ -134,13 +138,13 @@ class Control:
         self.send(name, vehicle.message)
 
     def tick(self):
-        """To be called some times a second."""
+        """Sends unconfirmed updates again. Call it several times per second."""
         for name, vehicle in self.vehicles.items():
             if vehicle.confirmed < vehicle.update and self.clock.now() - vehicle.sent > RESEND_SECONDS:
                 self.resent += 1
                 self._publish(name)
 
-    # ---- how it goes
+    # ---- Progress
 
     @property
     def completed(self):
@@ -161,15 +165,16 @@ class Control:
                      self.releases.done[name], self.state_of(name))
 
     def reasons(self):
-        """Why those who are not done are not."""
+        """Yields for each vehicle that is not done the reason."""
         for name, vehicle in self.vehicles.items():
             if vehicle.completed:
                 continue
             node = vehicle.route.nodes[max(vehicle.reached, 0)].id
             if vehicle.heard is None:
-                yield f"{name} ({vehicle.route.serial}) was not heard of"
+                yield f"{name} ({vehicle.route.serial}) has sent no state"
             elif vehicle.reached < 0:
-                yield f"{name} has not taken its order, to begin on {node}" + "".join(f" ({e})" for e in vehicle.errors)
+                errors = "".join(f" ({e})" for e in vehicle.errors)
+                yield f"{name} has not accepted its order, which begins on {node}{errors}"
             elif vehicle.failed:
                 yield f"{name} on {node}: action {next(iter(vehicle.failed))} failed"
             elif vehicle.reached == vehicle.released and self.releases.waits_for(name):

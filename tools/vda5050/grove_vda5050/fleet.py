@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Simulated vehicles, each with a connection of its own, in a hall that sees where they truly are."""
+"""Simulated vehicles, each with its own connection, and a world that records their true positions."""
 import heapq
 import itertools
 import json
@@ -12,26 +12,26 @@ from .protocol import Header
 from .vehicle import SimulatedVehicle
 
 TICK = 0.02                 # real seconds
-HEARTBEAT = 10.0            # real seconds between states when nothing changes; 30 at most
-NEAR = 1.5                  # cells: vehicles further apart are not measured
+HEARTBEAT = 10.0            # real seconds between states without changes; VDA 5050 allows at most 30
+NEAR = 1.5                  # greater distances are not measured, cells
 
 
-class Troubles(NamedTuple):
-    """All seconds are those of the vehicles."""
-    delayed: float = 0.0    # share of messages, each way
-    delay: float = 2.0      # seconds, at most
-    lost: float = 0.0       # share of messages that never arrive
-    stops: tuple = ()       # (robot, begin, how long): it stands still
+class Disturbances(NamedTuple):
+    """Disturbances; all times are vehicle seconds."""
+    delayed: float = 0.0    # share of delayed messages, in each direction
+    delay: float = 2.0      # maximum delay, seconds
+    lost: float = 0.0       # share of lost messages, in each direction
+    stops: tuple = ()       # (robot, begin, duration): it stops
 
 
 class World:
-    """Who holds which place: a vehicle on the way holds both ends."""
+    """Records which vehicle holds which node; a vehicle on an edge holds both ends."""
 
     def __init__(self, cell):
         self.cell = cell
-        self.holders = {}               # node: vehicles
+        self.holders = {}               # {node: vehicles}
         self.collisions = []
-        self.least = math.inf           # metres between two centres
+        self.least = math.inf           # least distance between two centres, metres
         self.least_pair = None
 
     def enter(self, vehicle, node):
@@ -63,17 +63,17 @@ class World:
 
 
 class Fleet:
-    """All vehicles of an order, each on its start. connect(topics, will, hello) makes a connection."""
+    """All vehicles of an order, each on its start. connect(topics, will, hello) returns a connection."""
 
-    def __init__(self, connect, topics, routes, headings, cell, speed, turn_speed, troubles, seed, clock):
-        self.connect, self.topics, self.troubles, self.clock = connect, topics, troubles, clock
+    def __init__(self, connect, topics, routes, headings, cell, speed, turn_speed, disturbances, seed, clock):
+        self.connect, self.topics, self.disturbances, self.clock = connect, topics, disturbances, clock
         self.random = random.Random(f"vehicles {seed}")
         self.world = World(cell)
         self.due = []                   # (when, number, function, arguments)
         self.numbers = itertools.count()
         self.vehicles, self.connections = [], []
-        self.then = clock.now()         # the vehicles are as they were then
-        self.told = {}                  # vehicle: when it last said something, in real seconds
+        self.then = clock.now()         # time of the current state of the vehicles
+        self.sent_at = {}               # {vehicle: time of its last message, real seconds}
         self.delayed = self.lost = self.received = 0
         for route in routes.values():
             self._add(route, headings[route.robot], speed, turn_speed)
@@ -87,32 +87,32 @@ class Fleet:
         def state(text):
             return topic("connection"), header.message({"connectionState": text})
 
-        def tell(name, message):
-            self.told[vehicle] = self.clock.real()
+        def publish(name, message):
+            self.sent_at[vehicle] = self.clock.real()
             self._by_radio(lambda: connection.publish(topic(name), message))
 
         header = Header(protocol, self.topics.manufacturer, route.serial)
         connection = self.connect([(topic("order"), 0)], will=state(protocol.lost), hello=state("ONLINE"))
         vehicle = SimulatedVehicle(protocol, route.robot, self.topics.manufacturer, route.serial, route.nodes[0].at,
-                                   theta, self.world, tell, speed, turn_speed)
+                                   theta, self.world, publish, speed, turn_speed)
         connection.offline = state("OFFLINE")
         self.world.holders[route.nodes[0].id] = [vehicle]
         self.vehicles.append(vehicle)
         self.connections.append(connection)
-        self._later(self.random.random(), vehicle.tell_state)
+        self._later(self.random.random(), vehicle.publish_state)
 
-    # ---- messages take their time
+    # ---- Messages, with delays and losses
 
     def _later(self, seconds, function, *arguments):
         heapq.heappush(self.due, (self.clock.now() + seconds, next(self.numbers), function, arguments))
 
     def _by_radio(self, function, *arguments):
         drawn = self.random.random()
-        if drawn < self.troubles.lost:
+        if drawn < self.disturbances.lost:
             self.lost += 1
-        elif drawn < self.troubles.lost + self.troubles.delayed:
+        elif drawn < self.disturbances.lost + self.disturbances.delayed:
             self.delayed += 1
-            self._later(self.random.uniform(0, self.troubles.delay), function, *arguments)
+            self._later(self.random.uniform(0, self.disturbances.delay), function, *arguments)
         else:
             function(*arguments)
 
@@ -124,23 +124,23 @@ class Fleet:
             order = None
         vehicle.receive(order)
 
-    # ---- the run
+    # ---- Run
 
     def run(self):
-        """Until an exception ends it."""
+        """Runs until an exception ends it."""
         while True:
             time.sleep(TICK)
             self.step()
 
     def step(self):
-        """What has happened since the last step."""
+        """Simulates the time since the last step."""
         now = self.clock.now()
         self._deliver(now)
         self._stop_and_go(now)
         for vehicle in self.vehicles:
             vehicle.tick(now - self.then)
-            if self.clock.real() - self.told.get(vehicle, self.clock.real()) > HEARTBEAT:
-                vehicle.tell_state()
+            if self.clock.real() - self.sent_at.get(vehicle, self.clock.real()) > HEARTBEAT:
+                vehicle.publish_state()
         self.world.measure(self.vehicles)
         self.then = now
 
@@ -153,7 +153,7 @@ class Fleet:
             function(*arguments)
 
     def _stop_and_go(self, now):
-        for robot, begin, seconds in self.troubles.stops:
+        for robot, begin, seconds in self.disturbances.stops:
             vehicle = next(v for v in self.vehicles if v.name == robot)
             vehicle.stopped = begin <= now < begin + seconds
 

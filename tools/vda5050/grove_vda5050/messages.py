@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Orders of VDA 5050 from a route: what of it is released, the base, and what comes then, the horizon."""
+"""Writes orders of VDA 5050 for a route: the base (released nodes) and the horizon (nodes after it)."""
 
 
 def _number(value):
@@ -7,12 +7,12 @@ def _number(value):
 
 
 def _angle(value):
-    return round(value, 5)      # so that it does not exceed pi
+    return round(value, 5)      # 5 digits, so that it does not exceed pi
 
 
 class Style:
-    """How orders are written: protocol, map, metres a vehicle may be off a node that it has reached, names of
-    the actions for work and visits, how long a step of work takes."""
+    """Writes orders. Parameters: protocol, map, allowed deviation from a reached node in metres, action types for work
+    and visits, and duration of a step of work."""
 
     def __init__(self, protocol, map_id, deviation, work, visit, seconds_per_step):
         self.protocol, self.map_id, self.deviation = protocol, map_id, deviation
@@ -36,7 +36,7 @@ class Style:
                 "actions": [self.action(work) for work in node.works]}
 
     def edge(self, route, i, released):
-        """From node i to the next."""
+        """Returns the edge from node i to the next one."""
         begin, end = route.nodes[i].id, route.nodes[i + 1].id
         edge = {"edgeId": f"{begin}-{end}", "sequenceId": 2 * i + 1, "released": released, "startNodeId": begin,
                 "endNodeId": end, "actions": []}
@@ -45,8 +45,8 @@ class Style:
         return edge
 
     def order(self, route, order_id, update, first, released, shown):
-        """From node `first`, where the vehicle's base ends so far, the base to `released`, the horizon to
-        `shown`."""
+        """Returns an order whose first node is `first`, the end of the vehicle's current base. The new base ends at
+        node `released`, the horizon at node `shown`."""
         return {"orderId": order_id, "orderUpdateId": update,
                 "nodes": [self.node(route, i, i <= released) for i in range(first, shown + 1)],
                 "edges": [self.edge(route, i, i < released) for i in range(first, shown)]}

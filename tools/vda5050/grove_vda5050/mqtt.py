@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A connection to an MQTT broker, by paho (Debian: python3-paho-mqtt 1.6)."""
+"""Connection to an MQTT broker, through paho (Debian: python3-paho-mqtt 1.6)."""
 import json
 import queue
 import threading
@@ -16,7 +16,7 @@ class Broker(NamedTuple):
     port: int
     username: str = None
     password: str = None
-    ca_file: str = None         # of a broker that speaks TLS
+    ca_file: str = None         # certificates to trust, with TLS
     tls: bool = False
 
     def __str__(self):
@@ -30,9 +30,9 @@ class Message(NamedTuple):
 
 def _paho():
     try:
-        import paho.mqtt.client  # here, so that orders can be written without it
+        import paho.mqtt.client  # imported here so that orders can be written without it
     except ModuleNotFoundError:
-        raise BadInput("--broker: there is no paho; expected the Debian package python3-paho-mqtt") from None
+        raise BadInput("--broker: found no module paho; expected the Debian package python3-paho-mqtt") from None
     return paho.mqtt.client
 
 
@@ -41,16 +41,19 @@ def encode(message):
 
 
 class Connection:
-    """What arrives waits in `inbox`. It is taken up again when it is lost."""
+    """Connection with received messages in `inbox`. Reconnects automatically."""
 
     def __init__(self, broker, topics, will=None, hello=None):
-        """will: (topic, message) that the broker sends when the connection is lost; hello: the same for
-        when it is there. Both are kept by the broker for who comes later."""
+        """Connects to the broker. Raises BadInput if it cannot be reached.
+
+        will: (topic, message) that the broker publishes when the connection is lost. hello: (topic, message) published
+        after each connect. Both are retained messages, so later subscribers receive them.
+        """
         paho = _paho()
         self.inbox = queue.SimpleQueue()
         self.topics, self.hello = topics, hello
         self.failure = None
-        self.subscribed = threading.Event()     # nothing is missed from then on
+        self.subscribed = threading.Event()     # once set, no message is missed
         self.client = paho.Client()
         self.client.max_queued_messages_set(MOST_SEND)
         if broker.username:
@@ -81,7 +84,7 @@ class Connection:
 
     def await_subscription(self):
         if not self.subscribed.wait(CONNECT_SECONDS):
-            raise BadInput(f"--broker: nothing can be heard there: {self.failure or 'no answer'}; expected an MQTT broker")
+            raise BadInput(f"--broker: subscription failed: {self.failure or 'no answer'}; expected an MQTT broker")
 
     def publish(self, topic, message, qos=0, retain=False):
         self.client.publish(topic, encode(message), qos, retain)

@@ -1,20 +1,21 @@
 # SPDX-License-Identifier: MIT
-"""The two versions of VDA 5050 that are spoken, and what differs between them.
+"""The two supported versions of VDA 5050 (https://github.com/VDA5050/VDA5050) and their differences.
 
-https://github.com/VDA5050/VDA5050. Of a message only what both have in common is written elsewhere."""
+Other modules write only the parts of a message that both versions have in common.
+"""
 from datetime import datetime, timezone
 from typing import NamedTuple
 
 
 class Protocol(NamedTuple):
-    version: str            # as messages have it
-    interface: str          # first level of topics, as suggested for a local broker
-    lost: str               # connectionState of a vehicle that is not heard any more
-    position: str           # key of a vehicle's position, and of whether it knows it
-    localized: str
-    turns_on_node: dict     # an edge on which the vehicle does not turn, but on the node before
-    deviation: object       # allowedDeviationXY of so many metres
-    power: tuple            # key of the battery, and of its charge
+    version: str            # value of the key "version"
+    interface: str          # first level of topics, as the standard suggests for a local broker
+    lost: str               # connectionState of a vehicle that lost its connection
+    position: str           # key of a vehicle's position
+    localized: str          # key of the flag that the vehicle knows its position
+    turns_on_node: dict     # keys of an edge: the vehicle turns on the node before, not on the edge
+    deviation: object       # function: metres -> allowedDeviationXY
+    power: tuple            # keys of the battery and of its charge
     emergency_stop: str     # key of the safety state
 
 
@@ -41,7 +42,7 @@ class Topics(NamedTuple):
 
 
 class Header:
-    """Of the messages of one topic."""
+    """Message headers of one topic, with consecutive numbers."""
 
     def __init__(self, protocol, manufacturer, serial):
         self.fixed = {"version": protocol.version, "manufacturer": manufacturer, "serialNumber": serial}

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""How far along their routes vehicles may go.
+"""Determines the last node of its route that each vehicle may be sent to.
 
-A released base cannot be taken back, so a node is released only when nothing has to happen any more
-before its vehicle may go there and do what is to be done there: of every action up to the next move, the one that
-it waits for is completed, and known to be. By the passing order then nobody else is on that place, goes
-there, or may be sent there, before this vehicle has left it: the others wait for that. (Waits that the order
-leaves out follow from waits of earlier actions of the same robot. Those are completed, too, and with them what
-they waited for.) So what is released to different vehicles never has a place in common, from the node on
-that each was last known to have reached; `watch` looks after that, without knowing the order."""
+A released base cannot be taken back. So a node is released only when its vehicle may drive there and do all actions
+there without further conditions: for every action up to the next move, the action that it waits for is reported as
+completed. By the passing order, no other vehicle is then on that place, drives there, or may be sent there before
+this vehicle has left it, because the others wait for that. (Waits that the order omits follow from waits of earlier
+actions of the same robot. These are completed, too, and so are the actions that they waited for.) Hence nodes
+released to different vehicles never have a place in common, counted from the last node that each vehicle reported
+to have reached. `watch` checks this without using the order.
+"""
 
 
 class Releases:
@@ -16,12 +17,12 @@ class Releases:
         self.routes = routes
         self.done = dict.fromkeys(routes, 0)
         self.allowed = dict.fromkeys(routes, -1)    # the last node that may be released
-        self.waiting = {}                           # robot: those who wait for an action of it
+        self.waiting = {}                           # robot: names of the robots that wait for one of its actions
         for name in routes:
             self._advance(name)
 
     def waits_for(self, name):
-        """(robot, action) that keeps it from the node after the last allowed one; None: nothing does."""
+        """Returns the (robot, action) that blocks the node after the last allowed one. Returns None if none does."""
         route, following = self.routes[name], self.allowed[name] + 1
         if following > route.last:
             return None
@@ -40,7 +41,7 @@ class Releases:
             self.allowed[name] += 1
 
     def complete(self, name, done):
-        """So many actions of it are completed. Returns who may go further now."""
+        """Records that `done` actions of a robot are completed. Returns the robots that may now drive further."""
         if done <= self.done[name]:
             return []
         self.done[name] = done

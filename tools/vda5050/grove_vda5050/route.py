@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""A robot's part of the passing order as nodes, edges and actions of VDA 5050.
+"""Converts a robot's part of the passing order to nodes, edges and actions of VDA 5050.
 
-Each place that the robot is on is a node, each move an edge. What it does on a place, before it moves on,
-are actions of that node: work and visits. They wait for nobody - only moves do - so who may go to a node may do
-all that is to be done there. Turns are no actions, VDA 5050 has none: a robot with headings has on each edge
-`orientation` 0, tangential, to be taken on the node before; and on its last node `theta`, the heading
-in which it ends.
+Each place of the robot is a node, and each move is an edge. Work and visits on a place, before the next move, are
+actions of that node. They do not wait for other robots (only moves do), so a vehicle that may drive to a node may do
+all actions there. Turns are not actions, because VDA 5050 has no such action. Instead, each edge of a robot with
+headings has `orientation` 0, tangential, to be reached on the node before, and its last node has `theta`, its
+final heading.
 
-Nodes have the even sequence numbers, edges the odd ones, as the interface wants it."""
+Nodes have even and edges odd sequence numbers, as VDA 5050 requires.
+"""
 import math
 from typing import NamedTuple
 
@@ -27,20 +28,20 @@ class Work(NamedTuple):
 
 class Node(NamedTuple):
     id: str
-    place: tuple            # as the order has it
+    place: tuple            # place in the passing order
     at: tuple               # metres
-    begin: int              # of the actions of the order that are done on it: the first,
-    end: int                # and the one after the last
-    works: tuple            # what is done on it, in turn
-    works_at: tuple         # by action from begin to end: how many of the works are done by its end
-    theta: float            # in which it ends there; None: it goes on, or has no headings
+    begin: int              # first action of the passing order that is done on it
+    end: int                # one after its last action
+    works: tuple            # Works on it, in order
+    works_at: tuple         # by action from begin to end: number of works done at the end of the action
+    theta: float            # final heading; None: not the last node, or no headings
 
 
 class Route(NamedTuple):
     robot: str
     serial: str
     nodes: tuple
-    turns: bool             # has headings
+    turns: bool             # whether the robot has headings
 
     @property
     def last(self):
@@ -48,7 +49,7 @@ class Route(NamedTuple):
 
 
 def readable(text):
-    """With the characters alone that the interface recommends for ids."""
+    """Replaces characters that VDA 5050 does not recommend for ids."""
     return "".join(c if c in ALLOWED else "_" for c in text)
 
 
@@ -57,7 +58,7 @@ def node_id(place):
 
 
 def _works(number, visits, actions):
-    """What is done on a node, and by action how much of that its end means."""
+    """Returns (works of a node, number of works done at the end of each of its actions)."""
     those = [("visit", task, 0) for task in visits]
     done = []
     for action in actions:
@@ -82,8 +83,8 @@ def make_route(robot, serial):
 
 
 def actions_done(route, reached, finished):
-    """How many actions of the order a vehicle has completed that has reached a node and finished those works.
-    Turns on the way are known when what comes after them is."""
+    """Returns the number of actions of the passing order that a vehicle has completed, given the last node that it
+    reached and the ids of its finished works. A turn counts as soon as a later work is finished or node reached."""
     node = route.nodes[reached]
     count = 0
     while count < len(node.works) and node.works[count].id in finished:
@@ -99,18 +100,18 @@ def actions_done(route, reached, finished):
 
 
 def check_order(file, order):
-    """That vehicles can drive it."""
+    """Raises BadInput if vehicles cannot drive the order."""
     places = {}
     for i, robot in enumerate(order.robots):
         if robot.at is None or any(action.at is None for action in robot.actions):
-            raise at(file, f"/robots/{i}", "no key 'at'", "places in metres, as grove execute --order writes them")
+            raise at(file, f"/robots/{i}", "no key 'at'", "places in metres, from grove execute --order")
         for k, action in enumerate(robot.actions):
             if action.ring is not None:
                 names = ", ".join(order.robots[j].name for j, _ in order.rings[action.ring])
-                raise at(file, f"/robots/{i}/actions/{k}/ring", f"a ring of {names}, that move all at once",
-                         "no rings: vehicles drive each at its own pace (grove solve --no-following makes plans "
-                         "without)")
+                raise at(file, f"/robots/{i}/actions/{k}/ring", f"a ring of {names}, which move at the same time",
+                         "no rings, because each vehicle drives at its own pace (grove solve --no-following makes "
+                         "plans without rings)")
         for place in [robot.start] + [a.place for a in robot.actions]:
             if places.setdefault(node_id(place), place) != place:
                 raise at(file, f"/robots/{i}", f"the places {list(places[node_id(place)])} and {list(place)}",
-                         f"names that differ; as nodes both would be {node_id(place)}")
+                         f"places with different node ids; both would be {node_id(place)}")

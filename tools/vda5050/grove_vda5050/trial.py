@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Everything on one machine: a broker of its own, simulated vehicles, control and one who looks on."""
+"""Starts the parts of a trial on one machine: broker, simulated vehicles and the connection of the monitor."""
 import contextlib
 import shutil
 import signal
@@ -26,10 +26,10 @@ def _free_port():
 
 @contextlib.contextmanager
 def own_broker():
-    """mosquitto on the loopback address, while this lasts."""
+    """Runs mosquitto on the loopback address; yields its Broker."""
     program = shutil.which("mosquitto") or (MOSQUITTO if Path(MOSQUITTO).exists() else None)
     if not program:
-        raise BadInput("trial: there is no mosquitto; expected the Debian package mosquitto")
+        raise BadInput("trial: mosquitto was not found; expected the Debian package mosquitto")
     with tempfile.TemporaryDirectory() as folder:
         port = _free_port()
         settings = Path(folder) / "mosquitto.conf"
@@ -54,7 +54,7 @@ def _await_port(port, process):
 
 @contextlib.contextmanager
 def own_vehicles(program, arguments):
-    """`grove vda5050 vehicles` as a process of its own. Yields it once all vehicles are connected."""
+    """Runs `grove vda5050 vehicles` as a child process. Yields the process once all vehicles are connected."""
     process = subprocess.Popen([sys.executable, program, "vehicles", *arguments], stdout=subprocess.PIPE, text=True)
     try:
         if not process.stdout.readline():
@@ -66,14 +66,14 @@ def own_vehicles(program, arguments):
 
 
 def end_vehicles(process):
-    """(exit code, what it said)"""
+    """Terminates the vehicles; returns (exit code, output)."""
     process.send_signal(signal.SIGTERM)
     text, _ = process.communicate(timeout=60)
     return process.returncode, text
 
 
-def onlooker(broker, topics):
-    """A connection to all that is said."""
+def monitor_connection(broker, topics):
+    """Returns a connection that receives all messages."""
     connection = Connection(broker, [(topics.topic("+", "+"), 0)])
     connection.await_subscription()
     return connection

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""A vehicle that is not there: it takes orders, refuses those that do not continue what it has, drives along
-its base and no further, and tells its state. (VDA 5050 2.1.0, 6.6.2 and figure 8; 3.0.0, 6.1.2.)"""
+"""Simulated vehicle: accepts orders, refuses those that do not continue its current one, drives only along its base,
+and publishes its state. (VDA 5050 2.1.0, 6.6.2 and figure 8; 3.0.0, 6.1.2.)"""
 import math
 
 from .protocol import Header
 
-START_TOLERANCE = 0.3       # metres from the first node of a new order
+START_TOLERANCE = 0.3       # maximum distance from the first node of a new order, metres
 ALIGNED = 1e-6
 
 
 class Refused(Exception):
-    """An order is not taken. Its type in version 2.1.0 and in 3.0.0, and why."""
+    """An order is refused. kinds: error type in version 2.1.0 and in 3.0.0."""
 
     def __init__(self, kinds, why):
         super().__init__(why)
@@ -29,30 +29,32 @@ def turn_between(angle, goal):
 
 
 class SimulatedVehicle:
-    """tell(topic, message) publishes; world.enter(vehicle, node) and leave are told where it is."""
+    """A vehicle. publish(topic, message) sends; world.enter(vehicle, node) and world.leave() receive its position."""
 
-    def __init__(self, protocol, name, manufacturer, serial, at, theta, world, tell, speed=1.0, turn_speed=math.pi / 2):
-        self.protocol, self.name, self.serial, self.world, self.tell = protocol, name, serial, world, tell
+    def __init__(self, protocol, name, manufacturer, serial, at, theta, world, publish, speed=1.0,
+                 turn_speed=math.pi / 2):
+        self.protocol, self.name, self.serial, self.world = protocol, name, serial, world
+        self.publish = publish
         self.x, self.y = at
         self.theta = theta
         self.speed, self.turn_speed = speed, turn_speed
         self.header = Header(protocol, manufacturer, serial)
         self.order_id, self.update = "", 0
-        self.nodes, self.edges = [], []         # before it: of the base, then of the horizon
-        self.base_end = None                    # (id, sequence) of the last node that was released
-        self.last = ("", 0)                     # (id, sequence) of the node that it was on last
-        self.to_do = []                         # actions of that node
-        self.action_states = {}                 # id: [type, status]
-        self.left = None                        # seconds of the action that is running
+        self.nodes, self.edges = [], []         # still to drive: base, then horizon
+        self.base_end = None                    # (id, sequence number) of the last released node
+        self.last = ("", 0)                     # (id, sequence number) of its last node
+        self.to_do = []                         # open actions of that node
+        self.action_states = {}                 # {id: [type, status]}
+        self.left = None                        # remaining seconds of the running action
         self.errors = []
         self.driving = False
         self.on_edge = False
         self.map_id = ""
         self.stopped = False
-        self.acted = 0                          # actions
+        self.acted = 0                          # number of finished actions
         self.refused = 0
 
-    # ---- orders
+    # ---- Orders
 
     def receive(self, order):
         try:
@@ -61,7 +63,7 @@ class SimulatedVehicle:
             self._refuse(order, Refused(MALFORMED, f"{type(error).__name__}: {error}"))
         except Refused as refused:
             self._refuse(order, refused)
-        self.tell_state()
+        self.publish_state()
 
     def _refuse(self, order, refused):
         self.refused += 1
@@ -77,9 +79,9 @@ class SimulatedVehicle:
     def _take(self, order):
         nodes, edges = order["nodes"], order["edges"]
         if not nodes or len(edges) != len(nodes) - 1 or not nodes[0]["released"]:
-            raise Refused(MALFORMED, "nodes and edges do not make a way")
+            raise Refused(MALFORMED, "nodes and edges do not form a path")
         if any(a["released"] < b["released"] for a, b in zip(nodes, nodes[1:])):
-            raise Refused(MALFORMED, "the base goes on after the horizon")
+            raise Refused(MALFORMED, "a released node follows the horizon")
         first = (nodes[0]["nodeId"], nodes[0]["sequenceId"])
         if order["orderId"] != self.order_id:
             self._begin(order, nodes[0], first)
@@ -119,10 +121,10 @@ class SimulatedVehicle:
             for action in node["actions"]:
                 self.action_states[action["actionId"]] = [action["actionType"], "WAITING"]
 
-    # ---- motion
+    # ---- Motion
 
     def tick(self, seconds):
-        """What it does in so many seconds: one thing after the other."""
+        """Simulates `seconds` of acting and driving, one after the other."""
         while seconds > 1e-9 and not self.stopped:
             if self.to_do:
                 seconds = self._act(seconds)
@@ -136,7 +138,7 @@ class SimulatedVehicle:
     def _set_driving(self, driving):
         if self.driving != driving:
             self.driving = driving
-            self.tell_state()
+            self.publish_state()
 
     def _act(self, seconds):
         action = self.to_do[0]
@@ -147,7 +149,7 @@ class SimulatedVehicle:
             state[1] = "RUNNING"
             self.driving = False
             if self.left > 0:
-                self.tell_state()
+                self.publish_state()
         used = min(seconds, self.left)
         self.left -= used
         if self.left <= 1e-9:
@@ -155,7 +157,7 @@ class SimulatedVehicle:
             self.left = None
             self.to_do.pop(0)
             self.acted += 1
-            self.tell_state()
+            self.publish_state()
         return seconds - used
 
     def _drive(self, seconds):
@@ -184,7 +186,7 @@ class SimulatedVehicle:
         return seconds - used
 
     def _turn(self, goal, seconds):
-        """Seconds left after it; None when it looks there already."""
+        """Turns; returns the seconds left. Returns None if it already has this heading."""
         off = turn_between(self.theta, goal)
         if abs(off) < ALIGNED:
             return None
@@ -203,16 +205,16 @@ class SimulatedVehicle:
         self.edges.pop(0)
         self.to_do = list(node["actions"])
         if not self.to_do:
-            self.tell_state()
+            self.publish_state()
 
-    # ---- what it says
+    # ---- State
 
     def position(self):
         theta = round(turn_between(0.0, self.theta), 5)     # -3.14159 is still within the limits
         return {"x": round(self.x, 4), "y": round(self.y, 4), "theta": theta, "mapId": self.map_id,
                 self.protocol.localized: True}
 
-    def tell_state(self):
+    def publish_state(self):
         battery, charge = self.protocol.power
         content = {
             "orderId": self.order_id, "orderUpdateId": self.update, "lastNodeId": self.last[0],
@@ -226,4 +228,4 @@ class SimulatedVehicle:
             "safetyState": {self.protocol.emergency_stop: "NONE", "fieldViolation": False}}
         if self.protocol.version[0] != "2":
             content["instantActionStates"] = []
-        self.tell("state", self.header.message(content))
+        self.publish("state", self.header.message(content))

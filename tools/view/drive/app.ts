@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page shows now: the drive, a moment of it, and what is chosen.
+// State of the page: the drive, the moment shown, and the selection.
 
 import type { TaskFacts } from "../page/facts";
 import type { Model } from "../page/model";
@@ -19,14 +19,14 @@ export class DriveApp implements Choice {
 
   constructor(
     readonly model: Model, readonly order: Order, public drive: Drive,
-    isFollowed: boolean, // may the log still grow?
+    isFollowed: boolean, // whether the log may still grow
   ) {
     this.player = new DrivePlayer(isFollowed);
     this.tasks = model.tasks.map(({ agents }) => ({ agents, times: [], begin: Infinity }));
     this.take(drive);
   }
 
-  // The log has grown, or is another one.
+  // Called when the log has grown or was replaced.
   take(drive: Drive): void {
     this.drive = drive;
     this.player.end = drive.end;
@@ -47,7 +47,7 @@ export class DriveApp implements Choice {
     this.changed();
   }
 
-  // Infinity: not yet.
+  // Time of a visit; Infinity: not yet.
   visitTime(agent: number, action: number): number {
     return action < 0 ? 0 : this.drive.completedAt[agent][action] ?? Infinity;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads a drive that is in the page, as columns of differences (README.md).
+// Reads the drive in the page, given as columns of differences (README.md).
 
 import { parse, type Value } from "../page/json";
 import type { Model } from "../page/model";

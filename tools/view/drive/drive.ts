@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A drive as its log tells it (docs/drive-log.md): of each robot what was seen of it, by time, in
-// flat columns that grow.
+// A drive from its log (docs/drive-log.md): the observations of each robot over time, in flat columns that
+// grow.
 
 import type { Model } from "../page/model";
 
@@ -10,12 +10,12 @@ export const kWaiting = 0;
 export const kMoving = 1;
 export const kDone = kStates.indexOf("done");
 
-// States in which somebody has to look after the robot.
+// States in which a robot needs help from a person.
 export function needsHelp(state: number): boolean {
   return kStates[state] === "lifted" || kStates[state] === "lost";
 }
 
-// Beside a robot, so that what it does is not told by colour alone. Who moves is seen to.
+// Signs beside robots, so that a state is not shown only by colour. A moving robot needs no sign.
 const kMarks: Record<State, string> = {
   waiting: "…", moving: "", working: "↻", lifted: "↑", lost: "?", done: "✓",
 };
@@ -26,7 +26,7 @@ export function markOf(state: number): string {
 
 const kFirst = 64;
 
-// What was seen of a robot.
+// The observations of a robot.
 export class Sightings {
   count = 0;
   times = new Float64Array(kFirst); // seconds, ascending
@@ -48,7 +48,8 @@ export class Sightings {
     this.states[i] = state;
   }
 
-  // The last one not after `time`; 0 before all. Mostly near to where it was before.
+  // Returns the last observation not after `time`; 0 before the first. The search starts at the last result,
+  // which is usually near.
   at(time: number): number {
     const { times, count } = this;
     let low = this.last;
@@ -87,7 +88,7 @@ export class Sightings {
 }
 
 export class Drive {
-  order = ""; // name of the passing order's file; empty: it has not begun
+  order = ""; // name of the passing order's file; empty: the drive has not begun
   secondsPerStep = 1;
   end = 0; // seconds
   readonly robots: Sightings[]; // by agent
@@ -113,13 +114,13 @@ export class Drive {
     return robot.count > 0 && robot.times[0] <= time ? robot.actions[robot.at(time)] : 0;
   }
 
-  // kWaiting before it was first seen.
+  // State of a robot; kWaiting before its first observation.
   stateAt(agent: number, time: number): number {
     const robot = this.robots[agent];
     return robot.count > 0 && robot.times[0] <= time ? robot.states[robot.at(time)] : kWaiting;
   }
 
-  // Is everybody done?
+  // Whether all robots are done.
   get isOver(): boolean {
     return this.robots.every(({ count, states }) => count > 0 && states[count - 1] === kDone);
   }

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// How late robots are against the plan: by how much their next action should have ended before, if
-// each of the plan's steps took as long as the drive's log says; of one that is done, the last one.
+// Delay of robots relative to the plan: the time since the next action should have ended, if each step of
+// the plan took the time that the log of the drive states. For a robot that is done: the delay of its
+// last action.
 
 import type { DriveApp } from "./app";
 
-// When the plan has the action end that counts, in seconds of the drive.
+// Planned end of this action, in seconds of the drive.
 export function dueTime({ drive, order }: DriveApp, agent: number, time: number): number {
   const next = Math.min(drive.actionsAt(agent, time) + 1, order.actions(agent));
   return order.planTime(agent, next) * drive.secondsPerStep;
 }
 
-// In seconds; 0: in time.
+// Delay in seconds; 0: in time.
 export function lateness(app: DriveApp, agent: number, time: number): number {
   const { drive, order } = app;
   const all = order.actions(agent);

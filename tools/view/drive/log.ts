@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads the log of a drive that is followed. Lines are taken strictly; one that is wrong is left
-// out, and counted.
+// Reads the log of a drive that is followed. The parser is strict; a wrong line is skipped and counted.
 
 import { parse, type Value } from "../page/json";
 import type { Model } from "../page/model";
@@ -10,18 +9,18 @@ import { Drive } from "./drive";
 import type { Order } from "./order";
 
 const kFormat = "grove drive 1";
-// As `grove view` has them: src/io/execution_log_file.cpp.
+// The same limits as in src/io/execution_log_file.cpp.
 const kFar = 1e7; // cells or metres
 const kLong = 1e9; // seconds
 
 export class Log {
   readonly drive: Drive;
-  leftOut = 0; // lines that cannot be read
-  firstTrouble = ""; // what is wrong with the first of them
+  leftOut = 0; // lines skipped
+  firstTrouble = ""; // error of the first of them
   private isBegun = false;
   private readonly agents: Map<string, number>;
   private readonly named = new Set<string>(); // the robots of the header
-  private rest = ""; // of a line that has not ended
+  private rest = ""; // the incomplete last line
   private lines = 0;
 
   constructor(private readonly model: Model, private readonly order: Order) {
@@ -29,8 +28,8 @@ export class Log {
     this.agents = new Map(model.agents.map(({ id }, i) => [id, i]));
   }
 
-  // What came since the last time. Whoever watches robots wants to go on after a line that is wrong;
-  // without the first one nothing can be said of the others.
+  // Reads new text. A wrong line must not stop the display of robots, so it is skipped. Without a valid first
+  // line the others have no meaning.
   add(text: string): void {
     const lines = (this.rest + text).split("\n");
     this.rest = lines.pop()!;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page of a drive: reads the log, in the page or as it grows, and shows it.
+// Page of a drive: reads the log, from the page or while it grows, and shows it.
 
 import { kDark, kLight } from "../page/colors";
 import { el } from "../page/dom";
@@ -23,7 +23,7 @@ import { Robots } from "./panels/robots";
 import { Strip } from "./panels/strip";
 import { kSeconds, troubleText } from "./words";
 
-const kPause = 300; // milliseconds between questions for more
+const kPause = 300; // milliseconds between requests for new data
 
 function textOf(id: string): string {
   return document.getElementById(id)!.textContent!;
@@ -68,7 +68,7 @@ function follow(model: Model, order: Order): void {
     add: (text, isAll) => {
       log.add(text);
       take();
-      // A link may name any moment of what there is.
+      // A link may name any moment of the log so far.
       if (isAll && !isLinked) linkPage(app);
       isLinked ||= isAll;
     },
@@ -79,7 +79,7 @@ function follow(model: Model, order: Order): void {
 function show(app: DriveApp, strip: Strip): void {
   const help = new Help(kSeconds.unit);
   const live = el("button", {
-    type: "button", class: "golive", title: "To what is now", click: () => {
+    type: "button", class: "golive", title: "Go to the current moment", click: () => {
       app.player.goLive();
       app.changed();
     },
@@ -116,11 +116,11 @@ function show(app: DriveApp, strip: Strip): void {
     requestAnimationFrame(tick);
   };
   requestAnimationFrame(tick);
-  // For whoever asks (tests do).
+  // For tests.
   Object.assign(window, { grove: { app, stages: [stage] } });
 }
 
-// The path that the plan has for a robot, from where it has come to.
+// The planned path of a robot, from its current action on.
 function sceneOf(app: DriveApp, frame: DriveNow) {
   const [plan] = app.model.plans;
   const paths = new Paths(app.model, { plan }, null);

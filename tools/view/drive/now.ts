@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Where all robots of a drive are at a moment. Between two sightings a robot that was moving went
-// straight; one that stood still did so until shortly before the next one.
+// Positions of all robots of a drive at a moment. Between two observations a moving robot is assumed to go
+// straight, and a standing robot to stand until shortly before the next one.
 
 import { Doing } from "../page/facts";
 import type { Model } from "../page/model";
 import type { RobotsNow } from "../page/robots_now";
 import { kStates, markOf, needsHelp, type Drive, type State } from "./drive";
 
-const kBrief = 0.15; // seconds: what the log leaves out at most, of what changes
-const kLongest = 10; // seconds between sightings of one that moves
+const kBrief = 0.15; // seconds: a change is logged after at most this time
+const kLongest = 10; // seconds between observations of a moving robot
 
 const kDoing: Record<State, Doing> = {
   waiting: Doing.kWaiting, moving: Doing.kMoving, working: Doing.kWorking, done: Doing.kResting,
@@ -23,7 +23,7 @@ export class DriveNow implements RobotsNow {
   readonly angles: Float32Array;
   readonly doing: Uint8Array;
   readonly colliding: Uint8Array; // needs help
-  readonly missing: Uint8Array; // (all are drawn: those not seen yet, at their starts)
+  readonly missing: Uint8Array; // (none: robots without observation are drawn at their starts)
 
   constructor(private readonly model: Model, public drive: Drive) {
     this.count = model.agents.length;
@@ -61,13 +61,13 @@ export class DriveNow implements RobotsNow {
     this.angles[i] = robot.angles[at] + (Number.isNaN(turn) ? 0 : turn * part);
   }
 
-  // Of the way to the next sighting.
+  // Fraction of the way to the next observation.
   private partGone(i: number, at: number, time: number): number {
     const { times, states } = this.drive.robots[i];
     const end = times[at + 1];
     const longest = kStates[states[at]] === "moving" ? kLongest : kBrief;
     const begin = Math.max(times[at], end - longest);
-    // Before the first sighting, also when the second one has the same time.
+    // Before the first observation, also if the second one has the same time.
     if (time <= begin) return 0;
     return Math.min(1, (time - begin) / (end - begin));
   }
@@ -80,7 +80,7 @@ export class DriveNow implements RobotsNow {
   }
 }
 
-// The shorter way round.
+// Returns the turn from one angle to the other, in the direction of the smaller turn.
 function turnBetween(from: number, to: number): number {
   const turn = (to - from) % (2 * Math.PI);
   return turn > Math.PI ? turn - 2 * Math.PI : turn < -Math.PI ? turn + 2 * Math.PI : turn;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the page knows of the passing order of the plan that is driven (README.md): when the plan
-// has actions end, what they visit, and what they wait for.
+// The passing order of the executed plan (README.md): planned ends of actions, their visits, and the actions
+// they wait for.
 
 import { parse, type Value } from "../page/json";
 import type { Model } from "../page/model";
@@ -13,7 +13,7 @@ export interface Wait {
 }
 
 export interface Visit {
-  action: number; // that makes it; -1: made at the start
+  action: number; // action of the visit; -1: at the start
   task: number;
 }
 
@@ -37,7 +37,7 @@ export class Order {
     return this.robots[agent].ends.length;
   }
 
-  // How far into the plan a robot is that has completed so many actions.
+  // Time of the plan that a robot has reached with this number of completed actions.
   planTime(agent: number, completed: number): number {
     return completed > 0 ? this.robots[agent].ends[completed - 1] : 0;
   }
@@ -46,7 +46,7 @@ export class Order {
     return this.robots[agent].visits;
   }
 
-  // What the next action of a robot that has completed so many has to wait for.
+  // The action that the next action of a robot must wait for, given its number of completed actions.
   wait(agent: number, completed: number): Wait | null {
     return this.robots[agent].waits.get(completed) ?? null;
   }

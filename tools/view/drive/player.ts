@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The time of a drive, in seconds: played, or live, which is as it comes.
+// Time of a drive in seconds: played back, or live.
 
 import { Player } from "../page/player";
 
-const kBehind = 1; // seconds that a live picture is behind the log, so that it need not wait for it
+const kBehind = 1; // seconds by which a live display is behind the log, so that it never waits for data
 const kTooFar = 3; // seconds
-const kSlowest = 0.25; // seconds a second: what came last is shown also if nothing comes after it
+const kSlowest = 0.25; // seconds per second: the end of the log is reached even if it no longer grows
 
 export class DrivePlayer extends Player {
   live: boolean;
@@ -26,7 +26,7 @@ export class DrivePlayer extends Player {
     this.time = Math.max(0, this.end - kBehind);
   }
 
-  // Of one that is live: it stands still.
+  // Pauses a live display.
   toggle(): void {
     if (this.live) this.live = false;
     else super.toggle();
@@ -42,7 +42,7 @@ export class DrivePlayer extends Player {
     super.step(by);
   }
 
-  // As fast as time itself, and a little faster or slower to stay near to what comes.
+  // At normal speed, slightly faster or slower to stay at a constant distance from the end of the log.
   advance(seconds: number): void {
     if (!this.live) return super.advance(seconds);
     const off = Math.max(0, this.end - kBehind) - this.time;

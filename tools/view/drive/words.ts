@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the page says what it shows.
+// Texts of the page.
 
 import type { TimeWords } from "../page/panels/controls";
 import { plural } from "../page/dom";
@@ -32,7 +32,7 @@ export function stateText(state: number): string {
   return kStateWords[kStates[state]];
 }
 
-// Whom a robot lets pass that has completed so many actions; empty: nobody.
+// Name of the robot that a robot waits for at a time; empty: none.
 export function waitText(app: DriveApp, agent: number, time: number): string {
   const wait = app.order.wait(agent, app.drive.actionsAt(agent, time));
   if (!wait || app.drive.actionsAt(wait.agent, time) > wait.action) return "";
@@ -46,7 +46,7 @@ export function doingText(app: DriveApp, agent: number, time: number): string {
   return signedText(state) + (whom === "" ? "" : ` for ${whom}`);
 }
 
-// With the sign that it has beside it: "✓ done".
+// With its sign: "✓ done".
 export function signedText(state: number): string {
   return `${markOf(state)} ${stateText(state)}`.trim();
 }
@@ -56,7 +56,7 @@ export function lateText(seconds: number): string {
   return seconds < 1 ? "" : `${clockText(seconds)} late`;
 }
 
-// The same in a sentence, which says late for what.
+// Sentence with the delay and the planned end of the action.
 export function lateSentence(app: DriveApp, agent: number, time: number): string {
   const late = lateText(lateness(app, agent, time));
   const all = app.order.actions(agent);
@@ -87,7 +87,7 @@ export function counts(app: DriveApp, time: number): Counts {
   return all;
 }
 
-// What is wrong with a log that is followed; empty: nothing.
+// Problem of a log that is followed; empty: none.
 export function troubleText(log: Log): string {
   if (log.leftOut === 0) return "";
   return log.isNoDrive ? `This is not the log of a drive of this plan: ${log.firstTrouble}`

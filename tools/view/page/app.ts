@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is shown: which plans, which moment, which robot. Panels read it, change it by its methods,
-// and are told when something other than time has changed.
+// State of the page: plans, moment, selected robot. Panels read it, change it by its methods, and
+// are notified when anything except time has changed.
 
 import { Checker, type Violation } from "./check";
 import { compare, type Comparison } from "./compare";
@@ -19,7 +19,7 @@ export interface Viewed {
 
 export class App {
   readonly player: Player;
-  readonly viewed: Viewed[]; // those with paths, each with its own facts; two at most
+  readonly viewed: Viewed[]; // plans with paths, each with its own facts; at most two
   chosen = -1; // a robot
   chosenTask = -1;
   following = false;
@@ -36,7 +36,7 @@ export class App {
     this.player = new Player(Math.max(0, ...this.viewed.map((v) => v.plan.end)));
   }
 
-  // Of two plans; null: there are no two.
+  // null unless there are two plans.
   get comparison(): Comparison | null {
     if (this.viewed.length < 2) return null;
     this.compared ??= compare(this.model, this.viewed[0], this.viewed[1]);
@@ -51,12 +51,12 @@ export class App {
     for (const listener of this.listeners) listener();
   }
 
-  // What takes longer than a frame, for about so long: what is wrong, then who waits for whom.
+  // Continues the computations that take longer than a frame, first violations, then waits.
   work(milliseconds: number): void {
     const task = this.viewed.find(({ checker }) => !checker.done)?.checker ??
       this.viewed.find(({ waits }) => !waits.done)?.waits;
     if (!task) return;
-    // Who waits for whom is painted (heat) and told.
+    // Waits are painted (heat) and listed.
     if (task.step(milliseconds)) this.changed();
   }
 
@@ -79,7 +79,7 @@ export class App {
     this.changed();
   }
 
-  // To something that happens: the moment, and the robot it happens to.
+  // Goes to the moment of an event and selects its robot.
   show(time: number, agent: number): void {
     this.player.playing = false;
     this.player.go(time);
@@ -97,7 +97,7 @@ function view(model: Model, plan: Plan): Viewed {
   return { plan, facts, checker: new Checker(model, plan), waits: new Waits(model, plan, facts) };
 }
 
-// The violations that concern a robot; all for none.
+// Returns the violations of a robot, or all violations if there is no robot.
 export function violationsOf(viewed: Viewed, agent: number): Violation[] {
   const all = viewed.checker.violations;
   return agent < 0 ? all : all.filter((violation) => violation.agents.includes(agent));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What part of the world is seen, and how large: world units to pixels and back.
+// The visible part of the world and its scale: converts world units to pixels and back.
 
 import type { Point } from "./model";
 
@@ -18,7 +18,7 @@ export class Camera {
     private readonly unit: number, // the length of a step
   ) {}
 
-  // The view has this size now; what was in the middle stays there.
+  // Sets the size of the view. The point in the middle stays there.
   resize(width: number, height: number): void {
     const fitted = this.scale <= this.leastScale * 1.001;
     this.width = Math.max(1, width);
@@ -30,7 +30,7 @@ export class Camera {
     else this.set(this.center, this.scale);
   }
 
-  // All of the world.
+  // Shows the whole world.
   fit(): void {
     this.set({ x: this.worldWidth / 2, y: this.worldHeight / 2 }, this.leastScale);
   }
@@ -53,13 +53,13 @@ export class Camera {
     };
   }
 
-  // By pixels.
+  // Moves the view by pixels.
   pan(dx: number, dy: number): void {
     const { center, scale } = this;
     this.set({ x: center.x - dx / scale, y: center.y - dy / scale }, scale);
   }
 
-  // What is under this point of the view stays under it.
+  // Zooms. The point of the world at this point of the view stays there.
   zoom(factor: number, x: number, y: number): void {
     const fixed = this.toWorld(x, y);
     const scale = Math.min(this.mostScale, Math.max(this.leastScale, this.scale * factor));
@@ -69,13 +69,13 @@ export class Camera {
     );
   }
 
-  // Puts a point into the middle, and comes near if it was far.
+  // Moves a point into the middle, and zooms in if the view is far away.
   show(x: number, y: number): void {
     this.set({ x, y }, Math.max(this.scale, Math.min(this.mostScale, kNear / this.unit)));
   }
 
-  // No further away from the world than its edge in the middle of the view; all of it where it has
-  // room.
+  // Keeps the edge of the world from passing the middle of the view. In a direction in which the whole world
+  // fits, the world is in the middle.
   private set(center: Point, scale: number): void {
     this.scale = scale;
     const keep = (value: number, size: number, view: number) =>

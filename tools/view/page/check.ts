@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What is wrong with a plan, by the contract (docs/design.md, sections 1 and 5) and from the page's
-// data alone: each robot by itself, then all of them through time on one map of who is where, then
-// what the file claims. The page believes no verdict but its own.
+// Violations of a plan, from the contract (docs/design.md, sections 1 and 5) and the page's data only:
+// first each robot by itself, then all robots over time, then the claims of the file. The page relies on
+// no other verdict.
 
 import { Crowd, type ReportCollision } from "./crowd";
 import { finish } from "./facts";
@@ -16,21 +16,21 @@ export interface Violation {
   time: number;
   kind: Kind;
   agents: number[];
-  place: number; // -1: no matter
+  place: number; // -1: none
   text: string;
 }
 
-const kMost = 1000; // violations; who has so many needs no more
-const kStepsAtOnce = 2048; // of one robot, before the page may do something else
+const kMost = 1000; // violations; further ones are not searched for
+const kStepsAtOnce = 2048; // steps of one robot between two checks of the time
 
-// All of them, in order of time.
+// Returns all violations in order of time.
 export function check(model: Model, plan: Plan): Violation[] {
   const checker = new Checker(model, plan);
   while (!checker.step(1000));
   return checker.violations;
 }
 
-// The same a few milliseconds at a time.
+// Searches for violations a few milliseconds at a time.
 export class Checker {
   readonly violations: Violation[] = [];
   done = false;
@@ -45,7 +45,7 @@ export class Checker {
     this.parts = this.checkAll();
   }
 
-  // Works for about so long; true when all is known.
+  // Works for about this time. Returns true when the check is complete.
   step(milliseconds: number): boolean {
     const until = performance.now() + milliseconds;
     while (!this.done) {
@@ -65,7 +65,7 @@ export class Checker {
     if (this.violations.length < kMost) this.violations.push({ time, kind, agents, place, text });
   }
 
-  // In small parts: it stops where other things may be done.
+  // A generator: it yields where the page may do other work.
   private *checkAll(): Generator<void> {
     for (let index = 0; index < this.plan.agents.length; ++index) {
       yield* this.checkAgent(index);
@@ -86,7 +86,7 @@ export class Checker {
     yield* check.run();
   }
 
-  // Who is where at each time; who exchanges places in the step before it.
+  // Finds robots on one place at a time, and robots that swap places in the step before it.
   private *checkMoments(): Generator<void> {
     const crowd = new Crowd(this.plan, this.model.world.places);
     const report: ReportCollision = (kind, time, a, b) =>
@@ -123,7 +123,7 @@ export class Checker {
   }
 }
 
-// What status, bound and omega deserve.
+// Checks the status against cost, bound and omega.
 function wrongClaim(plan: Plan, cost: number): string | null {
   const { status, lower_bound: bound, omega } = plan.claims;
   if (status === undefined || bound === undefined || omega === undefined) return null;
@@ -150,7 +150,7 @@ function accepts(omega: string, cost: number, bound: number): boolean {
 
 type Report = (kind: Kind, time: number, text: string, place: number) => void;
 
-// One robot, as if it were alone.
+// Checks one robot without the others.
 class AgentCheck {
   private steps = 0;
 
@@ -196,7 +196,7 @@ class AgentCheck {
       this.report("start", 0,
         `begins on ${this.name(at)}, not on its start ${this.name(start)}`, at);
     else if (this.plan.turns && !sameAngle(angle, startAngle))
-      this.report("start", 0, "does not look at the start where it should", at);
+      this.report("start", 0, "does not have its heading at the start", at);
     if (!this.model.world.free[at])
       this.report("jump", 0, `is on ${this.name(at)}, which is blocked`, at);
   }
@@ -221,7 +221,7 @@ class AgentCheck {
     for (let run = 0; run < turns.runs; ++run) {
       if (this.hasDoneEnough()) yield;
       if (turns.jumps[run])
-        this.report("turn", turns.times[run + 1], "turns in a way that is no step of a turn",
+        this.report("turn", turns.times[run + 1], "turns in a way that is not a step of a turn",
           this.place(turns.times[run]));
       if (turns.deltas[run] === 0) continue;
       for (let time = turns.times[run]; time < turns.times[run + 1]; ++time) {
@@ -234,7 +234,7 @@ class AgentCheck {
   private checkMove(time: number, from: number, to: number): void {
     const { world } = this.model;
     if (!world.mayMove(from, to)) {
-      const why = world.free[to] ? "which is no step" : "which is blocked";
+      const why = world.free[to] ? "which is not a possible step" : "which is blocked";
       this.report("jump", time + 1, `goes from ${this.name(from)} to ${this.name(to)}, ${why}`, to);
       return;
     }
@@ -251,7 +251,7 @@ class AgentCheck {
     return [-columns, 1, columns, -1][heading];
   }
 
-  // A turn once begun is completed.
+  // A turn must be completed once it has begun.
   private checkTurn(time: number, by: number): void {
     const { direction } = this.angle(time);
     if (direction !== 0 && direction !== by)
@@ -273,10 +273,10 @@ class AgentCheck {
       working !== null && w.task === working.task && w.begin === -working.done;
     if (working && !this.plan.work.some(goesOn))
       this.report("work", 0,
-        `does not go on with ${this.model.tasks[working.task].name}, at which it starts`, -1);
+        `does not continue ${this.model.tasks[working.task].name}, at which it starts`, -1);
   }
 
-  // In order of begin each piece need only be compared with the one that has lasted longest.
+  // In order of begin, each piece need only be compared with the one that ends last so far.
   private checkOverlaps(): void {
     let longest: WorkTime | null = null;
     for (const piece of [...this.plan.work].sort((a, b) => a.begin - b.begin || a.end - b.end)) {
@@ -294,7 +294,7 @@ class AgentCheck {
   private checkPiece(piece: WorkTime): void {
     const task = this.model.tasks[piece.task];
     if (!this.agent.tasks.includes(piece.task) || task.duration === 0) {
-      this.report("work", piece.begin, `works on ${task.name}, which is no work of its own`, -1);
+      this.report("work", piece.begin, `works on ${task.name}, which is not one of its tasks that take time`, -1);
       return;
     }
     if (piece.end - piece.begin !== task.duration)
@@ -314,7 +314,7 @@ class AgentCheck {
     this.checkStill(first, piece);
   }
 
-  // No step of any kind at work.
+  // A robot at work neither moves nor turns.
   private checkStill(first: number, piece: WorkTime): void {
     const { track, turns } = this.plan;
     const step = Math.min(nextChange(track, first), turns ? nextChange(turns, first) : Infinity);
@@ -331,7 +331,7 @@ class AgentCheck {
       this.report("end", end,
         `ends on ${this.name(at)}, not on its destination ${this.name(goal)}`, at);
     else if (goalAngle >= 0 && (angle.direction !== 0 || angle.steps !== goalAngle))
-      this.report("end", end, "does not look at the end where it should", at);
+      this.report("end", end, "does not have its heading at the end", at);
     if (goal < 0 && tasks.length > 0 && !tasks.some((task) => this.model.tasks[task].place === at))
       this.report("end", end, `ends on ${this.name(at)}, where it has no task`, at);
   }
@@ -347,7 +347,7 @@ class AgentCheck {
     }
   }
 
-  // The first time from `begin` on at which the task counts as visited.
+  // Returns the first time from `begin` on at which the task counts as visited.
   private visit(index: number, begin: number): number {
     const task = this.model.tasks[index];
     const { track, work } = this.plan;
@@ -361,7 +361,7 @@ class AgentCheck {
     if (!order) return;
     const sorted = (tasks: number[]) => [...tasks].sort((a, b) => a - b).join();
     if (sorted(order) !== sorted(this.agent.tasks)) {
-      this.report("order", 0, "does not have each of its tasks once in its order", -1);
+      this.report("order", 0, "does not have each of its tasks exactly once in its order", -1);
       return;
     }
     let now = 0;
@@ -376,7 +376,7 @@ class AgentCheck {
     this.checkLastOfOrder(order);
   }
 
-  // Without a destination it rests on the last one; with work the last may be elsewhere.
+  // Without a destination the robot rests on its last task. If tasks take time, the last one may be elsewhere.
   private checkLastOfOrder(order: number[]): void {
     const { goal, tasks } = this.agent;
     if (goal >= 0 || order.length === 0) return;
@@ -390,7 +390,7 @@ class AgentCheck {
   }
 }
 
-// The first time after `begin` at which place or angle are not what they were a step before.
+// Returns the first time after `begin` at which place or angle differ from those one step earlier.
 function nextChange(track: Track | TurnTrack, begin: number): number {
   for (let run = track.run(begin); run < track.runs; ++run)
     if (track.deltas[run] !== 0 || track.jumps[run]) return Math.max(begin, track.times[run]) + 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What differs between two plans for one instance, robot by robot.
+// Differences between two plans for one instance, robot by robot.
 
 import type { Viewed } from "./app";
 import { visitsOf } from "./facts";
@@ -9,13 +9,13 @@ import type { Track, TurnTrack } from "./track";
 export interface Difference {
   agent: number;
   costs: [number, number]; // NaN: there is no path
-  by: number; // the second cost less the first; NaN: one has no path
-  parts: number; // the first moment at which they are not the same; Infinity: there is none
-  orders: boolean; // the tasks are visited in another order
+  by: number; // second cost minus first cost; NaN: one plan has no path
+  parts: number; // the first moment at which the plans differ; Infinity: never
+  orders: boolean; // whether the tasks are visited in another order
 }
 
 export interface Comparison {
-  all: Difference[]; // of those that differ, by number
+  all: Difference[]; // of the robots that differ, by number
   costs: [number, number];
   by: number; // NaN: not every robot has a path in both
 }
@@ -39,7 +39,7 @@ export function compare(model: Model, one: Viewed, other: Viewed): Comparison {
   return { all, costs, by: complete ? costs[1] - costs[0] : NaN };
 }
 
-// The first moment at which place, heading or work are not the same; Infinity: they always are.
+// Returns the first moment at which place, heading or work differ; Infinity: never.
 export function partingTime(a: AgentPlan, b: AgentPlan): number {
   if (a.track.isEmpty || b.track.isEmpty) return a.track.isEmpty && b.track.isEmpty ? Infinity : 0;
   const turns = a.turns && b.turns ? parting(a.turns, b.turns, (t, at) => t.heading(at)) : Infinity;
@@ -47,7 +47,7 @@ export function partingTime(a: AgentPlan, b: AgentPlan): number {
   return Math.min(places, turns, partingOfWork(a, b));
 }
 
-// Within a run of equal steps nothing changes that did not change at its beginning.
+// Within a run of equal steps a difference begins only with the run.
 function parting<T extends Track | TurnTrack>(
   a: T, b: T, value: (track: T, time: number) => number,
 ): number {
@@ -64,7 +64,7 @@ function parting<T extends Track | TurnTrack>(
   }
 }
 
-// At rest it takes none.
+// A robot at rest takes no steps.
 function stepOf(track: Track | TurnTrack, run: number): number {
   return run < track.runs && !(track.jumps[run] && !track.deltas[run]) ? track.deltas[run] : 0;
 }

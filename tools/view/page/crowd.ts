@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All robots, moved through time together: where each is, and who is on a place. A step of a robot
-// is an addition; only where its run of equal steps ends its track is looked at.
+// Positions of all robots over time, and the robot on each place. A step of a robot is an addition; its
+// track is read only where a run of equal steps ends.
 
 import type { Plan } from "./model";
 
@@ -9,12 +9,12 @@ export type ReportCollision = (kind: "vertex" | "swap", time: number, a: number,
 const kNever = 0x7fffffff;
 
 export class Crowd {
-  readonly here: Int32Array; // by agent; -1: it has no path
-  readonly before: Int32Array; // a step ago
+  readonly here: Int32Array; // by agent; -1: no path
+  readonly before: Int32Array; // one step earlier
   private readonly delta: Int32Array;
-  private readonly until: Int32Array; // when the run ends that delta is of
-  private readonly runs: Int32Array; // the next one
-  private readonly occupant: Int32Array; // by place, valid where its stamp is that of a time
+  private readonly until: Int32Array; // end of the run of delta
+  private readonly runs: Int32Array; // the next run
+  private readonly occupant: Int32Array; // by place; valid if the stamp of the place is the current one
   private readonly stamp: Int32Array;
   private now = -1;
 
@@ -32,12 +32,12 @@ export class Crowd {
     this.stamp = new Int32Array(places).fill(-1);
   }
 
-  // To the next moment, 0 being the first.
+  // Goes to the next moment; the first call goes to 0.
   advance(report: ReportCollision): void {
     const time = ++this.now;
     const { here, before, occupant, stamp } = this;
     if (time > 0) this.move(time);
-    // Until this moment is stamped, occupants are those of the moment before.
+    // Until they are stamped for this moment, occupants are those of the moment before.
     for (let i = 0; i < here.length; ++i) {
       const to = here[i];
       if (to === before[i] || stamp[to] !== time - 1) continue;
@@ -49,7 +49,7 @@ export class Crowd {
       const place = here[i];
       if (place < 0) continue;
       if (stamp[place] === time) {
-        // Once for each encounter, however long it lasts.
+        // Once for each encounter, whatever its duration.
         const other = occupant[place];
         if (time === 0 || before[other] !== before[i]) report("vertex", time, other, i);
       }
@@ -58,7 +58,7 @@ export class Crowd {
     }
   }
 
-  // Who is on a place now; -1: nobody.
+  // Returns the robot on a place now; -1: none.
   on(place: number): number {
     return this.stamp[place] === this.now ? this.occupant[place] : -1;
   }

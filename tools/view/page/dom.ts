@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Elements, made without markup: whatever an id holds, it is text.
+// Creates elements without markup: an id is always text, whatever it contains.
 
 type Child = Node | string | null;
 type Attributes = Record<string, string | number | boolean | ((event: Event) => void)>;
 
-// Attributes that are functions listen to the event of that name ("click").
+// An attribute that is a function becomes a listener of the event of that name ("click").
 export function el<K extends keyof HTMLElementTagNameMap>(
   tag: K, attributes: Attributes = {}, ...children: Child[]
 ): HTMLElementTagNameMap[K] {
@@ -18,7 +18,7 @@ export function el<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-// A picture of 16 x 16 units from the outline of its shape, in the colour of the text around.
+// An icon of 16 x 16 units, given by its outline, in the colour of the surrounding text.
 export function icon(outline: string): SVGElement {
   const namespace = "http://www.w3.org/2000/svg";
   const svg = document.createElementNS(namespace, "svg");
@@ -35,7 +35,7 @@ export function plural(count: number, one: string): string {
   return `${count.toLocaleString("en")} ${one}${count === 1 ? "" : "s"}`;
 }
 
-// Text that changes often: the document is touched only when it does.
+// For text that changes often: updates the document only if the text differs.
 export function setText(element: HTMLElement, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What happens in a plan, as a list to jump to: what is wrong, long waits and for whom, tasks done,
-// robots that come to rest.
+// Events of a plan, as a list to jump to: problems, long waits and their causes, completed tasks, robots
+// that come to rest.
 
 import type { App, Viewed } from "./app";
 import { plural } from "./dom";
@@ -16,10 +16,10 @@ export interface PlanEvent {
   agents: number[];
 }
 
-const kLongWait = 3; // steps; shorter ones are told of the robot chosen
+const kLongWait = 3; // steps; shorter waits are listed only for the selected robot
 const kMostNames = 3;
 
-// In order of time, what is wrong first.
+// In order of time, problems first.
 export function eventsOf(app: App): PlanEvent[] {
   const [first, second] = app.viewed.map((viewed) => eventsOfPlan(app.model, viewed));
   const all = second ? merged(app, first, second) : first ?? [];
@@ -27,7 +27,7 @@ export function eventsOf(app: App): PlanEvent[] {
   return all.sort((a, b) => rank(a) - rank(b) || a.time - b.time);
 }
 
-// What happens in both plans is told once; else, in which.
+// An event of both plans is listed once; other events name their plan.
 function merged(app: App, first: PlanEvent[], second: PlanEvent[]): PlanEvent[] {
   const key = ({ kind, text, time }: PlanEvent) => `${kind} ${time} ${text}`;
   const lists = [first, second];
@@ -61,7 +61,7 @@ function eventsOfPlan(model: Model, { checker, facts, plan, waits }: Viewed): Pl
 export function waitText(model: Model, wait: Wait): string {
   const steps = plural(wait.end - wait.begin, "step");
   const names = wait.for.slice(0, kMostNames).map((other) => model.agents[other].name);
-  if (names.length === 0) return `${steps}, though it meets nobody if it goes on`;
+  if (names.length === 0) return `${steps}, although no robot is in its way`;
   if (wait.for.length > kMostNames) return `${steps} for ${names.join(", ")} and others to pass`;
   const last = names.pop()!;
   return `${steps} for ${names.length > 0 ? `${names.join(", ")} and ${last}` : last} to pass`;

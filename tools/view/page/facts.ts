@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one wants to know of a plan, worked out from its paths: who does what when, and which visits
-// are made by when.
+// Facts computed from the paths of a plan: actions of robots, and visits of tasks, with their times.
 
 import type { Agent, AgentPlan, Model, Plan } from "./model";
 
@@ -15,10 +14,10 @@ export interface Span {
   doing: Doing;
   begin: number;
   end: number; // Infinity: for ever
-  task: number; // at work: on which; else -1
+  task: number; // the task worked on; -1: not at work
 }
 
-// When the agent comes to rest: after its last step and its last work.
+// Returns the time at which the agent comes to rest: after its last step and its last work.
 export function finish(plan: AgentPlan): number {
   let time = lastChange(plan);
   for (const work of plan.work) time = Math.max(time, work.end);
@@ -39,7 +38,7 @@ function lastChange(plan: AgentPlan): number {
   return last;
 }
 
-// What an agent does from 0 on, span after span; the last one is rest, for ever.
+// Returns the actions of an agent from 0 on, as consecutive spans. The last one is rest for ever.
 export function spans(plan: AgentPlan): Span[] {
   const all: Span[] = [];
   const add = (doing: Doing, begin: number, end: number, task = -1) => {
@@ -53,7 +52,7 @@ export function spans(plan: AgentPlan): Span[] {
   const moves = movingTimes(plan);
   let time = 0;
   let move = 0;
-  // Steps that move, and waits between them, up to `end`.
+  // Adds moves and the waits between them up to `end`.
   const walk = (end: number) => {
     while (time < end) {
       while (move < moves.length && moves[move][1] <= time) ++move;
@@ -80,7 +79,7 @@ export function spans(plan: AgentPlan): Span[] {
   return all;
 }
 
-// Pieces of time in which the agent moves or turns, in order.
+// Returns the periods in which the agent moves or turns, in order.
 function movingTimes(plan: AgentPlan): [number, number][] {
   const pieces: [number, number][] = [];
   const { track, turns } = plan;
@@ -100,8 +99,8 @@ function movingTimes(plan: AgentPlan): [number, number][] {
   return merged;
 }
 
-// When the agent has visited a task: the end of its work, or the first time on the place. Infinity:
-// never.
+// Returns when the agent has visited a task: the end of its work, or the first time on the place;
+// Infinity: never.
 export function visitTime(model: Model, plan: AgentPlan, task: number): number {
   const { place, duration } = model.tasks[task];
   if (duration > 0) {
@@ -114,7 +113,7 @@ export function visitTime(model: Model, plan: AgentPlan, task: number): number {
 export interface TaskFacts {
   agents: number[]; // in the order of their visits
   times: number[]; // of the visits, ascending; Infinity: never
-  begin: number; // when the first of them is there, or begins to work; Infinity: never
+  begin: number; // when the first agent is there or begins to work; Infinity: never
 }
 
 export interface PlanFacts {
@@ -142,7 +141,7 @@ export function planFacts(model: Model, plan: Plan): PlanFacts {
   };
 }
 
-// How many of the task's agents have been there by `time`.
+// Returns the number of the task's agents that have visited it by `time`.
 export function visitsBy(facts: TaskFacts, time: number): number {
   let count = 0;
   while (count < facts.times.length && facts.times[count] <= time) ++count;
@@ -151,11 +150,11 @@ export function visitsBy(facts: TaskFacts, time: number): number {
 
 export interface Visit {
   task: number;
-  begin: number; // at work from then on; where there is no work, the moment it passes
+  begin: number; // begin of the work; without work, the time of the visit
   time: number; // when the task is visited; Infinity: never
 }
 
-// The agent's visits in their order.
+// Returns the agent's visits in their order.
 export function visitsOf(model: Model, plan: AgentPlan, agent: Agent): Visit[] {
   return agent.tasks
     .map((task) => {

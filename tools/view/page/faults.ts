@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which robots are red at a moment for what they do alone: a step that is none, work elsewhere, an
-// end on the wrong place. (Who meets whom, the frame sees by itself and at once.)
+// Robots that are red at a moment because of their own path: an impossible step, work at the wrong
+// place, an end on the wrong place. (The frame detects collisions itself.)
 
 import type { Kind, Violation } from "./check";
 
@@ -8,7 +8,7 @@ const kOfAMoment: Kind[] = ["start", "jump", "turn", "work"];
 const kForEver: Kind[] = ["end", "visit"]; // from their moment on
 
 export class Faults {
-  private known = -1; // violations; more are found while the page is looked at
+  private known = -1; // violations used so far; the check may find more
   private readonly moments = new Map<number, number[]>(); // robots by the end of their step
   private readonly since: Float64Array; // by robot
 
@@ -16,7 +16,7 @@ export class Faults {
     this.since = new Float64Array(robots).fill(Infinity);
   }
 
-  // A step is at fault from its beginning to its end.
+  // A faulty step is marked from its beginning to its end.
   mark(violations: Violation[], time: number, red: Uint8Array): void {
     if (violations.length !== this.known) this.learn(violations);
     if (this.known === 0) return;

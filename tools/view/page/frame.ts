@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Everything that moves, at a moment: where each robot is, which way it looks, what it does, and
-// whether it collides or does what it may not. O(robots), whatever the length of the plan.
+// All robots at one moment: position, heading, activity, and whether it collides or violates a rule.
+// O(robots), independent of the length of the plan.
 
 import type { Violation } from "./check";
 import { Doing, type PlanFacts } from "./facts";
@@ -15,18 +15,18 @@ export class Frame implements RobotsNow {
   readonly ys: Float32Array;
   readonly angles: Float32Array; // clockwise from up, in radians; NaN: turns freely
   readonly doing: Uint8Array;
-  readonly colliding: Uint8Array; // or else at fault
+  readonly colliding: Uint8Array; // or with another fault
   readonly missing: Uint8Array; // no path: not drawn
 
-  private readonly runs: Int32Array; // by agent: where it was last
+  private readonly runs: Int32Array; // by agent: the run of its track used last
   private readonly spanAt: Int32Array;
-  private readonly before: Int32Array; // places a step ago, at the step, and after it
+  private readonly before: Int32Array; // places one step earlier, at the step, and after it
   private readonly here: Int32Array;
   private readonly next: Int32Array;
   private readonly occupant: Int32Array; // by place
   private readonly stamp: Int32Array;
   private stamps = 0;
-  private step = -1; // of which here and next are
+  private step = -1; // the step of `here` and `next`
   private readonly faults: Faults;
 
   constructor(
@@ -100,9 +100,9 @@ export class Frame implements RobotsNow {
     return spans[at].doing;
   }
 
-  // On one place at this step, or, on the way to the next one, exchanging places or coming to one
-  // place: so a collision is seen coming and stays until it is over. Who steps from moment to
-  // moment sees an exchange at its end.
+  // Marks robots on one place at this step, and robots that on the way to the next step swap places or
+  // come to one place. So a collision is visible from its beginning to its end. At whole steps, a swap
+  // is marked at its end.
   private findCollisions(part: number): void {
     this.colliding.fill(0);
     this.meet(this.here);

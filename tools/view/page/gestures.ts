@@ -4,11 +4,11 @@
 import type { Camera } from "./camera";
 
 export interface Hand {
-  moved(): void; // the camera did
+  moved(): void; // the camera has moved
   clicked(x: number, y: number): void; // in pixels of the view
 }
 
-const kClickSlack = 4; // pixels that a finger may slip
+const kClickSlack = 4; // pixels by which a click may move
 
 export function listen(view: HTMLElement, camera: Camera, hand: Hand): void {
   const fingers = new Map<number, { x: number; y: number }>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where it is crowded: for each place 0 .. 1, the most being 1.
+// Heat of each place, from 0 to 1, relative to the maximum.
 
 import type { Viewed } from "./app";
 import { Doing } from "./facts";
@@ -30,7 +30,7 @@ function addWaits(heat: Float32Array, { plan, facts }: Viewed): void {
   });
 }
 
-// Conflicts avoided: where those who waited would have met somebody.
+// Conflicts avoided: places where waiting robots would have met others.
 function addYields(heat: Float32Array, { waits }: Viewed): void {
   for (const wait of waits.all) if (wait.meets >= 0) ++heat[wait.meets];
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads JSON strictly: whatever is not as expected is an error that says where it is.
+// Reads JSON strictly: anything unexpected is an error with its position.
 
 export class Value {
   constructor(
@@ -23,7 +23,7 @@ export class Value {
     return typeof this.value === "number" && Number.isFinite(this.value);
   }
 
-  // Of an object: its keys.
+  // The keys of an object.
   names(): string[] {
     const object = this.value;
     if (typeof object !== "object" || object === null || Array.isArray(object))
@@ -40,7 +40,7 @@ export class Value {
     return new Value(value, this.path === "" ? name : `${this.path}.${name}`);
   }
 
-  // Nothing but these: a key that means nothing here may mean that something else is missing.
+  // Permits only these keys: an unknown key may mean that something else is missing.
   only(...names: string[]): void {
     for (const name of Object.keys(this.value as object))
       if (!names.includes(name)) this.fail(`no '${name.slice(0, 40)}', but ${names.join(", ")}`);
@@ -63,7 +63,7 @@ export class Value {
     return this.value as number;
   }
 
-  // least <= it < bound
+  // An integer with least <= value < bound.
   integer(least: number, bound: number): number {
     const value = this.value;
     if (typeof value !== "number" || !Number.isSafeInteger(value) ||
@@ -72,7 +72,7 @@ export class Value {
     return value as number;
   }
 
-  // A list of them, however long: without a Value for each.
+  // A list of integers, without a Value for each of them.
   safeIntegers(length = -1): number[] {
     if (!Array.isArray(this.value) || !this.value.every(Number.isSafeInteger))
       this.fail("a list of whole numbers");
@@ -81,14 +81,14 @@ export class Value {
     return all;
   }
 
-  // However large: beyond 2^53 it is near to what the file says, which nothing true can be.
+  // Any size: a value beyond 2^53 is rounded, but no correct value is so large.
   wholeNumber(): number {
     const value = this.value;
     if (typeof value !== "number" || !Number.isInteger(value)) this.fail("a whole number");
     return value as number;
   }
 
-  // What `read` makes of it; its own errors get this place.
+  // Returns the result of `read`; its errors get this position.
   as<T>(read: (text: string) => T): T {
     try {
       return read(this.text());

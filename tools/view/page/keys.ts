@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The keyboard alone is enough.
+// Keyboard control of the whole page.
 
 import type { Camera } from "./camera";
 import type { Help } from "./panels/help";

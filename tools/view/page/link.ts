@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A link names a moment and a robot or a task: #t=37&agent=a4. A moment that goes on by itself, as
-// that of a live drive does, is left out.
+// A link names a moment and a robot or a task: #t=37&agent=a4. It omits a moment that advances by
+// itself, as in a live drive.
 
 import type { Player } from "./player";
 import type { Choice } from "./stage";
@@ -27,8 +27,8 @@ export function linkOf(app: Linked): string {
   return "#" + parameters.toString();
 }
 
-// Takes what the address names, now and when it changes, and keeps the address as what is shown: not
-// every frame of what is played.
+// Applies the address, now and when it changes, and updates it to the current state, but not in every
+// frame while the plan plays.
 export function linkPage(app: Linked & { onChange(listener: () => void): void }): void {
   let timer = 0;
   app.onChange(() => {

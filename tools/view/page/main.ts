@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Puts the page together, and keeps it going.
+// Builds the page and runs its loop.
 
 import { App } from "./app";
 import { kDark, kLight } from "./colors";
@@ -17,16 +17,16 @@ import { instanceScene, planScene } from "./plan_scene";
 import { readModel } from "./read";
 import { Stage } from "./stage";
 
-const kWorkBudget = 6; // milliseconds of a frame, while it plays
-const kLong = 300_000; // characters of data that are not read at once
+const kWorkBudget = 6; // milliseconds per frame while the plan plays
+const kLong = 300_000; // characters of data from which on "Reading the plan" is shown first
 
 function begin(): void {
   const data = document.getElementById("grove-data")?.textContent ?? null;
-  if (data === null) fail("this page holds no data");
+  if (data === null) fail("this page contains no data");
   else if (data.length < kLong) start(data);
   else {
     say("Reading the plan …", document.title, "failure reading");
-    // Once that is seen.
+    // After the message has been painted.
     requestAnimationFrame(() => setTimeout(() => start(data)));
   }
 }
@@ -102,11 +102,11 @@ function run(app: App): void {
     requestAnimationFrame(tick);
   };
   requestAnimationFrame(tick);
-  // For whoever asks (tests do): what is shown, and the page's own time in each frame.
+  // For tests: the state, and the page's own time in each frame.
   Object.assign(window, { grove: { app, stages, frames } });
 }
 
-// Two plans are looked at from one place.
+// Two plans share the position of the camera.
 function joinCameras(stages: Stage[]): void {
   stages.forEach((stage, i) => {
     stage.onCamera = () => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All of the world, small, while only a part of it is seen; and which part that is.
+// A small map of the whole world with the visible part, shown while only a part is visible.
 
 import { Camera } from "./camera";
 import type { Colors } from "./colors";
@@ -9,7 +9,7 @@ import { CanvasRobots } from "./robots_canvas";
 import type { RobotsNow } from "./robots_now";
 import { Scenery, type Shown } from "./scenery";
 
-const kLonger = 140; // pixels, the longer side
+const kLonger = 140; // pixels of the longer side
 const kLeastRobot = 0.6; // pixels, its radius
 
 export class Minimap {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the page knows: the world, who moves in it, and plans. Places are numbers (README.md); time
-// is in steps; angles are in steps of a turn, clockwise from north.
+// Data of the page: the world, robots, tasks and plans. Places are numbers (README.md); time is in
+// steps; angles are in steps of a turn, clockwise from north.
 
 export interface Point {
   x: number;
@@ -15,14 +15,14 @@ export interface Road {
   first: number; // its first inner place; it has steps - 1
 }
 
-// Where everything is, in the world's own units: cells on a grid (y down), metres on a roadmap (y
-// up in the file, down here).
+// Positions in the world's own units: cells on a grid (y down), metres on a roadmap (y up in the file,
+// down here).
 export interface World {
   kind: "grid" | "roadmap";
   places: number;
   width: number; // extent of the drawing: x and y go from 0 to this
   height: number;
-  unit: number; // the length of a step: how large a robot is drawn
+  unit: number; // the length of a step; robots are drawn relative to it
   xs: Float64Array; // by place
   ys: Float64Array;
   free: Uint8Array; // by place
@@ -30,18 +30,18 @@ export interface World {
   roads: Road[];
   vertexNames: string[];
   mayMove(from: number, to: number): boolean; // in one step
-  place(place: number): string; // for people
-  drawn(x: number, y: number): Point; // of cells (centres are whole), or metres of the file
+  place(place: number): string; // name of a place
+  drawn(x: number, y: number): Point; // position of cells (centres are integers) or of metres of the file
 }
 
 export interface Agent {
   id: string;
-  name: string; // the id as it is shown
+  name: string; // the id as displayed
   start: number;
   goal: number; // -1: none
   turnSteps: number; // 0: turns freely
   startAngle: Angle;
-  goalAngle: number; // -1: no matter
+  goalAngle: number; // -1: any
   working: { task: number; done: number } | null;
   tasks: number[];
 }
@@ -84,7 +84,7 @@ export interface Claims {
 export interface Plan {
   name: string;
   claims: Claims;
-  agents: AgentPlan[]; // none: there is no plan
+  agents: AgentPlan[]; // empty: no plan
   end: number; // the last time at which anything changes
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The path of the robot chosen: all of it pale, what lies ahead strong, its visits numbered in
-// their order; and, dashed, its path in the other plan.
+// The path of the selected robot: the whole path pale, the part ahead strong, visits numbered in their
+// order; and, dashed, its path in the other plan.
 
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
@@ -58,7 +58,7 @@ export class Paths {
     if (world.unit * camera.scale >= kLeastNumbered) this.paintOrders(c, camera, orders, colors);
   }
 
-  // Below and to the left of what is visited: there is nothing else.
+  // Below and to the left of the place, where nothing else is drawn.
   private paintOrders(
     c: CanvasRenderingContext2D, camera: Camera, orders: Map<number, string>, colors: Colors,
   ): void {
@@ -94,7 +94,7 @@ export class Paths {
   }
 }
 
-// Each step once, however often it is taken.
+// Each step once, even if it is taken several times.
 function outline(track: Track, world: World): Path2D {
   const path = new Path2D();
   const taken = new Set<number>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A plan to look at, or an instance without one.
+// Scene of a plan, or of an instance without a plan.
 
 import type { App, Viewed } from "./app";
 import { planFacts } from "./facts";

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Time: which moment is shown, and how it goes on.
+// The moment shown, and playing.
 
-export const kSpeeds = [0.25, 0.5, 1, 2, 4, 8, 16, 32, 64]; // steps (of a drive: seconds) a second
+export const kSpeeds = [0.25, 0.5, 1, 2, 4, 8, 16, 32, 64]; // steps (for a drive: seconds) per second
 
 export class Player {
-  time = 0; // in steps; between two of them while it plays
+  time = 0; // in steps; not whole while it plays
   playing = false;
   loop = false;
   speed = 4;
 
   constructor(public end: number) {}
 
-  // Does time go on by itself?
+  // Whether time advances by itself.
   get running(): boolean {
     return this.playing;
   }
@@ -21,12 +21,12 @@ export class Player {
     this.playing = !this.playing && this.end > 0;
   }
 
-  // To a moment; playing goes on from there.
+  // Goes to a moment; playing continues from there.
   go(time: number): void {
     this.time = Math.min(this.end, Math.max(0, time));
   }
 
-  // By whole steps, from a standstill.
+  // Pauses, and moves by whole steps.
   step(by: number): void {
     this.playing = false;
     const from = by > 0 ? Math.floor(this.time) : Math.ceil(this.time);
@@ -38,7 +38,7 @@ export class Player {
     this.speed = kSpeeds[Math.min(kSpeeds.length - 1, Math.max(0, at + by))];
   }
 
-  // So many seconds have gone by. Long ones are those of a page that was not looked at.
+  // Advances by the elapsed seconds. Long gaps are those of a page that was hidden.
   advance(seconds: number): void {
     if (!this.playing) return;
     this.time += Math.min(seconds, 0.25) * this.speed;

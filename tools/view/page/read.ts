@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page's data (README.md), read strictly: ids are text, everything else must be as expected.
+// Strict reader of the page's data (README.md). Ids are text; anything unexpected is an error.
 
 import { parse, type Value } from "./json";
 import type { Agent, AgentPlan, Claims, Model, Plan, Task, World } from "./model";

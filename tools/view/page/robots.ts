@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Whoever paints robots, and what is painted over them: their ids, a ring around the one chosen,
-// and a dashed one where that robot is in the other plan.
+// Interface of robot painters, and the labels over robots: ids, a ring around the selected robot, and a
+// dashed ring where this robot is in the other plan.
 
+import { shapes } from "../palette.json";
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
 import { Doing } from "./facts";
@@ -11,20 +12,18 @@ import type { RobotsNow } from "./robots_now";
 import { isOutside, type Shown } from "./scenery";
 import { outlined } from "./text";
 
-export const kRadius = 0.34; // of a robot, in steps
-const kLeastLabeled = 22; // pixels of a step from which on robots have their ids on them
-const kMostTags = 40; // robots in sight that have their ids beside them
+const kLeastLabeled = 22; // pixels per step from which on robots have their ids on them
 const kLongestLabel = 6;
 const kLongestTag = 14;
 
-// Paints all robots of a frame on a canvas of its own, which lies over the scenery.
+// Paints all robots of a frame on a separate canvas over the scenery.
 export interface RobotPainter {
   paint(camera: Camera, frame: RobotsNow, colors: Colors, ratio: number): void;
 }
 
 export class Labels {
   private isClear = true;
-  private readonly ids: string[]; // short
+  private readonly ids: string[]; // shortened
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -44,15 +43,15 @@ export class Labels {
     c.clearRect(0, 0, this.canvas.width, this.canvas.height);
     this.isClear = nothing;
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
-    const radius = Math.max(1.5, kRadius * step);
+    const radius = Math.max(1.5, shapes.robotRadius * step);
     if (step >= kLeastLabeled) this.paintIds(c, camera, frame, seen, step, radius, colors);
     else for (const robot of seen) this.paintTag(c, camera, frame, robot, radius, colors);
     if (shown.chosen >= 0) this.paintChosen(c, camera, frame, shown.chosen, step, colors);
   }
 
-  // Those that have their ids: none if there are too many for so little room.
+  // Returns the robots that get ids: none if there are too many for the space.
   private inSight(camera: Camera, frame: RobotsNow, step: number): number[] {
-    const most = step >= kLeastLabeled ? Infinity : kMostTags;
+    const most = step >= kLeastLabeled ? Infinity : shapes.maxTags;
     const seen: number[] = [];
     for (let i = 0; i < frame.count; ++i) {
       if (frame.missing[i]) continue;
@@ -99,7 +98,7 @@ export class Labels {
     c: CanvasRenderingContext2D, camera: Camera, frame: RobotsNow, robot: number, step: number,
     colors: Colors,
   ): void {
-    const radius = Math.max(7, Math.max(1.5, kRadius * step) + 3);
+    const radius = Math.max(7, Math.max(1.5, shapes.robotRadius * step) + 3);
     const elsewhere = this.elsewhere(robot, frame.time);
     if (elsewhere)
       paintRing(c, camera.toView(elsewhere.x, elsewhere.y), radius, colors.text, [4, 3]);
@@ -110,7 +109,7 @@ export class Labels {
   }
 }
 
-// On the robot's edge, away from its id.
+// Paints a sign on the robot's edge, away from its id.
 function paintMark(
   c: CanvasRenderingContext2D, at: Point, mark: string, radius: number, colors: Colors,
 ): void {

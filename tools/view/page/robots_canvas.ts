@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Robots on a 2D canvas: for browsers without WebGL, and for small pictures.
 
+import { shapes } from "../palette.json";
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
 import { Doing } from "./facts";
 import type { World } from "./model";
-import { kRadius, type RobotPainter } from "./robots";
+import type { RobotPainter } from "./robots";
 import type { RobotsNow } from "./robots_now";
 import { isOutside } from "./scenery";
 
@@ -22,8 +23,8 @@ export class CanvasRobots implements RobotPainter {
     c.clearRect(0, 0, this.canvas.width, this.canvas.height);
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
     const step = this.world.unit * camera.scale;
-    const radius = Math.max(this.least, kRadius * step);
-    // A path for all that do the same: a fill for each robot would take far longer.
+    const radius = Math.max(this.least, shapes.robotRadius * step);
+    // One path for all robots with the same activity: a fill for each robot would take far longer.
     for (let doing = Doing.kMoving; doing <= Doing.kResting; ++doing) {
       c.fillStyle = colors.doing[doing];
       c.beginPath();
@@ -54,7 +55,7 @@ function addRobot(c: CanvasRenderingContext2D, x: number, y: number, radius: num
   }
 }
 
-// Larger than a robot, and of another shape: red is not seen by everybody.
+// Larger than a robot and of another shape, because not all people see red.
 function paintCollision(
   c: CanvasRenderingContext2D, x: number, y: number, radius: number, colors: Colors,
 ): void {
@@ -74,12 +75,14 @@ function paintHeading(
   c: CanvasRenderingContext2D, x: number, y: number, radius: number, angle: number, colors: Colors,
 ): void {
   const [dx, dy] = [Math.sin(angle), -Math.cos(angle)];
-  const tip = 1.25 * radius;
+  const tip = shapes.headingTip * radius;
+  const base = shapes.headingBase;
+  const half = shapes.headingTip - shapes.headingBase;
   c.fillStyle = colors.heading;
   c.beginPath();
   c.moveTo(x + dx * tip, y + dy * tip);
-  c.lineTo(x + dx * 0.75 * radius - dy * 0.5 * radius, y + dy * 0.75 * radius + dx * 0.5 * radius);
-  c.lineTo(x + dx * 0.75 * radius + dy * 0.5 * radius, y + dy * 0.75 * radius - dx * 0.5 * radius);
+  c.lineTo(x + dx * base * radius - dy * half * radius, y + dy * base * radius + dx * half * radius);
+  c.lineTo(x + dx * base * radius + dy * half * radius, y + dy * base * radius - dx * half * radius);
   c.closePath();
   c.fill();
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Robots by a 2D canvas, which is everywhere; by WebGL where that takes too long and there is a
-// graphics card. WebGL is asked for then and not before: where it is mere software, browsers
-// complain of the question.
+// Paints robots on a 2D canvas, which is always available, or by WebGL if the canvas takes too long and
+// there is a graphics card. WebGL is requested only then, because browsers report a warning where it is
+// emulated in software.
 
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
@@ -11,8 +11,8 @@ import { CanvasRobots } from "./robots_canvas";
 import { GlRobots } from "./robots_gl";
 import type { RobotsNow } from "./robots_now";
 
-const kSlow = 6; // milliseconds of a frame
-const kFrames = 30; // that are slow, on the mean, before anything is changed
+const kSlow = 6; // milliseconds per frame
+const kFrames = 30; // frames over which the mean is taken
 
 export class EitherRobots implements RobotPainter {
   private painter: RobotPainter;
@@ -20,7 +20,7 @@ export class EitherRobots implements RobotPainter {
   private frames = 0;
   private spent = 0;
 
-  // Of the two canvases one stays empty: a canvas is for one of both.
+  // One of the two canvases stays empty: a canvas has only one kind of context.
   constructor(
     private readonly plain: HTMLCanvasElement,
     private readonly fast: HTMLCanvasElement,

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Robots by WebGL: one quad, as many instances as robots; shapes and colours in the shader. What a
-// frame sends to the graphics card is four numbers for each robot.
+// Robots by WebGL: one instance of a quad for each robot; shapes and colours are in the shader. A frame
+// sends four numbers per robot to the graphics card.
 
+import { shapes } from "../palette.json";
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
 import type { World } from "./model";
-import { kRadius, type RobotPainter } from "./robots";
+import type { RobotPainter } from "./robots";
 import type { RobotsNow } from "./robots_now";
 
 const kNumbers = 4; // for each robot: x, y, angle, what it does (4: collides; +8: it turns)
@@ -38,12 +39,14 @@ precision highp float;
 uniform float radius;
 uniform vec3 colors[5];
 uniform vec3 headingColor;
+const float headingBase = float(${shapes.headingBase});
+const float headingTip = float(${shapes.headingTip});
 in vec2 at;
 flat in vec2 ahead;
 flat in int doing;
 flat in int turns;
 out vec4 color;
-// How much of this pixel lies within distance 0 of a shape.
+// Fraction of this pixel that a shape covers.
 float cover(float distance) { return clamp(0.5 - distance * radius, 0.0, 1.0); }
 void main() {
   float away = length(at);
@@ -54,7 +57,7 @@ void main() {
   if (turns == 1 && radius > 3.0) {
     float along = dot(at, ahead);
     float across = abs(dot(at, vec2(-ahead.y, ahead.x)));
-    float wedge = cover(max(0.75 - along, across - (1.25 - along)));
+    float wedge = cover(max(headingBase - along, across - (headingTip - along)));
     paint = mix(paint, headingColor, wedge);
     alpha = max(alpha, wedge);
   }
@@ -82,14 +85,14 @@ export class GlRobots implements RobotPainter {
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
 
-  // Null where there is no WebGL.
+  // Returns null if there is no WebGL.
   static on(canvas: HTMLCanvasElement, world: World, count: number): GlRobots | null {
     const gl = canvas.getContext("webgl2");
     return gl ? new GlRobots(gl, world, count) : null;
   }
 
-  // Is there a graphics card? WebGL by the processor is slower than a 2D canvas. (A canvas that was
-  // asked for WebGL is none for 2D any more; so another one is asked.)
+  // Whether there is a graphics card. WebGL in software is slower than a 2D canvas. (After a request for
+  // WebGL a canvas cannot be used for 2D, so this uses another canvas.)
   static isFast(): boolean {
     const gl = document.createElement("canvas").getContext("webgl2", {
       failIfMajorPerformanceCaveat: true,
@@ -112,13 +115,13 @@ export class GlRobots implements RobotPainter {
     gl.uniform2f(uniforms.center, camera.center.x, camera.center.y);
     gl.uniform2f(uniforms.halfView, (camera.width * ratio) / 2, (camera.height * ratio) / 2);
     gl.uniform1f(uniforms.scale, scale);
-    gl.uniform1f(uniforms.radius, Math.max(1.5 * ratio, kRadius * this.world.unit * scale));
+    gl.uniform1f(uniforms.radius, Math.max(1.5 * ratio, shapes.robotRadius * this.world.unit * scale));
     gl.uniform3fv(uniforms.colors, [...colors.doing, colors.collision].flatMap(rgb));
     gl.uniform3fv(uniforms.headingColor, rgb(colors.heading));
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
   }
 
-  // Those that collide come last, so that they are seen. How many there are.
+  // Colliding robots come last, so that they are visible. Returns the number of robots.
   private gather(frame: RobotsNow): number {
     let at = 0;
     for (let pass = 0; pass < 2; ++pass)

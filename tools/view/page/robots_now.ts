@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All robots at a moment, as those who paint them see it: of a plan (frame.ts), or of a drive.
+// All robots at one moment, as painters need them: of a plan (frame.ts) or of a drive.
 
 export interface RobotsNow {
   readonly time: number;
@@ -8,13 +8,13 @@ export interface RobotsNow {
   readonly ys: Float32Array;
   readonly angles: Float32Array; // clockwise from up, in radians; NaN: turns freely
   readonly doing: Uint8Array; // of facts.ts
-  readonly colliding: Uint8Array; // or else something is wrong with it
+  readonly colliding: Uint8Array; // or with another problem
   readonly missing: Uint8Array; // not drawn
-  mark(robot: number): string; // a sign beside it, of what it does; empty: none
+  mark(robot: number): string; // sign of its state, drawn beside it; empty: none
   update(time: number): void;
 }
 
-// The robot nearest to a point of the world, closer than `reach`; -1: none.
+// Returns the robot nearest to a point of the world within `reach`; -1: none.
 export function nearest(robots: RobotsNow, x: number, y: number, reach: number): number {
   let best = -1;
   let least = reach;

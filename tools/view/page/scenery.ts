@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Paints all that stands still for a while on a 2D canvas: the world (once for each view), heat,
-// destinations, tasks, names of vertices, and the path of the robot chosen.
+// Paints objects that rarely move on a 2D canvas: the world (once for each view), heat, destinations,
+// tasks, names of vertices, and the path of the selected robot.
 
+import { shapes } from "../palette.json";
 import type { Camera } from "./camera";
 import type { Colors } from "./colors";
 import { visitsBy, type TaskFacts } from "./facts";
 import type { Model, World } from "./model";
 import { labelsOf } from "./names";
-import { kTaskRadius, paintTasks } from "./tasks_canvas";
+import { paintTasks } from "./tasks_canvas";
 import { outlined } from "./text";
 
-const kGoalRadius = 0.4; // of a destination's square, in steps
-const kLeastOwned = 34; // pixels of a step from which on destinations say whose they are
+const kLeastOwned = 34; // pixels per step from which on destinations show the ids of their robots
 const kLongestOwner = 9;
-const kRoomOfName = 5000; // square pixels, on the mean, if vertices are to have their names
 
 export interface PathPainter {
   paint(
@@ -69,7 +68,7 @@ export class Scenery {
     if (shown.paths && shown.chosen >= 0) shown.paths.paint(c, camera, shown.chosen, time, colors);
   }
 
-  // The world does not change while the camera stands still.
+  // Painted again only if the camera has moved.
   private paintGround(
     camera: Camera, colors: Colors, ratio: number, width: number, height: number,
   ): void {
@@ -130,7 +129,7 @@ export class Scenery {
       if (isOutside(p.x, p.y, step, camera)) return;
       c.strokeStyle = index === shown.chosen ? colors.chosen : colors.goal;
       c.lineWidth = index === shown.chosen ? 2.5 : 1.25;
-      const r = Math.max(2, kGoalRadius * step);
+      const r = Math.max(2, shapes.goalRadius * step);
       c.strokeRect(p.x - r, p.y - r, 2 * r, 2 * r);
       if (step >= kLeastOwned && shown.labels) this.paintOwner(c, p.x, p.y + r, index, step, colors);
     });
@@ -147,7 +146,7 @@ export class Scenery {
     }
   }
 
-  // At the lower edge of the square, so that it is seen while others pass.
+  // At the lower edge of the square, so that it is visible while other robots pass.
   private paintOwner(
     c: CanvasRenderingContext2D, x: number, y: number, robot: number, step: number, colors: Colors,
   ): void {
@@ -157,14 +156,14 @@ export class Scenery {
     outlined(c, this.owners[robot], x, y - 1, colors.faint, colors.floor);
   }
 
-  // Under what stands on the vertex; of those that would cover each other, the first.
+  // Below the objects on the vertex. Of names that would overlap, only the first is painted.
   private paintNames(c: CanvasRenderingContext2D, camera: Camera, colors: Colors): void {
     const { world } = this.model;
     const step = world.unit * camera.scale;
     const seen = world.vertexNames
       .map((name, v) => ({ name, v, at: camera.toView(world.xs[v], world.ys[v]) }))
       .filter(({ at }) => !isOutside(at.x, at.y, 20, camera));
-    if (seen.length * kRoomOfName > camera.width * camera.height) return;
+    if (seen.length * shapes.areaPerName > camera.width * camera.height) return;
     c.font = "11px system-ui, sans-serif";
     c.textAlign = "center";
     c.textBaseline = "top";
@@ -180,10 +179,10 @@ export class Scenery {
     }
   }
 
-  // How far what is painted on a vertex reaches down.
+  // Distance from a vertex to the lower edge of the objects on it.
   private reachOf(vertex: number, step: number): number {
-    if (this.tasksByPlace.has(vertex)) return Math.max(2.5, kTaskRadius * step);
-    if (this.goals.has(vertex)) return Math.max(2, kGoalRadius * step);
+    if (this.tasksByPlace.has(vertex)) return Math.max(2.5, shapes.taskRadius * step);
+    if (this.goals.has(vertex)) return Math.max(2, shapes.goalRadius * step);
     return vertexRadius(step);
   }
 }
@@ -192,7 +191,7 @@ export function isOutside(x: number, y: number, size: number, camera: Camera): b
   return x < -size || y < -size || x > camera.width + size || y > camera.height + size;
 }
 
-// A pixel for each cell.
+// One pixel for each cell.
 function imageOfGrid(world: World, colors: Colors): HTMLCanvasElement {
   const canvas = document.createElement("canvas");
   canvas.width = world.columns;

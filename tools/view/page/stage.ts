@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene in its place on the page: canvases one over the other (scenery, robots, labels), with
-// their camera and, where not all of the world is seen, a map of it.
+// A scene on the page: stacked canvases (scenery, robots, labels) with their camera and, if only a part of
+// the world is visible, a small map.
 
 import { Camera } from "./camera";
 import type { Colors } from "./colors";
@@ -14,7 +14,7 @@ import { EitherRobots } from "./robots_either";
 import { nearest, type RobotsNow } from "./robots_now";
 import { Scenery, type PathPainter, type Shown } from "./scenery";
 
-// What the page shows, and what can be chosen.
+// The selection, and whether ids are shown.
 export interface Choice {
   readonly model: Model;
   readonly player: { readonly time: number };
@@ -26,12 +26,12 @@ export interface Choice {
   chooseTask(task: number): void;
 }
 
-// What there is to see.
+// The contents of a stage.
 export interface Scene {
   readonly frame: RobotsNow;
-  readonly facts: { readonly tasks: TaskFacts[] } | null; // which visits are made by when
+  readonly facts: { readonly tasks: TaskFacts[] } | null; // times of visits
   readonly paths: PathPainter | null;
-  readonly label: string; // for those who do not see it
+  readonly label: string; // description for screen readers
   readonly caption: string; // empty: none
   heat(): Float32Array | null; // by place, 0 .. 1
   elsewhere(robot: number, time: number): Point | null; // in the plan beside this one
@@ -85,7 +85,7 @@ export class Stage {
     this.onCamera();
   }
 
-  // The nearest robot, else the task there, else whose destination it is, else nothing.
+  // Selects the nearest robot, else the task there, else the robot of the destination there, else nothing.
   private click(x: number, y: number): void {
     const { model } = this.app;
     const { world } = model;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An instance without a plan, as a plan of nothing: everybody stands where it starts.
+// An instance without a plan: all robots stay at their starts.
 
 import type { Agent, Model, Plan } from "./model";
 import { Track, TurnTrack } from "./track";

@@ -1,36 +1,35 @@
 // SPDX-License-Identifier: MIT
-// Tasks on a 2D canvas: a diamond for each place that has any, with how many there are, and which
-// and how far they have come where there is room.
+// Tasks on a 2D canvas: a diamond for each place with tasks, with their number and, where there is
+// space, their ids and progress.
 
+import { shapes } from "../palette.json";
 import type { Colors } from "./colors";
 import { outlined } from "./text";
 
-export const kTaskRadius = 0.42; // of a diamond, in steps
-const kMostStacked = 3; // diamonds seen of several on one place
-const kLeastCounted = 12; // pixels of a step from which on their number stands on them
-const kLeastTold = 30; // and from which on each is told of
+const kLeastCounted = 12; // pixels per step from which on the number of tasks is shown
+const kLeastTold = 30; // pixels per step from which on each task is listed
 const kMostTold = 3;
 
 export interface TaskState {
   index: number;
-  begun: boolean; // somebody was there, or is at work
+  begun: boolean; // a robot was there, or is at work
   visits: number;
   total: number;
 }
 
-// Pale while open, yellow once begun, grey all over when done.
+// Pale while open, yellow after the first visit, grey when done.
 export function paintTasks(
   c: CanvasRenderingContext2D, x: number, y: number, step: number, tasks: TaskState[],
   isChosen: boolean, colors: Colors,
 ): void {
   const done = tasks.every(({ visits, total }) => visits >= total);
   const begun = tasks.some((task) => task.begun);
-  const r = Math.max(2.5, kTaskRadius * step);
+  const r = Math.max(2.5, shapes.taskRadius * step);
   c.fillStyle = done ? colors.taskDone : begun ? colors.taskBegun : colors.taskOpen;
   c.strokeStyle = isChosen ? colors.chosen : done ? colors.goal : colors.task;
   c.lineWidth = isChosen ? 3 : 1.25;
-  const apart = Math.max(1.5, 0.09 * step);
-  for (let k = Math.min(kMostStacked, tasks.length) - 1; k >= 0; --k)
+  const apart = Math.max(1.5, shapes.stackOffset * step);
+  for (let k = Math.min(shapes.maxStacked, tasks.length) - 1; k >= 0; --k)
     paintDiamond(c, x + k * apart, y - k * apart, r);
   const color = done ? colors.faint : colors.text;
   if (tasks.length > 1 && step >= kLeastCounted) {
@@ -66,6 +65,6 @@ function tellTasks(
   c.font = `${size}px system-ui, sans-serif`;
   c.textAlign = "left";
   c.textBaseline = "bottom";
-  const r = 0.6 * kTaskRadius * step;
+  const r = 0.6 * shapes.taskRadius * step;
   texts.forEach((text, i) => outlined(c, text, x + r, y - r - 1.1 * size * i, color, colors.floor));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Text on a canvas that is read on any ground: with a rim in the colour of the floor.
+// Text on a canvas that is readable on any background: it has a rim in the colour of the floor.
 
 export function outlined(
   c: CanvasRenderingContext2D, text: string, x: number, y: number, color: string, rim: string,

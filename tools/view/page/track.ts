@@ -13,7 +13,7 @@ export class Track {
     readonly jumps: Uint8Array,
   ) {}
 
-  // No place at all: the plan has no path for the agent.
+  // Whether the plan has no path for the agent.
   get isEmpty(): boolean {
     return this.times.length === 0;
   }
@@ -25,12 +25,12 @@ export class Track {
     return this.deltas.length;
   }
 
-  // The run that the step from `time` to `time` + 1 is in; runs: after the end.
+  // Returns the run of the step from `time` to `time` + 1; the number of runs after the end.
   run(time: number, near = 0): number {
     const times = this.times;
     let low = near < this.runs && times[near] <= time ? near : 0;
     if (low + 1 <= this.runs && time < times[low + 1]) return low;
-    // Who goes on from run to run is in the next one.
+    // Calls usually proceed from one run to the next.
     if (low + 2 <= this.runs && time < times[low + 2]) return low + 1;
     let high = this.runs;
     while (low < high) {
@@ -41,7 +41,7 @@ export class Track {
     return low;
   }
 
-  // All places in their order, each as often as it is come to.
+  // All places in order, one for each arrival.
   visited(): number[] {
     const all: number[] = [];
     if (!this.isEmpty) all.push(this.places[0]);
@@ -53,7 +53,7 @@ export class Track {
     return all;
   }
 
-  // The first time from `begin` on at which it is on this place; Infinity: never.
+  // Returns the first time from `begin` on at which the agent is on this place; Infinity: never.
   firstTimeOn(place: number, begin: number): number {
     if (this.isEmpty) return Infinity;
     for (let run = this.run(begin); run < this.runs; ++run) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Who waits for whom: for each wait, whom the robot would have met had it gone on instead. That is
-// played through: ghosts of it leave during the wait, and each is followed until it meets somebody.
+// Causes of waits: for each wait, the robots that it would have met without waiting. This is simulated:
+// ghosts of the robot leave during the wait, and each is followed until it meets another robot.
 
 import { Crowd } from "./crowd";
 import { Doing, type PlanFacts } from "./facts";
@@ -11,19 +11,19 @@ export interface Wait {
   begin: number;
   end: number;
   place: number;
-  for: number[]; // whom it would have met, in order of time
-  meets: number; // where it would have met the first of them; -1: nobody
+  for: number[]; // the robots that it would have met, in order of time
+  meets: number; // the place where it would have met the first of them; -1: none
 }
 
-const kMostGhosts = 8; // of one wait
-const kAhead = 40; // steps that a ghost is followed
-const kGhostsAtOnce = 8192; // before the page may do something else
+const kMostGhosts = 8; // ghosts per wait
+const kAhead = 40; // steps for which a ghost is followed
+const kGhostsAtOnce = 8192; // steps of ghosts between two checks of the time
 
-// It takes the robot's steps, so many moments earlier. A run of equal steps is looked at once.
+// A ghost takes the robot's steps earlier. Each run of equal steps is read once.
 interface Ghost {
   wait: Wait;
   earlier: number;
-  from: number; // the moment at which it leaves
+  from: number; // the time at which it leaves
   place: number;
   run: number; // of the robot's track
   delta: number; // of its steps in this run
@@ -46,7 +46,7 @@ export class Waits {
     this.parts = this.find();
   }
 
-  // Works for about so long; true when all is known.
+  // Works for about this time. Returns true when all waits are known.
   step(milliseconds: number): boolean {
     const until = performance.now() + milliseconds;
     while (!this.done && performance.now() < until) this.done = this.parts.next().done ?? false;
@@ -71,7 +71,7 @@ export class Waits {
     }
   }
 
-  // A ghost takes its step to `time`; false: it has met somebody, or has gone far enough.
+  // Moves a ghost to `time`. Returns false if it has met a robot or has been followed long enough.
   private goesOn(ghost: Ghost, time: number, crowd: Crowd): boolean {
     const { wait } = ghost;
     const before = ghost.place;
@@ -94,7 +94,7 @@ export class Waits {
     ghost.until = isAtRest ? Infinity : track.times[run + 1];
   }
 
-  // They leave at moments spread evenly over the wait.
+  // The ghosts leave at times spread evenly over the wait.
   private ghostsOf(wait: Wait): Ghost[] {
     const { track } = this.plan.agents[wait.agent];
     const steps = wait.end - wait.begin;
@@ -109,7 +109,7 @@ export class Waits {
   }
 }
 
-// Who has just gone from the one place to the other; -1: nobody.
+// Returns the robot that has just moved from one place to the other; -1: none.
 function comingFrom(crowd: Crowd, from: number, to: number): number {
   const other = crowd.on(to);
   return other >= 0 && crowd.before[other] === from ? other : -1;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The world as the page draws it and moves in it: where each place is, and which steps there are.
+// The world: positions of places, and possible steps.
 
+import { shapes } from "../palette.json";
 import type { Value } from "./json";
 import type { Road, World } from "./model";
 import { nameOf } from "./names";
 
 const kMostPlaces = 1 << 26;
-const kMargin = 1.5; // around a roadmap, in steps
-const kBend = 0.35; // between two roads that join the same vertices, in steps
 
 export function readWorld(data: Value): World {
   switch (data.key("kind").text()) {
@@ -43,7 +42,7 @@ function readGrid(data: Value): World {
   };
 }
 
-// How many cells are free, then how many are blocked, and so on.
+// Numbers of free and of blocked cells, alternately.
 function readFree(text: string, places: number): Uint8Array {
   const free = new Uint8Array(places);
   let at = 0;
@@ -91,7 +90,7 @@ function readRoadmap(data: Value): World {
     ys[i] = vertex.y;
   });
   layRoads(roads, xs, ys, unit);
-  const margin = kMargin * unit;
+  const margin = shapes.margin * unit;
   const [first] = vertices;
   return {
     kind: "roadmap", places, unit, xs, ys, columns: 0, roads,
@@ -105,7 +104,7 @@ function readRoadmap(data: Value): World {
   };
 }
 
-// So that the least is a margin away from 0; what all of them take, with a margin on both sides.
+// Shifts the values so that the least is one margin above 0. Returns their extent with a margin on both sides.
 function shiftToZero(values: Float64Array, margin: number): number {
   const least = values.reduce((a, b) => Math.min(a, b), Infinity) - margin;
   const most = values.reduce((a, b) => Math.max(a, b), -Infinity) + margin;
@@ -113,7 +112,7 @@ function shiftToZero(values: Float64Array, margin: number): number {
   return most - least;
 }
 
-// In metres, on the mean; of roads that have a length.
+// Mean length of a step in metres, over roads that have a length.
 function lengthOfStep(vertices: Vertex[], roads: Road[]): number {
   let length = 0;
   let steps = 0;
@@ -125,7 +124,7 @@ function lengthOfStep(vertices: Vertex[], roads: Road[]): number {
   return length > 0 ? length / steps : 1;
 }
 
-// Inner places evenly between the ends; roads beside each other where they join the same vertices.
+// Inner places lie evenly between the ends. Roads that join the same vertices lie beside each other.
 function layRoads(roads: Road[], xs: Float64Array, ys: Float64Array, unit: number): void {
   const beside = new Map<string, Road[]>();
   for (const road of roads) {
@@ -137,7 +136,7 @@ function layRoads(roads: Road[], xs: Float64Array, ys: Float64Array, unit: numbe
   for (const row of beside.values())
     row.forEach((road, i) => {
       const rank = i - (row.length - 1) / 2;
-      layRoad(road, rank * 2 * kBend * unit, xs, ys, unit);
+      layRoad(road, rank * 2 * shapes.bend * unit, xs, ys, unit);
     });
 }
 
@@ -145,7 +144,7 @@ function layRoad(road: Road, bend: number, xs: Float64Array, ys: Float64Array, u
   const a = { x: xs[road.from], y: ys[road.from] };
   const b = { x: xs[road.to], y: ys[road.to] };
   const length = Math.hypot(b.x - a.x, b.y - a.y);
-  // The same side whichever way the road is counted.
+  // The side does not depend on the direction of the road.
   const sign = road.from < road.to ? 1 : -1;
   const across = length > 0
     ? { x: (-(b.y - a.y) / length) * sign, y: ((b.x - a.x) / length) * sign } : { x: 0, y: 0 };
@@ -187,7 +186,7 @@ function movesOnRoads(roads: Road[], vertices: number): (from: number, to: numbe
   };
 }
 
-// The road that an inner place is on: the last one that begins at or before it.
+// Returns the road of an inner place: the last one that begins at or before it.
 function lastBefore(roads: Road[], place: number): number {
   let low = 0;
   let high = roads.length - 1;

@@ -15,20 +15,10 @@
 namespace grove::detail {
 namespace {
 
-// The page's measures (page/world.ts, robots.ts, scenery.ts, tasks_canvas.ts), in steps.
-constexpr double kBend = 0.35;    // between roads that join the same vertices
-constexpr double kMargin = 1.5;   // of a roadmap
-constexpr double kRadius = 0.34;  // of a robot
-constexpr double kGoalRadius = 0.4;
-constexpr double kTaskRadius = 0.42;
+constexpr double kMinLabeled = 16.0;  // minimum size per step for ids on robots, pixels
+constexpr double kTagSize = 9.0;      // pixels
 
-constexpr double kLeastLabeled = 16.0;  // pixels of a step from which on robots have their ids
-constexpr std::size_t kMostTags = 40;   // robots that have them beside, if steps are smaller
-constexpr double kTagSize = 9.0;        // pixels
-constexpr double kRoomOfName = 5000.0;  // square pixels of a vertex that has its name
-constexpr int kMostStacked = 3;         // diamonds seen of several tasks on one place
-
-// The time from which on it stays: after its last step and its last work.
+// The time from which the agent rests: after its last step and its last task execution.
 Time rest_of(const AgentPlan& plan) {
   Time rest = 0;
   for (std::size_t t = 1; t < plan.path.size(); ++t)
@@ -57,7 +47,7 @@ Drawing::Drawing(const Instance& instance, const Plan* plan)
   }
 }
 
-// As far as its places reach: roads may lie outside of all vertices.
+// Includes all places, because roads may be outside of all vertices.
 void Drawing::measure_roadmap(const Roadmap& roadmap) {
   double length = 0;
   double steps = 0;
@@ -113,8 +103,8 @@ Point Drawing::point(Place place) const {
   return {at.x + 0.5, at.y + 0.5};
 }
 
-// Roads that join the same vertices lie beside each other, and a road from a vertex to itself is a
-// circle, as on the page (page/world.ts).
+// Roads that join the same vertices are drawn beside each other, and a road from a vertex to itself
+// as a circle, as on the page (page/world.ts).
 Point Drawing::beside(Point at, const Roadmap::Spot& spot) const {
   const Roadmap& roadmap = *instance_.roadmap();
   const Road& road = roadmap.roads()[static_cast<std::size_t>(spot.road)];
@@ -184,8 +174,8 @@ std::vector<Drawing::Robot> Drawing::robots(double time) const {
   return all;
 }
 
-// On one place at this step, or, between two steps, exchanging places or coming to one. At a whole
-// step, who has exchanged places in the step before it.
+// Marks robots that are on one place at this step or, between two steps, exchange places or move to
+// one place. At a whole step, marks robots that exchanged places in the step before.
 void Drawing::mark_collisions(std::vector<Robot>& robots, double time) const {
   const auto step = static_cast<Time>(std::floor(time));
   const double part = time - step;
@@ -232,13 +222,13 @@ void Drawing::draw(cairo_t* cairo, double width, double time) const {
   if (!instance_.is_on_grid()) draw_vertex_names(cairo);
   const auto all = robots(time);
   for (const Robot& robot : all) draw_robot(cairo, robot);
-  const bool named = unit_ >= kLeastLabeled * pixel(cairo) || all.size() <= kMostTags;
+  const bool named = unit_ >= kMinLabeled * pixel(cairo) || all.size() <= kMaxTags;
   for (std::size_t i = 0; named && i < all.size(); ++i)
     draw_name(cairo, all[i], instance_.agent(static_cast<AgentIndex>(i)).id);
   cairo_restore(cairo);
 }
 
-// How long it is, in the world's units.
+// Returns the length of a pixel in units of the world.
 double Drawing::pixel(cairo_t* cairo) const {
   double length = 1;
   double none = 0;
@@ -259,7 +249,7 @@ void Drawing::draw_grid(cairo_t* cairo) const {
     cairo_line_to(cairo, grid.width(), y);
   }
   cairo_stroke(cairo);
-  // Runs of blocked cells: fewer shapes.
+  // Merges runs of blocked cells into fewer shapes.
   set(cairo, kWall);
   for (int y = 0; y < grid.height(); ++y)
     for (int x = 0; x < grid.width();) {
@@ -297,7 +287,7 @@ void Drawing::draw_roads(cairo_t* cairo) const {
   }
 }
 
-// In the middle of a road, in its direction.
+// Draws an arrow in the middle of a road, in its direction.
 void Drawing::draw_arrow(cairo_t* cairo, int road) const {
   const Roadmap& roadmap = *instance_.roadmap();
   const Time middle = (roadmap.roads()[static_cast<std::size_t>(road)].steps - 1) / 2;
@@ -326,8 +316,8 @@ void Drawing::draw_goals(cairo_t* cairo) const {
   cairo_stroke(cairo);
 }
 
-// Tasks on one place are a stack of diamonds, with their number: pale, yellow once begun, grey all
-// over when done.
+// Tasks on one place are a stack of diamonds with their number: pale, yellow after the start, and
+// completely grey when done.
 void Drawing::draw_tasks(cairo_t* cairo, double time) const {
   struct Progress {
     int tasks = 0;
@@ -347,21 +337,21 @@ void Drawing::draw_tasks(cairo_t* cairo, double time) const {
     const Point at = point(place);
     const bool done = progress.visits >= progress.total;
     const Color& color = done ? kTaskDone : progress.begun ? kTaskBegun : kTaskOpen;
-    for (int k = std::min(kMostStacked, progress.tasks) - 1; k >= 0; --k)
-      diamond(cairo, {at.x + 0.09 * k * unit_, at.y - 0.09 * k * unit_}, kTaskRadius * unit_, color,
-              done ? kGoal : kTask, 0.05 * unit_);
+    for (int k = std::min(kMaxStacked, progress.tasks) - 1; k >= 0; --k)
+      diamond(cairo, {at.x + kStackOffset * k * unit_, at.y - kStackOffset * k * unit_},
+              kTaskRadius * unit_, color, done ? kGoal : kTask, 0.05 * unit_);
     if (progress.tasks == 1) continue;
     set(cairo, kText);
     center_text(cairo, std::to_string(progress.tasks), at, 0.36 * unit_, 0.6 * unit_);
   }
 }
 
-// Below what stands there; of those that would cover each other, the first.
+// Names are below the vertices. Of names that would cover each other, only the first is drawn.
 void Drawing::draw_vertex_names(cairo_t* cairo) const {
   const double size = kTagSize * pixel(cairo);
   const auto& vertices = instance_.roadmap()->vertices();
   const double room = width_ * height_ / (pixel(cairo) * pixel(cairo));
-  if (static_cast<double>(vertices.size()) * kRoomOfName > room) return;
+  if (static_cast<double>(vertices.size()) * kAreaPerName > room) return;
   std::vector<Point> taken;
   for (int v = 0; v < static_cast<int>(vertices.size()); ++v) {
     const Point on = point(instance_.roadmap()->place_of_vertex(v));
@@ -376,7 +366,7 @@ void Drawing::draw_vertex_names(cairo_t* cairo) const {
 }
 
 void Drawing::draw_robot(cairo_t* cairo, const Robot& robot) const {
-  const double r = kRadius * unit_;
+  const double r = kRobotRadius * unit_;
   const Point at = robot.at;
   if (robot.collides) {
     set(cairo, kCollision);
@@ -394,18 +384,21 @@ void Drawing::draw_robot(cairo_t* cairo, const Robot& robot) const {
     const double dx = std::sin(robot.angle);
     const double dy = -std::cos(robot.angle);
     set(cairo, kText);
-    cairo_move_to(cairo, at.x + dx * 1.25 * r, at.y + dy * 1.25 * r);
-    cairo_line_to(cairo, at.x + (0.75 * dx - 0.5 * dy) * r, at.y + (0.75 * dy + 0.5 * dx) * r);
-    cairo_line_to(cairo, at.x + (0.75 * dx + 0.5 * dy) * r, at.y + (0.75 * dy - 0.5 * dx) * r);
+    constexpr double kHalf = kHeadingTip - kHeadingBase;
+    cairo_move_to(cairo, at.x + dx * kHeadingTip * r, at.y + dy * kHeadingTip * r);
+    cairo_line_to(cairo, at.x + (kHeadingBase * dx - kHalf * dy) * r,
+                  at.y + (kHeadingBase * dy + kHalf * dx) * r);
+    cairo_line_to(cairo, at.x + (kHeadingBase * dx + kHalf * dy) * r,
+                  at.y + (kHeadingBase * dy - kHalf * dx) * r);
     cairo_close_path(cairo);
     cairo_fill(cairo);
   }
 }
 
-// On it, or beside it where it is small.
+// On the robot, or beside it if it is small.
 void Drawing::draw_name(cairo_t* cairo, const Robot& robot, const std::string& id) const {
-  const double r = kRadius * unit_;
-  if (unit_ >= kLeastLabeled * pixel(cairo)) {
+  const double r = kRobotRadius * unit_;
+  if (unit_ >= kMinLabeled * pixel(cairo)) {
     set(cairo, robot.collides || robot.doing == kMoving ? kOnRobot : kOnPale);
     center_text(cairo, shortened(id, 14), robot.at, 0.34 * unit_, 1.5 * r);
     return;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A moment of a plan, drawn with cairo: the same drawing becomes SVG, PNG and the frames of a GIF.
+// A moment of a plan, drawn with cairo; the same drawing is used for SVG, PNG and the frames of a
+// GIF.
 #pragma once
 
 #include <cairo/cairo.h>
@@ -12,31 +13,31 @@
 
 namespace grove::detail {
 
-// Draws an instance and, if there is one, a plan; else all where they start. Holds references: both
-// must outlive it. A plan need not be valid; agents without a path are left out.
+// Draws an instance and, if there is one, a plan; otherwise all agents at their starts. Holds
+// references: both must outlive it. The plan may be invalid; agents without a path are left out.
 class Drawing {
  public:
   Drawing(const Instance& instance, const Plan* plan);
   Drawing(const Drawing&) = delete;
   Drawing& operator=(const Drawing&) = delete;
 
-  // Height for a width of 1.
+  // Height divided by width.
   double shape() const { return height_ / width_; }
   bool has_plan() const { return plan_ != &standing_; }
   const Instance& instance() const { return instance_; }
-  // The last time at which anything changes, in steps.
+  // The last time at which something changes, steps.
   Time end() const { return end_; }
 
-  // Fills `width` x (`width` * shape()) units of `cairo` from its origin on. `time` may lie between
-  // two steps.
+  // Fills `width` x (`width` * shape()) units of `cairo` from its origin. `time` may be between two
+  // steps.
   void draw(cairo_t* cairo, double width, double time) const;
 
  private:
   struct Robot {
     Point at;
     double angle;  // clockwise from up, in radians
-    bool turns;
-    int doing;  // of kDoing
+    bool turns;    // whether it needs time to turn
+    int doing;     // index into kDoing
     bool collides;
   };
 
@@ -62,14 +63,14 @@ class Drawing {
   const Instance& instance_;
   const Plan standing_;
   const Plan* plan_;
-  double width_ = 1;  // in the world's units: cells or metres
+  double width_ = 1;  // in units of the world: cells or metres
   double height_ = 1;
   Point origin_;
-  double unit_ = 1;  // the length of a step
+  double unit_ = 1;  // length of a step
   Time end_ = 0;
-  std::vector<Time> rests_;                // by agent: from when on it rests
-  std::vector<std::vector<Time>> visits_;  // by task: when each of its agents has been there
-  std::vector<Time> begins_;               // by task: when the first is there, or begins to work
+  std::vector<Time> rests_;                // by agent: time from which it rests
+  std::vector<std::vector<Time>> visits_;  // by task: times at which its agents have visited it
+  std::vector<Time> begins_;               // by task: start of the first visit or task execution
 };
 
 }  // namespace grove::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the shapes and colours of pictures mean.
+// Legend of the shapes and colours of pictures.
 #pragma once
 
 #include <cairo/cairo.h>
@@ -8,7 +8,7 @@
 
 namespace grove::detail {
 
-// One line from the origin on. Of what there is nothing of, nothing is said.
+// Draws one line from the origin. Shapes that do not occur are left out.
 void draw_legend(cairo_t* cairo, const Instance& instance, bool has_plan);
 
 }  // namespace grove::detail

@@ -29,9 +29,9 @@ using Surface = std::unique_ptr<cairo_surface_t, Free>;
 using Context = std::unique_ptr<cairo_t, Free>;
 
 constexpr int kGap = 12;            // pixels between two moments
-constexpr int kMostPixels = 30000;  // on a side: cairo's own limit
-constexpr int kCaption = 20;        // below each moment
-constexpr int kLegend = 26;         // below all
+constexpr int kMostPixels = 30000;  // maximum width and height: cairo's limit
+constexpr int kCaption = 20;        // height of a caption, below each moment
+constexpr int kLegend = 26;         // height of the legend, at the bottom
 constexpr int kLeastWithLegend = 640;
 
 cairo_status_t append(void* text, const unsigned char* bytes, unsigned length) {
@@ -44,7 +44,7 @@ void require(cairo_status_t status) {
     throw std::runtime_error(fmt::format("cairo: {}", cairo_status_to_string(status)));
 }
 
-// Where the moments of a strip go: each with its caption below, then a legend.
+// Layout of the moments of a strip, each with its caption below, and the legend.
 struct Strip {
   Strip(const Drawing& drawing, std::size_t count, int width, bool captioned)
       : panel_width(width),
@@ -55,7 +55,7 @@ struct Strip {
         legend(captioned && whole_width() >= kLeastWithLegend ? kLegend : 0) {
     if (whole_width() > kMostPixels || whole_height() > kMostPixels)
       throw std::invalid_argument(
-          fmt::format("a picture of {} x {} pixels is too large; expected at most {} on a side",
+          fmt::format("found a picture of {} x {} pixels; expected at most {} in width and height",
                       whole_width(), whole_height(), kMostPixels));
   }
   int whole_width() const { return columns * (panel_width + kGap) - kGap; }
@@ -70,7 +70,7 @@ struct Strip {
   int legend;
 };
 
-// "t = 12" below a moment, in its middle.
+// Draws "t = 12" below the middle of a moment.
 void draw_caption(cairo_t* cairo, const Strip& strip, double moment) {
   const std::string text = fmt::format("t = {}", moment);
   cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
@@ -84,7 +84,7 @@ void draw_caption(cairo_t* cairo, const Strip& strip, double moment) {
 
 void draw_strip(cairo_t* cairo, const Drawing& drawing, std::span<const double> moments,
                 const Strip& strip) {
-  cairo_set_source_rgb(cairo, 1, 1, 1);
+  set(cairo, kFloor);
   cairo_paint(cairo);
   for (std::size_t i = 0; i < moments.size(); ++i) {
     const int column = static_cast<int>(i) % strip.columns;
@@ -127,7 +127,7 @@ std::vector<Pixel> pixels_of(cairo_surface_t* surface) {
   return pixels;
 }
 
-// The most frequent colours, and for every other the nearest of them.
+// The most frequent colours; other colours are mapped to the nearest of them.
 class Palette {
  public:
   static constexpr int kTransparent = 255;
@@ -209,7 +209,7 @@ class GifWriter {
     if (file_ != nullptr) EGifCloseFile(file_, nullptr);
   }
 
-  // Only what has changed is written, within its smallest rectangle.
+  // Writes only the smallest rectangle that contains all changes.
   void add(const std::vector<GifByteType>& frame, int centiseconds) {
     const Box box = last_.empty() ? Box{0, 0, width_, height_} : changed(frame);
     const GraphicsControlBlock control{
@@ -249,7 +249,7 @@ class GifWriter {
   }
 
   Box changed(const std::vector<GifByteType>& frame) const {
-    Box box{width_, height_, 0, 0};  // as least and most first
+    Box box{width_, height_, 0, 0};  // minima and maxima, empty at first
     for (int y = 0; y < height_; ++y)
       for (int x = 0; x < width_; ++x) {
         if (frame[index(x, y)] == last_[index(x, y)]) continue;
@@ -277,9 +277,10 @@ class GifWriter {
 
 constexpr int kMostFrames = 2000;
 constexpr double kFramesPerSecond = 20;
-constexpr int kRestAtTheEnd = 150;  // hundredths of a second
+constexpr int kRestAtTheEnd = 150;  // pause at the end, hundredths of a second
 
-// Frames between two steps, so that it looks like driving; fewer where it would be too many.
+// Returns the number of frames between two steps, so that motion looks smooth; fewer if there would
+// be too many frames.
 int frames_per_step(Time end, double steps_per_second) {
   const int wanted = static_cast<int>(std::lround(kFramesPerSecond / steps_per_second));
   const int allowed = end > 0 ? kMostFrames / end : 1;
@@ -322,7 +323,7 @@ std::string gif_picture(const Drawing& drawing, int width, double steps_per_seco
     require(cairo_status(cairo.get()));
     return pixels_of(surface.get());
   };
-  // The colours of some moments are those of all.
+  // Takes the palette from a sample of the moments.
   std::unordered_map<Pixel, std::int64_t> counts;
   for (int i = 0; i <= 4; ++i)
     for (const Pixel pixel : frame(drawing.end() * i / 4.0)) ++counts[pixel];

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// What the page shows now: a statement of the certificate, a step of its proof, and which steps are
-// unfolded.
+// State of the page: the selected statement of the certificate, the selected step of its proof, and the
+// unfolded steps.
 
 import type { Model } from "../page/model";
 import type { Choice } from "../page/stage";
-import { demandOf, type Certificate, type Statement, type Step } from "./certificate";
+import { constraintOf, type Certificate, type Statement, type Step } from "./certificate";
 
-const kFirstRows = 60; // about so many steps are unfolded at first
+const kFirstRows = 60; // approximate number of steps unfolded at first
 
 export class ProofApp implements Choice {
-  readonly player = { time: 0 }; // (everybody stands at the start)
+  readonly player = { time: 0 }; // (all agents are at their starts)
   readonly labels = true;
   following = false;
   chosenTask = -1;
   statement: Statement;
   step: Step;
   readonly open = new Set<Step>();
-  marked = -1; // a robot chosen on the map
+  marked = -1; // the agent selected on the map
   private readonly listeners: (() => void)[] = [];
 
   constructor(readonly model: Model, readonly certificate: Certificate) {
@@ -25,7 +25,7 @@ export class ProofApp implements Choice {
     for (const statement of [...certificate.lemmas, certificate.theorem]) this.openFirst(statement);
   }
 
-  // Level by level.
+  // Unfolds level by level.
   private openFirst({ root }: Statement): void {
     const level = [root];
     for (let i = 0; i < level.length && level.length < kFirstRows; ++i) {
@@ -38,13 +38,13 @@ export class ProofApp implements Choice {
     return this.marked >= 0 ? this.marked : this.agents[0] ?? -1;
   }
 
-  // Of whom the step speaks.
+  // The agents that the step refers to.
   get agents(): number[] {
     const { step, statement, certificate } = this;
-    const demand = demandOf(step);
+    const constraint = constraintOf(step);
     const all = step.sides.length > 0 ? step.sides.map(({ agent }) => agent)
       : step.lemmas.length > 0 ? step.lemmas.flatMap((lemma) => certificate.lemmas[lemma].agents)
-        : demand ? [demand.agent] : statement.number >= 0 ? statement.agents : [];
+        : constraint ? [constraint.agent] : statement.number >= 0 ? statement.agents : [];
     return [...new Set(all)];
   }
 
@@ -61,7 +61,7 @@ export class ProofApp implements Choice {
     this.select(statement.root);
   }
 
-  // And all above it is unfolded.
+  // Selects a step and unfolds all steps above it.
   select(step: Step): void {
     this.step = step;
     this.marked = this.chosenTask = -1;
@@ -69,7 +69,7 @@ export class ProofApp implements Choice {
     this.changed();
   }
 
-  // What is chosen stays in sight.
+  // Folds or unfolds a step. If this hides the selected step, the folded step is selected.
   unfold(step: Step, isOpen: boolean): void {
     if (isOpen) this.open.add(step);
     else this.open.delete(step);
@@ -86,7 +86,7 @@ export class ProofApp implements Choice {
     this.changed();
   }
 
-  // In the order in which they are seen.
+  // Rows in the order in which they are displayed.
   get rows(): Step[] {
     const rows: Step[] = [];
     const left = [this.statement.root];

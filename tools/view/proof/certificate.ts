@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// A certificate (docs/proof.md) as what it says: lemmas and the theorem, each with its tree. That it
-// is one of this instance, line by line, `grove view` has seen to.
+// Parser of certificates (docs/proof.md): lemmas and the theorem, each with its tree. `grove view` has
+// already checked every line against the instance.
 
 import type { Model } from "../page/model";
 
 export type Kind = "bar" | "move" | "norest" | "rest" | "pass" | "stop" | "nostop";
 
-export interface Demand {
+export interface Constraint {
   agent: number;
   kind: Kind;
-  places: number[]; // of moves and passages: from, to; of stops: none
-  begin: number; // of those that end by a time, that time
+  places: number[]; // for moves and passages: from, to; for stops: none
+  begin: number; // for constraints with one time T, both begin and end are T
   end: number; // Infinity: for ever
-  stop: number; // from 0
+  stop: number; // number of the stop, from 0
   task: number;
 }
 
@@ -22,26 +22,26 @@ export interface Row {
   price: number; // in 1024ths of a step
 }
 
-// A step of a proof. What it stands under is said by the sides of the steps above it.
+// A step of a proof. Its constraints are the sides of the steps above it.
 export interface Step {
   line: number;
   kind: "leaf" | "split" | "later" | "joint" | "prices";
-  lemmas: number[]; // that it names
-  sides: Demand[]; // two, or none
-  children: Step[]; // likewise
+  lemmas: number[]; // lemmas that it names
+  sides: Constraint[]; // the two constraints of a split; empty for other steps
+  children: Step[]; // two, or none
   rows: Row[];
   above: { step: Step; side: number } | null;
   depth: number;
-  leaves: number; // at or below it; what is no split is one
+  leaves: number; // steps without a split, at or below this step
 }
 
 export interface Statement {
   number: number; // of the lemma; -1: the theorem
-  bound: number; // Infinity: there is no way
+  bound: number; // Infinity: there is no plan
   agents: number[];
-  demands: Demand[];
+  constraints: Constraint[];
   root: Step;
-  steps: Step[]; // all, in the order of the file
+  steps: Step[]; // all steps in the order of the file
 }
 
 export interface Certificate {
@@ -62,7 +62,7 @@ class Lines {
 
   // The first word of the next line.
   next(): string {
-    if (this.at === this.lines.length) this.fail("a line more");
+    if (this.at === this.lines.length) this.fail("another line");
     this.words = this.lines[this.at++].split(" ");
     return this.word();
   }
@@ -75,11 +75,11 @@ class Lines {
     return this.words.shift() ?? this.fail("another word");
   }
 
-  // inf is one.
+  // A number or inf.
   integer(below = Infinity): number {
     const word = this.word();
     const value = word === "inf" ? Infinity : /^[0-9]+$/.test(word) ? Number(word) : NaN;
-    if (!(value < below || value === below && below === Infinity)) this.fail("a number of what there is");
+    if (!(value < below || value === below && below === Infinity)) this.fail("a valid number");
     return value;
   }
 
@@ -116,22 +116,22 @@ class Reader {
     return { following, lemmas: this.lemmas, theorem };
   }
 
-  // The first word behind it.
+  // Parses a statement; `first` is the first word after it.
   private readLemma(): string {
     const { lines } = this;
     const bound = lines.integer();
     const agents: number[] = [];
     while (lines.hasMore) agents.push(this.agent());
-    const demands: Demand[] = [];
+    const constraints: Constraint[] = [];
     let first = lines.next();
-    for (; first === "demand"; first = lines.next()) demands.push(this.demand());
-    this.lemmas.push(this.statement(this.lemmas.length, bound, agents, demands, first));
+    for (; first === "demand"; first = lines.next()) constraints.push(this.constraint());
+    this.lemmas.push(this.statement(this.lemmas.length, bound, agents, constraints, first));
     return lines.next();
   }
 
-  // A proof may be as deep as it is long: without recursion.
+  // No recursion, because a proof may be as deep as it is long.
   private statement(
-    number: number, bound: number, agents: number[], demands: Demand[], first: string,
+    number: number, bound: number, agents: number[], constraints: Constraint[], first: string,
   ): Statement {
     const root = this.step(first, null);
     const steps = [root];
@@ -145,7 +145,7 @@ class Reader {
       if (isOpen(step)) open.push(step);
     }
     for (const { above, leaves } of [...steps].reverse()) if (above) above.step.leaves += leaves;
-    return { number, bound, agents, demands, root, steps };
+    return { number, bound, agents, constraints, root, steps };
   }
 
   private step(kind: string, above: Step["above"]): Step {
@@ -159,7 +159,7 @@ class Reader {
         while (lines.hasMore) step.lemmas.push(this.lemma());
         break;
       case "split":
-        step.sides = [this.demand(), this.behindBar()];
+        step.sides = [this.constraint(), this.behindBar()];
         break;
       case "later":
         step.sides = [this.later(), this.later()];
@@ -178,43 +178,43 @@ class Reader {
     return step;
   }
 
-  private behindBar(): Demand {
+  private behindBar(): Constraint {
     if (this.lines.word() !== "|") this.lines.fail("'|'");
-    return this.demand();
+    return this.constraint();
   }
 
-  private demand(): Demand {
+  private constraint(): Constraint {
     const { lines } = this;
     const { world, tasks } = this.model;
     const place = () => lines.integer(world.places);
-    const demand: Demand = {
+    const constraint: Constraint = {
       agent: this.agent(), kind: "bar", places: [], begin: 0, end: Infinity, stop: -1, task: -1,
     };
     const kind = lines.word();
     switch (kind) {
       case "bar": case "move": case "pass":
-        demand.places.push(place());
-        if (kind !== "bar") demand.places.push(place());
-        demand.begin = lines.integer();
-        demand.end = lines.integer();
+        constraint.places.push(place());
+        if (kind !== "bar") constraint.places.push(place());
+        constraint.begin = lines.integer();
+        constraint.end = lines.integer();
         break;
       case "rest": case "norest":
-        demand.places.push(place());
-        demand.begin = demand.end = lines.integer();
+        constraint.places.push(place());
+        constraint.begin = constraint.end = lines.integer();
         break;
       case "stop": case "nostop":
-        demand.stop = lines.integer();
-        demand.task = lines.integer(tasks.length);
+        constraint.stop = lines.integer();
+        constraint.task = lines.integer(tasks.length);
         break;
       default:
-        return lines.fail("a kind of demand");
+        return lines.fail("a kind of constraint");
     }
-    demand.kind = kind;
-    return demand;
+    constraint.kind = kind;
+    return constraint;
   }
 
-  // "A T" of an agent with a goal: it does not come to rest there by then.
-  private later(): Demand {
+  // "A T": agent A has a goal and does not come to rest there by time T.
+  private later(): Constraint {
     const agent = this.agent();
     const time = this.lines.integer();
     const { goal } = this.model.agents[agent];
@@ -229,7 +229,7 @@ class Reader {
     while (lines.hasMore) numbers.push(lines.integer());
     const most = kind === "finish" ? this.model.agents.length : this.model.world.places;
     const named = kind === "place" ? [0] : kind === "edge" ? [0, 1] : [0, 2];
-    if (named.some((i) => !(numbers[i] < most))) lines.fail("places and agents that there are");
+    if (named.some((i) => !(numbers[i] < most))) lines.fail("existing places and agents");
     return { kind, price: numbers.pop()!, numbers };
   }
 
@@ -246,22 +246,22 @@ function isOpen({ sides, children }: Step): boolean {
   return children.length < sides.length;
 }
 
-// The demand that leads to a step from the one above it; null: there is none.
-export function demandOf({ above }: Step): Demand | null {
+// The constraint that leads to a step from the one above it; null: there is none.
+export function constraintOf({ above }: Step): Constraint | null {
   return above && above.step.sides[above.side];
 }
 
-// What is demanded there beside what the statement demands, from the root down.
-export function demandsAt(step: Step): Demand[] {
-  const demands: Demand[] = [];
+// Returns the constraints at a step in addition to those of the statement, from the root down.
+export function constraintsAt(step: Step): Constraint[] {
+  const constraints: Constraint[] = [];
   for (let at: Step | null = step; at; at = at.above && at.above.step) {
-    const demand = demandOf(at);
-    if (demand) demands.push(demand);
+    const constraint = constraintOf(at);
+    if (constraint) constraints.push(constraint);
   }
-  return demands.reverse();
+  return constraints.reverse();
 }
 
-// All statements whose proofs name this lemma.
+// Returns all statements whose proofs name this lemma.
 export function usersOf({ lemmas, theorem }: Certificate, lemma: number): Statement[] {
   return [...lemmas, theorem].filter(({ steps }) => steps.some((step) => step.lemmas.includes(lemma)));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page of a certificate: its tree, and a map of what that speaks of.
+// Page of a certificate: its tree, and a map with the places and agents of the selected step.
 
 import { kDark, kLight } from "../page/colors";
 import { el } from "../page/dom";
@@ -52,11 +52,11 @@ function show(app: ProofApp): void {
     requestAnimationFrame(tick);
   };
   requestAnimationFrame(tick);
-  // For whoever asks (tests do).
+  // For tests.
   Object.assign(window, { grove: { app, stages: [stage] } });
 }
 
-// (Nothing is done yet.)
+// (At time 0 no task is done.)
 function isOpen([kind]: [string, string]): boolean {
   return kind === "task" || kind === "goal";
 }

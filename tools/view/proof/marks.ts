@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// On the map: where what the step speaks of is, with its times; and of the agents that it is about
-// starts and goals, with the ways there and on, dashed, as the crow flies.
+// Marks on the map: the places of the selected step with its times; and for its agents dashed straight
+// lines from the start over these places to the goal.
 
 import type { Camera } from "../page/camera";
 import type { Colors } from "../page/colors";
@@ -8,20 +8,20 @@ import type { Point } from "../page/model";
 import type { PathPainter } from "../page/scenery";
 import { outlined } from "../page/text";
 import type { ProofApp } from "./app";
-import { demandOf, type Demand } from "./certificate";
+import { constraintOf, type Constraint } from "./certificate";
 
-const kDashes = [[7, 4], [2, 4]]; // of the first agent, and the second
-const kHalf = 0.46; // of the square on a place, in steps
-const kLeastWritten = 24; // pixels of that, from which on times are written in it
+const kDashes = [[7, 4], [2, 4]]; // for the first and the second agent
+const kHalf = 0.46; // half the side of the square on a place, in steps
+const kLeastWritten = 24; // half side in pixels from which on times are written in the square
 
-// What the map marks: both sides of a split, else what leads to the step.
-export function demandsShown({ step, statement }: ProofApp): Demand[] {
+// The constraints that the map marks: both sides of a split, else the one that leads to the step.
+export function constraintsShown({ step, statement }: ProofApp): Constraint[] {
   if (step.sides.length > 0) return step.sides;
-  const demand = demandOf(step);
-  return demand ? [demand] : statement.demands;
+  const constraint = constraintOf(step);
+  return constraint ? [constraint] : statement.constraints;
 }
 
-function timesText({ begin, end, stop }: Demand): string {
+function timesText({ begin, end, stop }: Constraint): string {
   if (stop >= 0) return `stop ${stop + 1}`;
   return begin === end ? String(begin) : end === Infinity ? `${begin}…` : `${begin}–${end}`;
 }
@@ -30,22 +30,22 @@ export class Marks implements PathPainter {
   constructor(private readonly app: ProofApp) {}
 
   paint(c: CanvasRenderingContext2D, camera: Camera, ...[, , colors]: [number, number, Colors]): void {
-    const demands = demandsShown(this.app);
+    const constraints = constraintsShown(this.app);
     const size = Math.max(5, kHalf * this.app.model.world.unit * camera.scale);
     c.strokeStyle = c.fillStyle = colors.chosen;
     this.app.agents.slice(0, kDashes.length).forEach((agent, i) => {
       c.setLineDash(kDashes[i]);
-      this.paintWay(c, camera, agent, demands.find((demand) => demand.agent === agent));
+      this.paintWay(c, camera, agent, constraints.find((constraint) => constraint.agent === agent));
     });
     c.setLineDash([]);
     const texts = new Map<number, Set<string>>();
-    for (const demand of demands) {
-      const places = this.placesOf(demand);
+    for (const constraint of constraints) {
+      const places = this.placesOf(constraint);
       if (places.length === 2) this.paintMove(c, camera, places);
       const last = places[places.length - 1];
       for (const place of places) this.paintSquare(c, this.at(camera, place), size, colors);
       if (!texts.has(last)) texts.set(last, new Set());
-      texts.get(last)!.add(timesText(demand));
+      texts.get(last)!.add(timesText(constraint));
     }
     c.font = "700 13px system-ui, sans-serif";
     for (const [place, words] of texts)
@@ -57,15 +57,15 @@ export class Marks implements PathPainter {
     return camera.toView(xs[place], ys[place]);
   }
 
-  private placesOf({ places, task }: Demand): number[] {
+  private placesOf({ places, task }: Constraint): number[] {
     return task >= 0 ? [this.app.model.tasks[task].place] : places;
   }
 
   private paintWay(
-    c: CanvasRenderingContext2D, camera: Camera, agent: number, demand: Demand | undefined,
+    c: CanvasRenderingContext2D, camera: Camera, agent: number, constraint: Constraint | undefined,
   ): void {
     const { start, goal } = this.app.model.agents[agent];
-    const places = [start, ...(demand ? this.placesOf(demand) : []), ...(goal >= 0 ? [goal] : [])];
+    const places = [start, ...(constraint ? this.placesOf(constraint) : []), ...(goal >= 0 ? [goal] : [])];
     c.lineWidth = 1.5;
     c.beginPath();
     places.forEach((place, i) => {
@@ -107,7 +107,7 @@ export class Marks implements PathPainter {
   }
 }
 
-// In the square, above who stands there; beside it if that is small, on the side that has room.
+// In the square, over the agent there; if the square is small, beside it on the side with space.
 function paintText(
   c: CanvasRenderingContext2D, camera: Camera, { x, y }: Point, text: string, half: number, colors: Colors,
 ): void {
@@ -119,7 +119,7 @@ function paintText(
   outlined(c, text, x + aside, isLarge ? y - half + 1 : y, colors.chosen, colors.floor);
 }
 
-// By place: what the prices there come to, over all times, as a part of the most.
+// For each place the sum of its prices over all times, relative to the maximum.
 export function priceHeat({ model, step }: ProofApp): Float32Array | null {
   if (step.kind !== "prices") return null;
   const heat = new Float32Array(model.world.places);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A chart over time: lines and areas by steps, marks, and a reading at a moment that pointer and
-// arrow keys choose.
+// A chart over time: step lines and areas, marks, and a reading at a moment that is set by the pointer or
+// the arrow keys.
 
 import { el, setText } from "../page/dom";
 import type { Scale } from "./scale";
@@ -15,9 +15,9 @@ export interface Point {
 
 export interface Series {
   name: string;
-  kind: string; // its style: class of its elements
+  kind: string; // CSS class of its elements
   points: Point[];
-  until?: Point[]; // an area between them; of the same times
+  until?: Point[]; // for an area: its lower edge, at the same times
 }
 
 export interface Mark {
@@ -30,14 +30,14 @@ export interface Mark {
 
 export interface Contents {
   title: string;
-  end: number; // of time
+  end: number; // end of the time axis
   x: Scale;
   y: Scale;
   series: Series[];
   marks: Mark[];
   label(value: number): string;
-  read(time: number): string; // what is to be said of a moment
-  stops: number[]; // moments that arrow keys go to
+  read(time: number): string; // text for a moment
+  stops: number[]; // moments for the arrow keys
 }
 
 const kMostPoints = 2000;
@@ -98,7 +98,7 @@ export class Chart {
     this.read(this.time);
   }
 
-  // The inverse of a scale that rises.
+  // The inverse of an increasing scale.
   private timeAt(part: number): number {
     let [least, most] = [0, this.contents!.end];
     for (let i = 0; i < 40; ++i) {

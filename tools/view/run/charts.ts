@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the charts of a run show: bound and incumbent, nodes, memory.
+// Contents of the charts of a run: bound and incumbent, nodes, memory.
 
 import type { Contents, Mark, Point } from "./chart";
 import type { Row, Run } from "./model";
@@ -8,14 +8,14 @@ import type { Scale } from "./scale";
 import { linear, logarithmic } from "./scale";
 import { kBoundSources, kPlanSources, megabytes, number, percent, seconds } from "./words";
 
-// Signs of where plans came from, and of a bound that rose.
+// Signs for the sources of plans, and for an increase of the bound.
 export const kBoundSign = "⊥";
 export const kSigns: Record<string, string> = {
-  tree: "●", start: "■", priorities: "▲", configurations: "◆", neighborhood: "+",
+  tree: "●", start: "■", prioritized: "▲", lacam: "◆", lns: "+",
 };
 export const kMemoryNames: Record<string, string> = {
-  nodes: "nodes of the trees", prices: "what robots cost", path_sets: "sets of optimal paths",
-  groups: "what groups cost",
+  nodes: "tree nodes", subproblems: "costs of single robots", mdds: "MDDs (all paths of one cost)",
+  dependencies: "costs of groups of robots",
 };
 
 export function endOf(run: Run): number {
@@ -66,10 +66,10 @@ export function nodesChart(run: Run, isLogarithmic: boolean): Contents {
   };
 }
 
-// What the search holds, kind by kind, one on the other, under what the whole process does.
+// Memory of the search by kind, stacked, and the memory of the whole process.
 export function memoryChart(run: Run, isLogarithmic: boolean): Contents {
   const { rows } = run;
-  const counts = run.counts.filter((c) => c.process > 0); // ranks tell after some time
+  const counts = run.counts.filter((c) => c.process > 0); // ranks report after some time
   const whole: Point[] = counts.length > 0
     ? counts.map(({ time, process }) => ({ time, value: process }))
     : rows.map(({ time, memory }) => ({ time, value: memory }));
@@ -81,7 +81,7 @@ export function memoryChart(run: Run, isLogarithmic: boolean): Contents {
     series: [
       ...kMemory.map((kind, i) =>
         ({ name: kMemoryNames[kind], kind: `memory-${kind}`, points: upTo(i + 1), until: upTo(i) })),
-      { name: "the whole process", kind: "incumbent", points: whole },
+      { name: "whole process", kind: "incumbent", points: whole },
     ],
     marks: [],
     label: megabytes,
@@ -126,7 +126,7 @@ function extremes(values: number[]): [number, number] {
   return values.length > 0 ? [least, most] : [0, 1];
 }
 
-// The last one at that time.
+// The last row at this time.
 function rowAt<T extends { time: number }>(rows: T[], time: number): T | null {
   let [least, most] = [0, rows.length];
   while (least < most) {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A log that grows: asks the server that the page came from, and nobody else, for what is new.
+// Follows a growing log: requests new data from the server of the page, and from no other host.
 
-const kPause = 1000; // milliseconds, where nobody says another
+const kPause = 1000; // milliseconds, by default
 
 export interface Listener {
-  begin(): void; // the log is another one now, or begins anew
-  add(text: string, isAll: boolean): void; // does the text end where the log ends now?
-  state(isLive: boolean): void; // does the server answer?
+  begin(): void; // the log is a different file, or starts again
+  add(text: string, isAll: boolean): void; // isAll: the text reaches the current end of the log
+  state(isLive: boolean): void; // whether the server responds
 }
 
-// The server says from where on what it sends is, and which file it is of: a new run is a new one.
+// The server sends the offset of the data and the identity of the file; a new run has a new file.
 export class Follower {
   private offset = 0;
   private file = "";
@@ -23,7 +23,7 @@ export class Follower {
     }
   }
 
-  // Is there more to come at once?
+  // Returns whether there is more data now.
   private async ask(): Promise<boolean> {
     try {
       const answer = await fetch(`log?from=${this.offset}&file=${encodeURIComponent(this.file)}`);

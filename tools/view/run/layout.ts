@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the nodes of trees are drawn: each leaf has a column of its own, a parent stands in the
-// middle of its children, and trees stand side by side. So no two nodes of one depth are nearer
-// than a column, and edges do not cross.
+// Positions of tree nodes: each leaf has its own column, a parent is centred over its children, and trees
+// are side by side. So two nodes of one depth are at least one column apart, and edges do not cross.
 
 import type { TreeNode } from "./model";
 

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: MIT
-// Reads the log of a run, which may still be growing. Lines are taken strictly, with their number
-// in errors; events that are not known are passed over.
+// Reads the log of a run, which may still grow. The parser is strict, errors name the line, and unknown
+// events are ignored.
 
 import { parse, Value } from "../page/json";
 import type { Counts, Header, Outcome, Rank, Row, Run, Summary, TreeNode } from "./model";
 import { kMemory } from "./model";
+import * as renamed from "./renamed";
+import { current } from "./renamed";
 
 const kMost = Number.MAX_SAFE_INTEGER;
-const kOutcomes = ["split", "raise", "plan", "closed"];
+const kOutcomes = ["split", "bound_raised", "plan", "pruned"];
 
 export class Log {
   readonly run: Run = {
     header: null, rows: [], counts: [], roots: [], expanded: [], moments: [], summary: null,
   };
   private readonly nodes = new Map<number, TreeNode>(); // not expanded yet
-  private rest = ""; // of a line that has not ended
+  private rest = ""; // the incomplete last line
   private lines = 0;
 
-  // What came since the last time. Throws an error that names the line.
+  // Reads new text. Throws an error that names the line.
   add(text: string): void {
     const lines = (this.rest + text).split("\n");
     this.rest = lines.pop()!;
@@ -64,7 +66,7 @@ export class Log {
         this.tell(kind, data, data.key("text").text());
         break;
       case "resumed":
-        this.tell(kind, data, `goes on after ${data.key("seconds_before").number()} s of before`);
+        this.tell(kind, data, `continues after ${data.key("seconds_before").number()} s of earlier runs`);
         break;
       case "checkpoint":
         this.tell(kind, data, checkpointText(data));
@@ -87,7 +89,7 @@ export class Log {
     const node = this.nodes.get(data.key("node").integer(0, kMost)) ??
       data.key("node").fail("a node that was made before and is not expanded");
     this.nodes.delete(node.number);
-    const outcome = data.key("outcome").text();
+    const outcome = current(renamed.kOutcomes, data.key("outcome").text());
     if (!kOutcomes.includes(outcome)) data.key("outcome").fail(kOutcomes.join(", "));
     node.expanded = {
       order: this.run.expanded.length + 1,
@@ -95,7 +97,7 @@ export class Log {
       worker: data.key("worker").integer(0, kMost),
       outcome: outcome as Outcome,
       conflict: textOr(data.key("conflict"), ""),
-      split: textOr(data.key("split"), ""),
+      split: current(renamed.kSplits, textOr(data.key("split"), "")),
       planCost: outcome === "plan" ? data.key("cost").number() : 0,
     };
     this.run.expanded.push(node);
@@ -131,19 +133,20 @@ function readRow(kind: Row["kind"], data: Value): Row {
     bound: data.key("lower_bound").number(),
     incumbent: numberOrNull(data.key("incumbent")),
     memory: data.key("memory_mb").number(),
-    source: textOr(data.key("source"), ""),
-    raisedBy: raisedBy.isThere ? readNumbers(raisedBy) : new Map<string, number>(),
+    source: current(renamed.kPlanSources, textOr(data.key("source"), "")),
+    raisedBy: raisedBy.isThere ? readNumbers(raisedBy, renamed.kBoundSources) : new Map<string, number>(),
   };
 }
 
 function readCounts(data: Value): Counts {
   const memory = data.key("memory_mb");
+  const kinds = readNumbers(memory, renamed.kMemory);
   const ranks = data.key("ranks");
   return {
     time: data.key("time_s").number(),
-    counts: readNumbers(data.key("counts")),
+    counts: readNumbers(data.key("counts"), renamed.kCounters),
     process: memory.key("process").number(),
-    memory: kMemory.map((kind) => memory.key(kind).number()),
+    memory: kMemory.map((kind) => kinds.get(kind) ?? memory.key(kind).number()),
     ranks: ranks.isThere ? readRanks(ranks) : [],
   };
 }
@@ -167,7 +170,7 @@ function readNode(data: Value, parent: TreeNode | null, tree: number): TreeNode 
     bound: data.key("bound").number(),
     cost: data.key("cost").number(),
     conflicts: numberOrNull(data.key("conflicts")),
-    demand: textOr(data.key("demand"), ""),
+    constraint: textOr(data.key("constraint"), textOr(data.key("demand"), "")),
     children: [],
     expanded: null,
   };
@@ -182,14 +185,15 @@ function readSummary(data: Value): Summary {
     bound: data.key("lower_bound").number(),
     planFile: data.key("plan_file").isNull ? "was not written" : data.key("plan_file").text(),
     seconds: seconds.isThere ? seconds.number() : null,
-    stats: readNumbers(stats),
+    stats: readNumbers(stats, renamed.kCounters),
   };
 }
 
-// Those of its members that are numbers.
-function readNumbers(data: Value): Map<string, number> {
+// The members that are numbers, by their present names.
+function readNumbers(data: Value, names: Record<string, string>): Map<string, number> {
   const all = new Map<string, number>();
-  for (const name of data.names()) if (data.key(name).isNumber) all.set(name, data.key(name).number());
+  for (const name of data.names())
+    if (data.key(name).isNumber) all.set(current(names, name), data.key(name).number());
   return all;
 }
 

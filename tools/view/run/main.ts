@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page of a run: reads the log, in the page or as it grows, and shows what it says.
+// Page of a run: reads the log, from the page or while it grows, and shows it.
 
 import { el, setText } from "../page/dom";
 import { Chart } from "./chart";
@@ -27,7 +27,7 @@ class Page {
   };
   private readonly time = el("button", { type: "button", click: () => this.toggleTime() }, "logarithmic time");
   private readonly parts: Record<string, HTMLElement> = {};
-  private isLogarithmic: boolean | null = null; // null: as suits the run
+  private isLogarithmic: boolean | null = null; // null: depends on the length of the run
   private lastSign = performance.now();
 
   constructor(private readonly isLive: boolean) {
@@ -36,15 +36,15 @@ class Page {
     document.body.append(
       el("header", {}, this.title, this.verdict, this.state, this.failure),
       el("main", {},
-        part("bound", "How good the plan is", legend("bound"), this.charts.bound.element, this.time,
+        part("bound", "Quality of the plan", legend("bound"), this.charts.bound.element, this.time,
           el("div", { class: "pair" }, this.places.sources, this.places.bounds)),
         part("tree", "The search tree", treeLegend(), this.tree.element),
         part("noTree", "The search tree", this.places.noTree),
-        part("work", "What the search did", el("div", { class: "pair" }, this.places.splits, this.places.work)),
+        part("work", "Work of the search", el("div", { class: "pair" }, this.places.splits, this.places.work)),
         part("nodes", "Nodes", legend("nodes"), this.charts.nodes.element),
         part("memory", "Memory", legend("memory"), this.charts.memory.element),
         part("ranks", "Ranks", this.places.ranks),
-        part("moments", "What happened", this.places.moments),
+        part("moments", "Events", this.places.moments),
         part("facts", "The run", this.places.facts)));
     window.addEventListener("resize", () => this.paint());
     setInterval(() => this.tellState(), 1000);
@@ -69,11 +69,11 @@ class Page {
   tellState(isAnswering = true): void {
     if (this.log.run.summary) return setText(this.state, "The run has ended.");
     if (!this.isLive)
-      return setText(this.state, "The log has no end: the run was still under way, or was killed.");
+      return setText(this.state, "The log is incomplete: the run had not ended, or it was killed.");
     const ago = (performance.now() - this.lastSign) / 1000;
-    setText(this.state, !isAnswering ? "The server does not answer any more."
+    setText(this.state, !isAnswering ? "The server no longer responds."
       : !this.log.run.header ? "Waiting for the log to begin."
-      : ago < 2 ? "Live." : `Live; the last sign of life came ${seconds(Math.round(ago))} ago.`);
+      : ago < 2 ? "Live." : `Live; last update ${seconds(Math.round(ago))} ago.`);
   }
 
   private show(): void {
@@ -105,8 +105,8 @@ class Page {
     this.parts.tree.hidden = run.roots.length === 0;
     this.parts.noTree.hidden = run.roots.length > 0;
     setText(this.places.noTree, this.places.ranks.firstChild
-      ? "The nodes are with the ranks; the log does not tell of them one by one."
-      : "The log does not tell of single nodes. With --log-tree 1000 it tells of the first thousand, and this page draws them.");
+      ? "The ranks hold the nodes; the log does not list them."
+      : "The log does not list nodes. With --log-tree 1000 it lists the first 1000, and this page draws them.");
     this.parts.memory.hidden = run.counts.length === 0;
     if (run.roots.length > 0) this.tree.show(run);
   }
@@ -126,7 +126,7 @@ class Page {
     this.paint();
   }
 
-  // Most of what happens in a long run happens in its first second.
+  // In a long run most events are in the first second.
   private isLogarithmicNow(): boolean {
     return this.isLogarithmic ?? endOf(this.log.run) > kShort;
   }
@@ -139,11 +139,11 @@ function entry(kind: string, text: string): HTMLElement {
 function legend(chart: "bound" | "nodes" | "memory"): HTMLElement {
   const entries = {
     bound: [entry("bound", "lower bound: no plan costs less"), entry("incumbent", "best plan so far"),
-      el("span", { class: "entry" }, `${kBoundSign} it rose; plans are from:`),
+      el("span", { class: "entry" }, `${kBoundSign} the bound rose; plans come from:`),
       ...Object.entries(kSigns).map(([source, sign]) =>
         el("span", { class: "entry" }, `${sign} ${kPlanSources[source]}`))],
     nodes: [entry("bound", "expanded"), entry("incumbent", "open")],
-    memory: [entry("incumbent", "the whole process"),
+    memory: [entry("incumbent", "whole process"),
       ...kMemory.map((kind) => entry(`memory-${kind}`, kMemoryNames[kind]))],
   };
   return el("p", { class: "legend" }, ...entries[chart]);
@@ -151,8 +151,8 @@ function legend(chart: "bound" | "nodes" | "memory"): HTMLElement {
 
 function treeLegend(): HTMLElement {
   return el("div", {},
-    el("p", { class: "faint" }, "Each node stands for all plans that meet its demands and those of the nodes above it; the number is its " +
-      "bound: none of them costs less. Drag to move, + and - to zoom, arrow keys to walk, n and p to step."),
+    el("p", { class: "faint" }, "Each node stands for all plans that satisfy its constraint and those of the nodes above it. The number is its " +
+      "bound: none of these plans costs less. Drag to move, + and - to zoom, arrow keys to go through the tree, n and p to step."),
     el("p", { class: "legend" }, ...Object.entries(kOutcomes).map(([kind, text]) => entry(`node-${kind}`, text)),
       entry("node-open", "not expanded")));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the log of a run says, as the page holds it. Times in seconds since the program began.
+// Data of the log of a run. Times are in seconds since the start of the program.
 
 export interface Header {
   version: string;
@@ -12,7 +12,7 @@ export interface Header {
   tasks: number;
 }
 
-// Where the run stands.
+// State of the run at a time.
 export interface Row {
   kind: "incumbent" | "bound" | "tree" | "progress";
   time: number;
@@ -21,30 +21,30 @@ export interface Row {
   bound: number;
   incumbent: number | null;
   memory: number; // megabytes
-  source: string; // of an incumbent
-  raisedBy: Map<string, number>; // the bound, since the row before: by what and how far
+  source: string; // source of an incumbent
+  raisedBy: Map<string, number>; // increase of the bound since the previous row, by source
 }
 
 // Megabytes by kind.
-export const kMemory = ["nodes", "prices", "path_sets", "groups"] as const;
+export const kMemory = ["nodes", "subproblems", "mdds", "dependencies"] as const;
 export interface Counts {
   time: number;
   counts: Map<string, number>;
   process: number; // megabytes
   memory: number[]; // by kMemory
-  ranks: Rank[]; // none where one process searches
+  ranks: Rank[]; // empty for a single process
 }
 
-// null: it has not told.
+// null: not reported.
 export interface Rank {
   nodes: number | null;
   open: number | null;
   bound: number | null;
   memory: number | null;
-  calls: number | null; // of the low level
+  calls: number | null; // low-level searches
 }
 
-export type Outcome = "split" | "raise" | "plan" | "closed";
+export type Outcome = "split" | "bound_raised" | "plan" | "pruned";
 
 export interface Expanded {
   order: number; // from 1
@@ -53,7 +53,7 @@ export interface Expanded {
   outcome: Outcome;
   conflict: string;
   split: string;
-  planCost: number; // of a plan
+  planCost: number; // if the outcome is a plan
 }
 
 export interface TreeNode {
@@ -64,12 +64,12 @@ export interface TreeNode {
   bound: number;
   cost: number;
   conflicts: number | null;
-  demand: string; // what it demands beyond its parent
+  constraint: string; // its constraint, in words
   children: TreeNode[];
   expanded: Expanded | null;
 }
 
-// Something to know of, in words.
+// An event, in words.
 export interface Moment {
   time: number | null;
   kind: string;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From values to positions on a chart, and the values that are worth a mark.
+// Scales: values to positions on a chart, and values for marks.
 
 export interface Scale {
   at(value: number): number; // 0 .. 1
@@ -20,7 +20,7 @@ export function linear(least: number, most: number): Scale {
   };
 }
 
-// From a thousandth of a second on.
+// Begins at one millisecond.
 export function logarithmic(least: number, most: number): Scale {
   const [from, to] = [Math.log10(Math.max(least, 1e-3)), Math.log10(Math.max(most, 2e-3))];
   const span = to > from ? to - from : 1;
@@ -34,14 +34,14 @@ export function logarithmic(least: number, most: number): Scale {
   };
 }
 
-// 1, 2 or 5 times a power of ten, at least so much.
+// The least number >= the argument that is 1, 2 or 5 times a power of ten.
 function niceStep(least: number): number {
   const power = 10 ** Math.floor(Math.log10(least));
   for (const factor of [1, 2, 5]) if (factor * power >= least) return factor * power;
   return 10 * power;
 }
 
-// At most so many of them, the first and the last among them, evenly spread.
+// Returns at most `count` of the items, evenly spread, with the first and the last.
 export function thin<T>(all: readonly T[], most: number): T[] {
   if (all.length <= most) return [...all];
   const thinned = [];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Elements of drawings, made without markup.
+// Creates SVG elements without markup.
 
 type Attributes = Record<string, string | number>;
 

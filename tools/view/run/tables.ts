@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run says in numbers: where plans and bounds came from, splits, prices, ranks, events.
+// Tables of a run: sources of plans and bounds, splits, work, ranks, events.
 
 import { el, plural } from "../page/dom";
 import { kSigns } from "./charts";
@@ -14,7 +14,7 @@ function table(head: string[], rows: (string | Node)[][], note = ""): HTMLElemen
     el("tbody", {}, ...rows.map((cells) => el("tr", {}, ...cells.map((cell) => el("td", {}, cell))))));
 }
 
-// A length that says how much of the most it is.
+// A number with a bar relative to the maximum.
 function bar(value: number, most: number): HTMLElement {
   const width = most > 0 ? (100 * value) / most : 0;
   return el("span", { class: "bar", style: `--part: ${width.toFixed(1)}%` }, number(value));
@@ -25,7 +25,7 @@ function countsOf(run: Run): Map<string, number> {
   return run.counts.length > 0 ? run.counts[run.counts.length - 1].counts : new Map<string, number>();
 }
 
-// --- where plans and bounds came from ---
+// --- sources of plans and bounds ---
 
 export function sourcesTable(run: Run): HTMLElement {
   const plans = new Map<string, { count: number; gain: number }>();
@@ -38,7 +38,7 @@ export function sourcesTable(run: Run): HTMLElement {
   }
   const rows = [...plans].map(([source, { count, gain }]) =>
     [`${kSigns[source] ?? "?"} ${kPlanSources[source] ?? source}`, number(count), number(gain)]);
-  return table(["Better plans from", "how many", "steps saved"], rows.length > 0 ? rows : [["none yet", "", ""]]);
+  return table(["Better plans from", "count", "steps saved"], rows.length > 0 ? rows : [["none yet", "", ""]]);
 }
 
 export function boundsTable(run: Run): HTMLElement {
@@ -46,7 +46,7 @@ export function boundsTable(run: Run): HTMLElement {
   for (const row of run.rows)
     for (const [source, gain] of row.raisedBy) gains.set(source, (gains.get(source) ?? 0) + gain);
   const rows = [...gains].map(([source, gain]) => [kBoundSources[source] ?? source, number(gain)]);
-  return table(["The bound rose by", "steps"], rows.length > 0 ? rows : [["nothing yet", ""]]);
+  return table(["The bound rose by", "steps"], rows.length > 0 ? rows : [["not raised yet", ""]]);
 }
 
 // --- work ---
@@ -59,22 +59,22 @@ export function splitsTable(run: Run): HTMLElement {
     const kind = name.slice("splits_".length).replace(/_/g, "-");
     return [el("span", {}, el("b", {}, kind), ` ${kSplits[kind] ?? ""}`), bar(count, most)];
   });
-  return table(["Nodes were split", "how often"], rows.length > 0 ? rows : [["no node was", ""]]);
+  return table(["Splits", "count"], rows.length > 0 ? rows : [["none", ""]]);
 }
 
 export function workTable(run: Run): HTMLElement {
   const counts = countsOf(run);
   const of = (name: string) => counts.get(name) ?? 0;
   const known = (asked: string, had: string) => of(asked) > 0
-    ? `${number(of(asked))}, ${Math.round((100 * of(had)) / of(asked))} % known already` : "none";
+    ? `${number(of(asked))}, ${Math.round((100 * of(had)) / of(asked))} % from the cache` : "none";
   return table(["Work", ""], [
-    ["Prices asked: what a robot would cost under one demand more", known("prices_asked", "prices_known")],
-    ["Sets of all optimal paths of a robot asked for", known("path_sets_asked", "path_sets_known")],
-    ["Searches for one robot's path", number(of("low_level_calls"))],
-    ["Searches for two robots together", number(of("pair_expansions"))],
-    ["Ways round a conflict for free", number(of("bypasses"))],
-    ["Steps of the search for plans", number(of("primal_steps"))],
-    ["Nodes given up for want of memory", number(of("nodes_evicted"))],
+    ["Branching: costs of a robot under one more constraint", known("branching_cost_queries", "branching_cost_hits")],
+    ["MDDs (all optimal paths of a robot)", known("mdd_queries", "mdd_hits")],
+    ["Path searches for one robot", number(of("low_level_calls"))],
+    ["Nodes of joint searches for two robots", number(of("pair_expansions"))],
+    ["Conflicts avoided at no cost (bypasses)", number(of("bypasses"))],
+    ["Steps of the primal search", number(of("primal_steps"))],
+    ["Nodes evicted for lack of memory", number(of("nodes_evicted"))],
   ]);
 }
 
@@ -94,7 +94,7 @@ export function ranksTable(run: Run): HTMLElement | null {
   const rows = ranks.map((rank, i): (string | Node)[] => [String(i), bar(rank.nodes ?? 0, most),
     ...kColumns.slice(1).map(([name, , text]) => rank[name] === null ? "–" : text(rank[name]!))]);
   const spread = kColumns.map(([name, , text]) => spreadText(ranks, name, text));
-  const head = el("tr", { class: "spread" }, el("td", {}, "least · median · most"),
+  const head = el("tr", { class: "spread" }, el("td", {}, "minimum · median · maximum"),
     ...spread.map((text) => el("td", {}, text)));
   const whole = table(["rank", ...kColumns.map(([, name]) => name)], rows, plural(ranks.length, "rank"));
   whole.querySelector("tbody")!.prepend(head);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The constraint trees of a small search, drawn: zoom and pan, a node to look at, and the
-// expansions played in their order.
+// Drawing of the constraint trees of a small search: zoom and pan, details of a selected node, and
+// playback of the expansions.
 
 import { el, setText } from "../page/dom";
 import type { Placed } from "./layout";
@@ -22,10 +22,10 @@ export class TreeView {
   private placed = new Map<TreeNode, Placed>();
   private run: Run | null = null;
   private chosen: TreeNode | null = null;
-  private shown = 0; // expansions
+  private shown = 0; // expansions shown
   private zoom = 1;
   private row = kRow;
-  private isFitted = true; // nobody has moved it
+  private isFitted = true; // the user has not moved it
   private x = 0; // of the canvas' middle, in pixels at a zoom of 1
   private y = 0;
 
@@ -35,10 +35,10 @@ export class TreeView {
     this.element = el("div", { class: "tree" },
       el("div", { class: "controls" },
         button("−", "Zoom out", () => this.zoomBy(0.7)), button("+", "Zoom in", () => this.zoomBy(1.4)),
-        button("Fit", "Show all of it", () => this.fit()),
-        button("‹", "Before the last expansion shown", () => this.play(this.shown - 1)),
+        button("Fit", "Show the whole tree", () => this.fit()),
+        button("‹", "Previous expansion", () => this.play(this.shown - 1)),
         this.slider,
-        button("›", "The next expansion", () => this.play(this.shown + 1)), this.told),
+        button("›", "Next expansion", () => this.play(this.shown + 1)), this.told),
       this.canvas, this.details);
     this.slider.addEventListener("input", () => this.play(Number(this.slider.value)));
     this.listen();
@@ -76,7 +76,7 @@ export class TreeView {
     return all > expanded.length ? `${told}, the first of ${number(all)}` : told;
   }
 
-  // --- the node chosen ---
+  // --- the selected node ---
 
   private tell(): void {
     const node = this.chosen;
@@ -84,7 +84,7 @@ export class TreeView {
     const lines = [
       `Bound ${number(node.bound)}, cost of its paths ${number(node.cost)}` +
         (node.conflicts === null ? "" : `, ${number(node.conflicts)} conflicts`),
-      node.demand && `Demands: ${node.demand}`,
+      node.constraint && `Constraint: ${node.constraint}`,
       ...this.whatBecame(node),
     ];
     this.details.replaceChildren(el("h3", {}, `Node ${node.number}${node.parent ? "" : `, root of tree ${node.tree}`}`),
@@ -104,8 +104,8 @@ export class TreeView {
     const cost = this.run!.summary?.cost ?? null;
     if (cost !== null && node.bound >= cost)
       return `Never expanded: no plan below it is cheaper than the one of ${number(cost)}`;
-    return this.run!.summary ? "Not expanded as far as the log tells"
-      : "Not expanded yet, as far as the log tells";
+    return this.run!.summary ? "Not expanded, according to the log"
+      : "Not expanded yet, according to the log";
   }
 
   // --- painting ---
@@ -134,7 +134,7 @@ export class TreeView {
     const width = this.canvas.clientWidth || 600;
     const height = this.canvas.clientHeight || 400;
     this.zoom = Math.min(2, width / ((right + 1.5) * kColumn), height / ((bottom + 1.2) * kRow));
-    // A wide tree has room between its rows.
+    // The rows of a wide tree are further apart.
     this.row = Math.max(kRow, height / ((bottom + 1.2) * this.zoom));
     this.x = (right / 2) * kColumn;
     this.y = (bottom / 2) * this.row;

@@ -1,40 +1,39 @@
 // SPDX-License-Identifier: MIT
-// What the log's words mean to who has not read the paper.
+// Texts for the words of the log.
 
 import type { Run } from "./model";
 
-// Of `splits_...` counters and `split` of nodes, by the name with dashes.
+// Texts for `splits_...` counters and `split` of nodes, with dashes.
 export const kSplits: Record<string, string> = {
-  "bar": "one of two robots is not on a place, or does not make a move, at some time",
-  "no-rest-by": "two robots together cost more than each alone: one of the two finishes later",
-  "rest-by": "a robot comes to rest early and no other robot passes, or it comes to rest later",
-  "no-traversal": "one of two robots does not come through a passage at some time",
-  "stop-is": "a robot visits this place as its next one, or does not",
-  "stop-is-not": "a robot visits this place as its next one, or does not",
+  "vertex-edge": "one of two robots avoids a place or a move at some time",
+  "cost": "two robots together cost more than each on its own: one of them finishes later",
+  "target": "a robot rests early and no other robot passes, or it rests later",
+  "corridor": "one of two robots does not pass through a corridor at some time",
+  "sequence": "a robot visits this place as its next one, or does not",
 };
 
 export const kPlanSources: Record<string, string> = {
-  tree: "the search tree itself",
+  tree: "the tree search",
   start: "given by --start or a checkpoint",
-  priorities: "robots planned one after the other",
-  configurations: "all robots moved together (LaCAM)",
-  neighborhood: "parts of a plan planned anew",
+  prioritized: "robots planned one after the other (prioritized planning)",
+  lacam: "all robots moved together (LaCAM)",
+  lns: "parts of a plan planned again (large neighbourhood search)",
   joint: "all robots searched together (A*)",
 };
 
 export const kBoundSources: Record<string, string> = {
-  sequences: "what each robot costs alone",
-  groups: "what groups of robots cost together",
-  splits: "conflicts that were split",
-  joint: "all robots searched together",
-  tree: "the search of the ranks",
+  individual: "costs of single robots",
+  wdg: "joint costs of groups of robots",
+  branching: "splits on conflicts",
+  joint: "joint search of all robots",
+  tree: "the tree search of the ranks",
 };
 
 export const kOutcomes: Record<string, string> = {
-  split: "split in two",
-  raise: "its bound was raised: groups of robots cost more together",
-  plan: "its paths are a plan",
-  closed: "nothing below it is cheaper than the best plan",
+  split: "split into two nodes",
+  bound_raised: "bound raised: groups of robots cost more together",
+  plan: "its paths are a plan without conflicts",
+  pruned: "pruned: no plan below this node is cheaper than the best one",
 };
 
 export function seconds(time: number): string {
@@ -56,17 +55,17 @@ export function percent(cost: number, bound: number): string {
   return bound > 0 ? `${Number((((cost - bound) / bound) * 100).toPrecision(2))} %` : "no limit";
 }
 
-// How good the plan is, for who wants to use it.
+// Summary of the quality of the plan.
 export function verdict(run: Run): string {
   const last = run.rows[run.rows.length - 1];
   const status = run.summary?.status ?? "";
   const cost = run.summary ? run.summary.cost : last?.incumbent ?? null;
   const bound = run.summary?.bound ?? last?.bound ?? 0;
-  if (status === "infeasible") return "There is no plan: proven.";
+  if (status === "infeasible") return "Proven: there is no plan.";
   if (cost === null)
-    return `No plan yet${run.summary ? " when a limit struck" : ""}; none costs less than ${number(bound)}.`;
+    return `No plan yet${run.summary ? " when a limit was reached" : ""}; none costs less than ${number(bound)}.`;
   if (cost === bound) return `Optimal: a plan of ${number(cost)} steps, and none costs less.`;
-  const gap = bound > 0 ? `at most ${percent(cost, bound)} above the best there can be` :
-    "nothing is known of how far that is from the best";
+  const gap = bound > 0 ? `at most ${percent(cost, bound)} above the best possible plan` :
+    "the distance from the best plan is unknown";
   return `A plan of ${number(cost)} steps; none costs less than ${number(bound)}: ${gap}.`;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The robot or the task chosen: what it does, how far it is, its visits.
+// The selected robot or task: activity, progress, visits.
 
 import { el, setText } from "../../page/dom";
 import { head } from "../../page/panels/head";
@@ -8,7 +8,7 @@ import type { DriveApp } from "../app";
 import { clockText, doingText, lateSentence, progressText } from "../words";
 
 export class Details {
-  readonly element = el("section", { class: "details", "aria-label": "What is chosen" });
+  readonly element = el("section", { class: "details", "aria-label": "Selection" });
   private readonly now = el("p", { class: "now" });
   private readonly progress = el("p");
   private readonly late = el("p");
@@ -17,7 +17,7 @@ export class Details {
 
   constructor(private readonly app: DriveApp) {
     this.follow = el("button", {
-      type: "button", title: "Keep it in the middle (F)",
+      type: "button", title: "Keep this robot in the middle (F)",
       click: () => {
         app.following = !app.following;
         app.changed();
@@ -37,7 +37,7 @@ export class Details {
     if (chosen >= 0) this.tell(chosen);
   }
 
-  // How many visits of what is chosen the log tells of.
+  // Number of visits of the selection in the log so far.
   private known(): number {
     const { app } = this;
     if (app.chosen >= 0)
@@ -86,6 +86,6 @@ export class Details {
 
   private nothing(): HTMLElement[] {
     return [el("p", { class: "faint" },
-      "Choose a robot or a task: click it, or search for a robot. Press ? for all keys.")];
+      "Select a robot or a task: click it, or search for a robot. Press ? for all keys.")];
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What shapes and colours mean.
+// Legend of shapes and colours.
 
 import { entriesOf, legendOf } from "../../page/panels/legend";
 import type { DriveApp } from "../app";

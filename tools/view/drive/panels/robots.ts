@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All robots, or those of a kind, with what each does and how far it is.
+// List of all robots, or of those in a kind of state, with activity and progress.
 
 import { el, plural, setText } from "../../page/dom";
 import { kMostRows, rowElement, type Row } from "../../page/panels/rows";
@@ -11,7 +11,7 @@ import { doingText, lateText, progressText } from "../words";
 type Kind = "all" | "waiting" | "late" | "help";
 
 const kKinds: [Kind, string][] = [
-  ["all", "All"], ["waiting", "Waiting"], ["late", "Late"], ["help", "To look after"],
+  ["all", "All"], ["waiting", "Waiting"], ["late", "Late"], ["help", "Needs help"],
 ];
 
 export class Robots {
@@ -20,7 +20,7 @@ export class Robots {
   private readonly body = el("div", { class: "rows" });
   private readonly buttons = new Map<Kind, HTMLButtonElement>();
   private kind: Kind = "all";
-  private shown = ""; // the agents of the rows
+  private shown = ""; // kind and agents of the rows shown
   private rows: { agent: number; row: Row; element: HTMLElement; note: HTMLElement }[] = [];
 
   constructor(private readonly app: DriveApp) {
@@ -80,7 +80,7 @@ export class Robots {
     }
   }
 
-  // In whole seconds, as it is written: rows do not change places for less.
+  // In whole seconds, as displayed, so that rows do not move for smaller differences.
   private late(agent: number): number {
     return Math.floor(lateness(this.app, agent, this.app.player.time));
   }
@@ -96,7 +96,7 @@ export class Robots {
     this.body.replaceChildren(...this.rows.map(({ element }) => element));
     const rest = agents.length - kMostRows;
     if (rest > 0)
-      this.body.append(el("p", { class: "faint" }, `and ${plural(rest, "more")}: search for them`));
+      this.body.append(el("p", { class: "faint" }, `and ${plural(rest, "more")}: use the search`));
     if (agents.length === 0) this.body.append(el("p", { class: "faint" }, "none"));
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The line at the top: what is driven, how far it is, and whether that is how it is now.
+// The line at the top: instance, progress of the drive, and whether the display is live.
 
 import { el, plural, setText } from "../../page/dom";
 import type { DriveApp } from "../app";
@@ -38,16 +38,16 @@ export class Strip {
     const late = lateText(mostLate(app, app.player.time));
     setText(this.counts, `${done} of ${app.model.agents.length} done, ${waiting} waiting` +
       (late && `, up to ${late}`));
-    setText(this.help, help > 0 ? `⚠ ${help} to look after` : "");
+    setText(this.help, help > 0 ? `⚠ ${help} ${help === 1 ? "needs" : "need"} help` : "");
     this.element.classList.toggle("live", app.player.live);
   }
 
   private stateNow(): string {
     const { drive, player } = this.app;
     if (drive.isOver) return "The drive has ended.";
-    if (!player.isFollowed) return "The log ends before everybody is done.";
-    if (!this.isAnswering) return "The server does not answer any more.";
+    if (!player.isFollowed) return "The log ends before all robots are done.";
+    if (!this.isAnswering) return "The server no longer responds.";
     if (drive.order === "") return "Waiting for the drive to begin.";
-    return player.live ? "Live." : "It goes on; this is what was.";
+    return player.live ? "Live." : "The drive continues; this is an earlier moment.";
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Who does what when: a row for each robot (of two plans one below the other), time from left to
-// right. It is a slider as well, and names choose their robots.
+// Activities over time: a row for each robot (for two plans one below the other), time from left to
+// right. The chart is also a slider, and names select their robots.
 
 import type { App, Viewed } from "../app";
 import type { Colors } from "../colors";
@@ -64,7 +64,7 @@ export class Chart {
     this.first = Math.min(count - this.layout.rows, Math.max(0, this.first));
   }
 
-  // Time: null on the names.
+  // Time at a point; null on the names.
   private at(event: PointerEvent): { robot: number; time: number | null } {
     const box = this.canvas.getBoundingClientRect();
     const { first, left, row, rows, width } = this.layout;
@@ -103,7 +103,7 @@ export class Chart {
     this.cursor.style.transform = `translateX(${at.toFixed(1)}px)`;
   }
 
-  // Who has just been chosen.
+  // Scrolls to the robot that has just been selected.
   private bringIntoSight(robot: number, rows: number): void {
     if (robot === this.shownChoice) return;
     this.shownChoice = robot;
@@ -187,7 +187,7 @@ export class Chart {
     const at = this.app.chosen - first;
     if (this.app.chosen < 0 || at < 0 || at >= rows) return;
     c.strokeStyle = colors.chosen;
-    const line = row < 8 ? 1 : 2; // what it surrounds is to be seen
+    const line = row < 8 ? 1 : 2; // thin, so that the row inside stays visible
     c.lineWidth = line;
     c.strokeRect(left + line / 2, at * row - line / 2, width - line, row - gap + line);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The robot chosen, in two plans: how they differ, and when it makes each visit in either.
+// The selected robot in two plans: their differences, and the times of its visits in both.
 
 import type { App } from "../app";
 import type { Difference } from "../compare";
@@ -13,12 +13,12 @@ export function comparedDetails(app: App, agent: number): HTMLElement[] {
   if (!comparison) return [];
   const found = comparison.all.find((difference) => difference.agent === agent);
   const told = found ? differenceText(app, found)
-    : el("p", { class: "faint" }, "It does the same in both plans.");
+    : el("p", { class: "faint" }, "It behaves the same in both plans.");
   return [told, ...visitsInBoth(app, agent)];
 }
 
 function differenceText(app: App, { by, orders, parts }: Difference): HTMLElement {
-  if (Number.isNaN(by)) return el("p", {}, "One of the plans has no path for it.");
+  if (Number.isNaN(by)) return el("p", {}, "One of the plans has no path for this robot.");
   const cost = by === 0 ? "It costs the same in both plans."
     : `It costs ${signed(by)} in the second plan.`;
   const order = orders ? " It visits its tasks in another order." : "";
@@ -26,7 +26,7 @@ function differenceText(app: App, { by, orders, parts }: Difference): HTMLElemen
     momentButton(parts, () => app.go(parts)), " on. Dashed: its path in the other plan.");
 }
 
-// In the order of the first plan; where the second has another, its place there.
+// In the order of the first plan. If a visit has another place in the second plan, this place is shown.
 function visitsInBoth(app: App, agent: number): HTMLElement[] {
   const { model, viewed } = app;
   const [first, second] = viewed.map(({ plan }) =>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Play, pause, step, speed, loop; the time as a slider and as a number.
+// Controls: play, pause, step, speed, loop; the time as a slider and as a number.
 
 import { el, icon, setText } from "../dom";
 import type { Player } from "../player";
@@ -19,7 +19,7 @@ interface Played {
   changed(): void;
 }
 
-// How moments are written.
+// Texts of moments.
 export interface TimeWords {
   readonly label: string;
   readonly unit: string;
@@ -57,7 +57,7 @@ export class Controls {
     };
     this.playButton = button(icon(kIcons.play), "Play or pause (space)", () => player.toggle());
     this.playFace = this.playButton.querySelector("path")!;
-    this.loop = button(icon(kIcons.loop), "Begin again at the end (L)",
+    this.loop = button(icon(kIcons.loop), "Loop: start again at the end (L)",
       () => (player.loop = !player.loop));
     this.slider = el("input", {
       type: "range", min: 0, max: player.end, step: "any", value: 0, class: "time",
@@ -70,9 +70,9 @@ export class Controls {
       "div",
       { class: "controls" },
       button(icon(kIcons.begin), "To the beginning (Home)", () => player.go(0)),
-      button(icon(kIcons.back), `A ${words.unit} back (left arrow)`, () => player.step(-1)),
+      button(icon(kIcons.back), `One ${words.unit} back (left arrow)`, () => player.step(-1)),
       this.playButton,
-      button(icon(kIcons.on), `A ${words.unit} on (right arrow)`, () => player.step(1)),
+      button(icon(kIcons.on), `One ${words.unit} forward (right arrow)`, () => player.step(1)),
       button(icon(kIcons.end), "To the end (End)", () => player.go(player.end)),
       this.slider,
       this.clock,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The robot or the task chosen; or how to choose one.
+// The selected robot or task, or a hint how to select one.
 
 import type { App } from "../app";
 import { el } from "../dom";
@@ -8,7 +8,7 @@ import { RobotDetails } from "./robot";
 import { taskDetails } from "./task";
 
 export class Details {
-  readonly element = el("section", { class: "details", "aria-label": "What is chosen" });
+  readonly element = el("section", { class: "details", "aria-label": "Selection" });
   private shown = "";
   private robot: RobotDetails | null = null;
 
@@ -30,7 +30,7 @@ export class Details {
     if (task >= 0)
       return [head(this.app, taskTitle(this.app, task)), ...taskDetails(this.app, task)];
     return [el("p", { class: "faint" },
-      "Choose a robot or a task: click it, or search for its name. Press ? for all keys.")];
+      "Select a robot or a task: click it, or search for its id. Press ? for all keys.")];
   }
 }
 

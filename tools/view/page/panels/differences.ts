@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which robots do not do the same in both plans: what each costs, how much more, and from when on.
+// Robots that differ between both plans: their costs, the difference, and the first different moment.
 
 import type { App } from "../app";
 import type { Comparison, Difference } from "../compare";
@@ -9,8 +9,8 @@ import { momentButton, type Row } from "./rows";
 type Order = "cost" | "moment" | "name";
 const kOrders: [Order, string][] = [
   ["cost", "largest difference first"],
-  ["moment", "first to part first"],
-  ["name", "as they are numbered"],
+  ["moment", "earliest difference first"],
+  ["name", "by number"],
 ];
 
 export class Differences {
@@ -22,7 +22,7 @@ export class Differences {
     private readonly comparison: Comparison,
     changed: () => void,
   ) {
-    this.order = el("select", { "aria-label": "In which order", change: () => changed() },
+    this.order = el("select", { "aria-label": "Sort order", change: () => changed() },
       ...kOrders.map(([value, text]) => el("option", { value }, text)));
     this.filters = el("div", {}, el("p", {}, this.summary()),
       ...(comparison.all.length > 0 ? [el("div", { class: "filter" }, this.order)] : []));
@@ -34,7 +34,7 @@ export class Differences {
     const verb = all.length === 1 ? "differs" : "differ";
     const robots = `${all.length.toLocaleString("en")} of ${total} ${verb}.`;
     const [first, second] = this.app.viewed.map(({ plan }) => plan.name);
-    if (Number.isNaN(by)) return `${robots} Their costs cannot be compared: paths are missing.`;
+    if (Number.isNaN(by)) return `${robots} The costs cannot be compared because paths are missing.`;
     if (by === 0) return `${robots} Both plans cost the same.`;
     const more = `${Math.abs(by).toLocaleString("en")} ${by > 0 ? "more" : "less"}`;
     return `${robots} ${second} costs ${more} than ${first}.`;
@@ -52,7 +52,7 @@ export class Differences {
         note: () => costsText(difference),
         act: () => app.choose(agent),
         more: Number.isFinite(parts)
-          ? momentButton(parts, go, `Go to step ${parts}, from which on they differ`) : undefined,
+          ? momentButton(parts, go, `Go to step ${parts}, the first difference`) : undefined,
       };
     });
   }
@@ -68,7 +68,7 @@ function sorted(all: Difference[], order: Order): Difference[] {
   }
 }
 
-// Infinities are equal, not unknown.
+// Two infinite values are equal (their difference is NaN).
 function compareNumbers(a: number, b: number): number {
   return a < b ? -1 : a > b ? 1 : 0;
 }

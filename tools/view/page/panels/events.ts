@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The list of events: which kinds, and whose.
+// The list of events, filtered by kind and robot.
 
 import type { App } from "../app";
 import { el, setText } from "../dom";
@@ -8,10 +8,10 @@ import type { Row } from "./rows";
 
 const kKinds: [EventKind | "all", string][] = [
   ["all", "all events"],
-  ["wrong", "what is wrong"],
+  ["wrong", "problems"],
   ["wait", "long waits"],
-  ["task", "tasks done"],
-  ["rest", "robots at rest"],
+  ["task", "completed tasks"],
+  ["rest", "robots coming to rest"],
 ];
 
 export class Events {
@@ -23,23 +23,23 @@ export class Events {
   private known: PlanEvent[] | null = null;
 
   constructor(private readonly app: App, private readonly changed: () => void) {
-    this.kind = el("select", { "aria-label": "Which events", change: () => changed() },
+    this.kind = el("select", { "aria-label": "Kind of events", change: () => changed() },
       ...kKinds.map(([value, text]) => el("option", { value }, text)));
     this.only = el("button", { type: "button", click: () => this.toggle() });
     this.only.hidden = true;
     this.filters = el("div", { class: "filter" }, this.kind, this.only);
   }
 
-  // Another robot; does that change the list? (If not it is left alone, with what has the focus.)
+  // Sets the selected robot. Returns whether the list changes. (If not, it is kept with its focus.)
   choose(robot: number): boolean {
     if (robot === this.chosen) return false;
     this.chosen = robot;
     this.only.hidden = robot < 0;
-    if (robot >= 0) setText(this.only, `only of ${this.app.model.agents[robot].name}`);
+    if (robot >= 0) setText(this.only, `only robot ${this.app.model.agents[robot].name}`);
     return this.onlyChosen;
   }
 
-  // More has been found out.
+  // Called when more events are known.
   forget(): void {
     this.known = null;
   }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The head of what is chosen: its name, and how to have done with it.
+// Head of the selection: its name, and a button to clear it.
 
 import { el, setText } from "../dom";
 import type { Choice } from "../stage";
 
 export function head(app: Pick<Choice, "choose">, title: string, ...buttons: HTMLElement[]): HTMLElement {
   const close = el("button", {
-    type: "button", "aria-label": "Choose nothing", title: "Choose nothing (Esc)",
+    type: "button", "aria-label": "Clear selection", title: "Clear selection (Esc)",
     click: () => app.choose(-1),
   }, "✕");
   const heading = el("h2", { dir: "auto" });

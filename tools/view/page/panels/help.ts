@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// What each key does, on request.
+// Dialog with the meaning of all keys.
 
 import { el } from "../dom";
 
 const kKeys = (unit: string): [string, string][] => [
   ["space", "play, pause"],
-  ["← →", `a ${unit} back, a ${unit} on`],
-  ["page up, page down", `ten ${unit}s back, ten on`],
+  ["← →", `one ${unit} back, one ${unit} forward`],
+  ["page up, page down", `ten ${unit}s back, ten ${unit}s forward`],
   ["home, end", "to the beginning, to the end"],
   [", .", "slower, faster"],
-  ["L", "begin again at the end, or not"],
-  ["+ −", "look closer, from further away"],
-  ["W A S D", "look further up, left, down, right"],
-  ["0", "show everything"],
+  ["L", "loop on or off"],
+  ["+ −", "zoom in, zoom out"],
+  ["W A S D", "move the view up, left, down, right"],
+  ["0", "show the whole map"],
   ["/", "search for a robot or a task"],
-  ["N P", "the next robot, the one before"],
-  ["F", "follow the robot chosen"],
-  ["Esc", "choose nothing"],
+  ["N P", "next robot, previous robot"],
+  ["F", "keep the selected robot in the middle"],
+  ["Esc", "clear the selection"],
   ["?", "this list"],
 ];
 
@@ -30,7 +30,7 @@ export class Help {
     this.element = el("dialog", { "aria-label": "Keys" }, el("h2", {}, "Keys"),
       el("table", {}, el("tbody", {}, ...rows)),
       el("p", { class: "faint" },
-        "Wheel or two fingers zoom, dragging moves the map; a click chooses."),
+        "Zoom with the wheel or two fingers, drag to move the map, click to select."),
       close);
   }
 

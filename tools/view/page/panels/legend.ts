@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What shapes and colours mean, and which heat is shown.
+// Legend of shapes and colours, and the choice of the heat map.
 
 import type { App } from "../app";
 import { el } from "../dom";
@@ -23,7 +23,7 @@ const kHeats: [Heat, string][] = [
 ];
 const kGoals: Entry[] = [["goal", "destination"]];
 
-// Of what there is nothing of, nothing is said.
+// Leaves out kinds that do not occur.
 export function entriesOf(model: Model, robots: Entry[]): Entry[] {
   const hasWork = model.tasks.some(({ duration }) => duration > 0);
   return [

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tasks, robots, events and differences, with one field to search them all.
+// Lists of tasks, robots, events and differences, with one search field for all of them.
 
 import type { App } from "../app";
 import { el, plural, setText } from "../dom";
@@ -21,7 +21,7 @@ export class Lists {
   private tab: Tab;
   private rows: Row[] = [];
   private notes: { element: HTMLElement; row: Row }[] = [];
-  private found = ""; // that events are made of
+  private found = ""; // state of the check and of the waits that the events are made from
 
   constructor(private readonly app: App) {
     const { comparison, model } = app;
@@ -93,14 +93,14 @@ export class Lists {
     this.body.replaceChildren(...shown.map(({ element }) => element));
     const rest = this.rows.length - kMostRows;
     if (rest > 0)
-      this.body.append(el("p", { class: "faint" }, `and ${plural(rest, "more")}: search for them`));
+      this.body.append(el("p", { class: "faint" }, `and ${plural(rest, "more")}: use the search`));
     if (this.rows.length === 0) this.body.append(el("p", { class: "faint" }, this.nothing()));
     for (const { element, row } of this.notes) setText(element, row.note());
   }
 
   private nothing(): string {
     const isSame = this.tab === "differences" && this.query === "";
-    return isSame ? "every robot does the same in both plans" : "nothing of that kind";
+    return isSame ? "every robot does the same in both plans" : "no matches";
   }
 
   private ofTab(): Row[] {
@@ -112,7 +112,7 @@ export class Lists {
     }
   }
 
-  // Shorter ids first: they are nearer to what was typed.
+  // Shorter ids first: they match the input better.
   private matching(query: string): Row[] {
     const things = [...this.robots(), ...this.tasks()].filter((row) => row.key.includes(query));
     things.sort((a, b) => a.key.length - b.key.length);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A list of moments to jump to, each with what happens then.
+// A list of moments to jump to, each with its event.
 
 import type { App } from "../app";
 import { el, plural } from "../dom";
@@ -12,7 +12,7 @@ export interface Moment {
   text: string;
 }
 
-// Of very many things only those shown are told.
+// Makes the texts only of the items shown.
 export function moments<T>(app: App, things: T[], tell: (thing: T) => Moment): HTMLElement {
   const items = things.slice(0, kMost).map(tell).map(({ time, text }) =>
     el("li", {},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The robot chosen: what it does now, its visits in order, its waits and whom it lets pass.
+// The selected robot: its activity now, its visits in order, its waits and their causes.
 
 import { violationsOf, type App, type Viewed } from "../app";
 import { el, plural, setText } from "../dom";
@@ -17,24 +17,24 @@ export class RobotDetails {
   constructor(private readonly app: App, private readonly agent: number) {
     const { name, turnSteps } = app.model.agents[agent];
     this.follow = el("button", {
-      type: "button", title: "Keep it in the middle (F)",
+      type: "button", title: "Keep this robot in the middle (F)",
       click: () => app.set({ following: !app.following }),
     }, "Follow");
     const turning = turnSteps > 0
-      ? [el("p", { class: "faint" }, `A quarter turn takes it ${plural(turnSteps, "step")}.`)] : [];
+      ? [el("p", { class: "faint" }, `A quarter turn takes ${plural(turnSteps, "step")}.`)] : [];
     this.elements = [head(app, name, this.follow), ...turning, ...comparedDetails(app, agent),
       ...(app.viewed.length > 0 ? app.viewed.flatMap((viewed) => this.plan(viewed))
         : this.asked())];
   }
 
-  // What the instance says of it, where there is no plan.
+  // Data of the instance, if there is no plan.
   private asked(): HTMLElement[] {
     const { agents, tasks, world } = this.app.model;
     const { start, goal, tasks: own } = agents[this.agent];
     const line = (text: string) => el("p", {}, text);
     return [
       line(`Starts on ${world.place(start)}.`),
-      line(own.length > 0 ? `Is to visit ${own.map((task) => tasks[task].name).join(", ")}.`
+      line(own.length > 0 ? `Must visit ${own.map((task) => tasks[task].name).join(", ")}.`
         : "Has no tasks."),
       line(goal >= 0 ? `Ends on ${world.place(goal)}.`
         : own.length > 0 ? "Ends on one of its tasks." : "May end anywhere."),
@@ -51,15 +51,15 @@ export class RobotDetails {
     const { plan, facts, waits } = viewed;
     const title = this.app.viewed.length > 1 ? [el("h3", {}, plan.name)] : [];
     if (plan.agents[this.agent].track.isEmpty)
-      return [...title, el("p", { class: "bad" }, "It has no path.")];
+      return [...title, el("p", { class: "bad" }, "The plan has no path for this robot.")];
     const now = el("p", { class: "now" });
     this.now.push({ viewed, element: now });
     const rest = facts.finish[this.agent];
     return [
       ...title,
       now,
-      el("p", {}, `Costs ${rest}: at rest from that step on.`),
-      ...this.list("Wrong", violationsOf(viewed, this.agent), (wrong) => wrong, "bad"),
+      el("p", {}, `Cost ${rest}: the robot is at rest from that step on.`),
+      ...this.list("Problems", violationsOf(viewed, this.agent), (wrong) => wrong, "bad"),
       ...(this.app.viewed.length > 1 ? []
         : this.list("Visits", this.visits(viewed), (visit) => this.visit(visit))),
       ...this.list("Waits", waits.byAgent[this.agent], (wait) => ({
@@ -81,7 +81,7 @@ export class RobotDetails {
     return [el("h4", { class: kind }, title), moments(this.app, things, tell)];
   }
 
-  // When it passes, or begins to work.
+  // The time at which it passes or begins to work.
   private visit({ task, begin, time }: Visit): Moment {
     const { duration, name } = this.app.model.tasks[task];
     const what = `${task + 1}: ${name}`;

@@ -6,7 +6,7 @@ import { el } from "../dom";
 export const kMostRows = 300;
 
 export interface Row {
-  key: string; // what a search looks at
+  key: string; // text that searches match
   text: string;
   note: () => string;
   act: () => void;
@@ -23,7 +23,7 @@ export function rowElement(row: Row): { element: HTMLElement; note: HTMLElement 
   return { element, note };
 }
 
-// A moment to jump to.
+// A button that goes to a moment.
 export function momentButton(
   time: number | string, act: () => void, title = `Go to step ${time}`,
 ): HTMLElement {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The line at the top: what is shown, what each plan costs and claims, and what the page found.
+// The line at the top: instance, costs and claims of each plan, and the page's own verdict.
 
 import type { App, Viewed } from "../app";
 import { el, plural, setText } from "../dom";
@@ -24,7 +24,7 @@ export class Strip {
     for (const { viewed, element } of this.verdicts) showVerdict(element, viewed);
   }
 
-  // The same cells for each plan, so that they stand below each other.
+  // The same cells for each plan, so that they are aligned.
   private row(plan: Plan): HTMLElement {
     const viewed = this.app.viewed.find((v) => v.plan === plan);
     const { status, lower_bound: bound, omega } = plan.claims;
@@ -39,7 +39,7 @@ export class Strip {
       this.verdict(plan, viewed));
   }
 
-  // To the first plan's cost; as the page adds them up.
+  // Difference from the first plan's cost, both computed by the page.
   private difference(viewed: Viewed | undefined): string {
     const { comparison } = this.app;
     if (!comparison || viewed !== this.app.viewed[1]) return "";
@@ -51,14 +51,14 @@ export class Strip {
 
   private verdict(plan: Plan, viewed: Viewed | undefined): HTMLElement {
     if (plan.agents.length === 0) return el("span", { class: "verdict" }, "no plan in this file");
-    if (!viewed) return el("span", { class: "faint" }, "not shown: two at most are");
+    if (!viewed) return el("span", { class: "faint" }, "not shown: the page shows two plans");
     const element = el("span", { class: "verdict", role: "status" }, "checking …");
     this.verdicts.push({ viewed, element });
     return element;
   }
 }
 
-// What the page adds up; nothing where paths are missing.
+// Cost computed by the page; undefined if paths are missing.
 function foundCost(viewed: Viewed | undefined): number | undefined {
   if (!viewed || viewed.plan.agents.some(({ track }) => track.isEmpty)) return undefined;
   return viewed.facts.cost;
@@ -70,7 +70,7 @@ function costText(cost: number | undefined, found: number | undefined): string |
   return `${text} claimed, ${found.toLocaleString("en")} found`;
 }
 
-// Empty where nothing is claimed.
+// Empty if the plan claims no value.
 function cell(name: string, value: string | undefined, more = ""): HTMLElement {
   if (value === undefined) return el("span", { class: "claim" });
   return el("span", { class: "claim" }, el("span", { class: "faint" }, name), ` ${value}`,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The task chosen: where it is, who is there when, and how far it has come.
+// The selected task: its place, its visits with times, and its progress.
 
 import type { App } from "../app";
 import { el, plural } from "../dom";
@@ -30,7 +30,7 @@ function names(app: App, agents: number[]): string {
   return agents.length > 20 ? `${some} and ${plural(agents.length - 20, "more")}` : some;
 }
 
-// "2 of 3" have been there; of two plans, of each.
+// "2 of 3" robots have been there; for two plans, one number each.
 export function progressText(app: App, task: number): string {
   const total = app.model.tasks[task].agents.length;
   const counts = app.viewed.map(({ facts }) => visitsBy(facts.tasks[task], app.player.time));

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The step chosen: what it says, why, and what is demanded there.
+// The selected step: its statement, the reason, and the constraints in force there.
 
 import { el } from "../../page/dom";
 import type { ProofApp } from "../app";
-import { demandsAt, usersOf, type Statement, type Step } from "../certificate";
-import { agentsText, closedText, demandText, lemmaText, stepText, whyText } from "../words";
+import { constraintsAt, usersOf, type Statement, type Step } from "../certificate";
+import { agentsText, closedText, constraintText, lemmaText, stepText, whyText } from "../words";
 
 export class Details {
-  readonly element = el("section", { class: "details", "aria-label": "The step chosen" });
+  readonly element = el("section", { class: "details", "aria-label": "Selected step" });
 
   constructor(private readonly app: ProofApp) {
     app.onChange(() => this.update());
@@ -17,7 +17,7 @@ export class Details {
   private update(): void {
     const { app } = this;
     this.element.replaceChildren(
-      ...this.statement(app.statement), ...this.step(app.step), ...this.demands(app.statement, app.step),
+      ...this.statement(app.statement), ...this.step(app.step), ...this.constraints(app.statement, app.step),
       ...this.marked());
   }
 
@@ -25,7 +25,7 @@ export class Details {
     const { app } = this;
     if (statement.number < 0) return [el("h2", {}, "The theorem")];
     const users = usersOf(app.certificate, statement.number).map((user) => this.link(user));
-    const meeting = statement.demands.length > 0 ? "In plans that meet its demands" : "In all plans";
+    const meeting = statement.constraints.length > 0 ? "In plans that satisfy its constraints" : "In all plans";
     return [
       el("div", { class: "head" }, el("h2", {}, `Lemma ${statement.number}`),
         el("button", { type: "button", click: () => app.show(app.certificate.theorem) }, "Back to the theorem")),
@@ -41,7 +41,7 @@ export class Details {
 
   private step(step: Step): HTMLElement[] {
     const { model, statement, certificate } = this.app;
-    const heading = el("h3", {}, step.sides.length > 0 ? "Each plan here meets one of these" : "Nothing is left to split",
+    const heading = el("h3", {}, step.sides.length > 0 ? "Each plan here satisfies one of these" : "Proven without a split",
       el("span", { class: "faint line" }, ` line ${step.line}`));
     if (step.sides.length === 0)
       return [heading, el("p", {}, closedText(model, statement, step)), ...this.lemmas(step)];
@@ -50,11 +50,11 @@ export class Details {
       el("ul", { class: "moments" }, ...step.children.map((child) => el("li", {},
         el("button", { type: "button", class: "link", click: () => this.app.select(child) },
           stepText(model, statement, child))))),
-      why === "" ? el("p", { class: "bad" }, "✗ docs/proof.md permits no such split.") : el("p", {}, why),
+      why === "" ? el("p", { class: "bad" }, "✗ docs/proof.md does not permit this split.") : el("p", {}, why),
       ...this.lemmas(step)];
   }
 
-  // Those that the step names, in words.
+  // The lemmas that the step names, in words.
   private lemmas(step: Step): HTMLElement[] {
     const { model, certificate } = this.app;
     if (step.lemmas.length === 0) return [];
@@ -64,21 +64,21 @@ export class Details {
     }))];
   }
 
-  private demands(statement: Statement, step: Step): HTMLElement[] {
+  private constraints(statement: Statement, step: Step): HTMLElement[] {
     const { model } = this.app;
-    const demands = [...statement.demands, ...demandsAt(step)];
-    if (demands.length === 0) return [];
-    const items = demands.flatMap((demand) => {
-      const text = el("li", {}, demandText(model, demand));
-      if (demand.kind !== "rest") return [text];
-      const place = model.world.place(demand.places[0]);
+    const constraints = [...statement.constraints, ...constraintsAt(step)];
+    if (constraints.length === 0) return [];
+    const items = constraints.flatMap((constraint) => {
+      const text = el("li", {}, constraintText(model, constraint));
+      if (constraint.kind !== "rest") return [text];
+      const place = model.world.place(constraint.places[0]);
       return [text, el("li", { class: "faint" },
-        `so nobody else of ${agentsText(model, statement.agents)} is there, on ${place}, from ${demand.end} on`)];
+        `so no other agent of ${agentsText(model, statement.agents)} is on ${place} from ${constraint.end} on`)];
     });
-    return [el("h3", {}, "Demanded here"), el("ul", { class: "moments" }, ...items)];
+    return [el("h3", {}, "Constraints here"), el("ul", { class: "moments" }, ...items)];
   }
 
-  // What was chosen on the map.
+  // The task or agent selected on the map.
   private marked(): HTMLElement[] {
     const { marked, chosenTask, model } = this.app;
     const { world } = model;
@@ -89,7 +89,7 @@ export class Details {
     if (marked < 0) return [];
     const { name, start, goal } = model.agents[marked];
     return [el("h3", {}, name), el("p", {}, `Starts on ${world.place(start)}` +
-      `${goal >= 0 ? `, ends on ${world.place(goal)}` : ""}. What the tree says of it is set bold.`)];
+      `${goal >= 0 ? `, ends on ${world.place(goal)}` : ""}. Constraints on it are bold in the tree.`)];
   }
 }
 

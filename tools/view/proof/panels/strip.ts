@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The line at the top: the theorem, what it says of the plan, and who checks it.
+// The line at the top: the theorem, what it implies for the plan, and the command that verifies it.
 
 import { el } from "../../page/dom";
 import { planFacts } from "../../page/facts";
@@ -14,8 +14,8 @@ export function strip({ model, certificate }: ProofApp, file: string): HTMLEleme
     el("h1", {}, theoremText(certificate)),
     el("span", {}, howText(certificate)),
     plan ? planLine(plan.name, planFacts(model, plan).cost, certificate.theorem.bound) : null,
-    el("span", { class: "faint" }, "This page shows what the certificate says; ",
-      el("code", {}, command), " checks it."));
+    el("span", { class: "faint" }, "This page shows the certificate; ",
+      el("code", {}, command), " verifies it."));
 }
 
 function planLine(name: string, cost: number, bound: number): HTMLElement {

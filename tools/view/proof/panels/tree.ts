@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The proof as an outline: a row for each step, which says what leads to it, and at its end what it
-// comes to. Made anew when something is folded or unfolded.
+// The proof as an outline: a row for each step, with the constraint that leads to it and a note at its
+// end. The rows are created again when a step is folded or unfolded.
 
 import { el } from "../../page/dom";
 import type { ProofApp } from "../app";
-import { demandOf, type Step } from "../certificate";
+import { constraintOf, type Step } from "../certificate";
 import { noteText, stepText } from "../words";
 
-const kMostDepth = 60; // rows further down are set no further in
-const kWidest = 16; // pixels by which a level is set in
-const kRoom = 200; // pixels for all of them, if that leaves them kNarrowest
+const kMostDepth = 60; // deeper rows are not indented further
+const kWidest = 16; // pixels of indentation per level, at most
+const kRoom = 200; // pixels of indentation for all levels, if each still gets kNarrowest
 const kNarrowest = 3;
 
 export class Tree {
@@ -35,7 +35,7 @@ export class Tree {
     this.bringIntoSight(this.elements[this.rows.indexOf(this.shown)]);
   }
 
-  // Moves the rows alone, never the page.
+  // Scrolls only the rows, never the page.
   private bringIntoSight(row: HTMLElement | undefined): void {
     if (!row) return;
     const inside = row.getBoundingClientRect();
@@ -77,14 +77,14 @@ export class Tree {
     const isChosen = step === app.step;
     row.setAttribute("aria-selected", String(isChosen));
     row.tabIndex = isChosen ? 0 : -1;
-    row.classList.toggle("of", app.marked >= 0 && demandOf(step)?.agent === app.marked);
+    row.classList.toggle("of", app.marked >= 0 && constraintOf(step)?.agent === app.marked);
   }
 
   private focus(): void {
     this.elements[this.rows.indexOf(this.app.step)]?.focus({ preventScroll: true });
   }
 
-  // As outlines are gone through: up and down the rows, to the right into a step, to the left out.
+  // Keys of an outline: up and down go through the rows, right goes into a step, left goes out of it.
   private key(event: KeyboardEvent): void {
     const { app, rows } = this;
     const { step } = app;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/hierarchy_links.h"
+
+#include <utility>
+
+#include "mpi/polling.h"
+
+namespace grove::detail {
+
+std::vector<std::vector<int>> ChildLinks::ranks() const {
+  std::vector<std::vector<int>> all(static_cast<std::size_t>(count()));
+  for (int rank = post_.rank; rank < hierarchy_.ranks() && include(rank); ++rank)
+    all[static_cast<std::size_t>(with(rank))].push_back(rank);
+  return all;
+}
+
+void ChildLinks::send(int child, const message::Message& message) {
+  const Endpoint post = hierarchy_.child(post_, child);
+  transport_.send(post.rank, message::bytes_of(message, post.level));
+}
+
+void ChildLinks::broadcast(const message::Message& message) {
+  const std::string bytes = message::bytes_of(message, post_.level - 1);
+  for (int child = 0; child < count(); ++child)
+    transport_.send(hierarchy_.child(post_, child).rank, bytes);
+}
+
+void ChildLinks::send_message_counts(const message::MessageCounts& message_counts) {
+  std::vector<message::MessageCounts> parts(static_cast<std::size_t>(count()));
+  for (const auto& [rank, messages] : message_counts.messages)
+    parts.at(static_cast<std::size_t>(with(rank))).messages[rank] = messages;
+  for (int child = 0; child < count(); ++child) send(child, parts[static_cast<std::size_t>(child)]);
+}
+
+namespace {
+
+// Minimum time between two statuses that are not urgent, in seconds at the beginning; see
+// pause_at(). It grows with the number of siblings, because the parent receives from all its
+// children.
+constexpr double kPause = 2e-3;
+constexpr double kPausePerSibling = 50e-6;
+
+constexpr double kNothingToSay = std::numeric_limits<double>::infinity();
+
+bool has_idle(const message::Status& status) {
+  return !status.work_requests.empty() && status.work_requests.front().idle;
+}
+
+}  // namespace
+
+ParentLink::ParentLink(Transport& transport, const Hierarchy& hierarchy, Endpoint post,
+                       message::Status first)
+    : transport_(transport),
+      to_(hierarchy.parent(post)),
+      pause_(kPause + kPausePerSibling * hierarchy.children(to_)),
+      said_(std::move(first)) {}
+
+void ParentLink::send(const message::Message& message) {
+  transport_.send(to_.rank, message::bytes_of(message, to_.level));
+}
+
+// A surplus is urgent if the number of open nodes has more than doubled since the last report.
+// Otherwise, while few ranks have nodes, the other ranks would wait a report interval per doubling.
+bool ParentLink::is_urgent(const message::Status& status) const {
+  const bool has_more = !status.surplus.empty() && status.open / 2 > 2 * (said_.open / 2);
+  return has_more || !status.taken.empty() || status.entrusted != said_.entrusted ||
+         status.epoch != said_.epoch || status.bound != said_.bound ||
+         status.proven != said_.proven || status.stopped != said_.stopped ||
+         status.live != said_.live || has_idle(status) != has_idle(said_);
+}
+
+bool ParentLink::report(message::Status status, double now) {
+  reports_at_ = kNothingToSay;
+  if (!urgent_ && status == said_) return false;
+  const double next = said_at_ + pause_at(said_at_, pause_);
+  if (!urgent_ && !is_urgent(status) && now < next) {
+    reports_at_ = next;
+    return false;
+  }
+  send(status);
+  said_ = std::move(status);
+  said_.taken.clear();
+  said_at_ = now;
+  urgent_ = false;
+  return true;
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Why the plan is valid.
+//
+// Claim: no two robots collide. Proof: every place is passed by the robots in the order of `plan`,
+// and each robot enters it no earlier than the previous one has left it. For an action begins no
+// earlier than the one that it waits for, and both moves take one step. (Dependencies that were
+// removed as transitive hold as well, because begin times never fall along the remaining ones.) So
+// no two robots are on one place at the same time. If two robots swapped places, each would enter a
+// place after the other one has been there. Then their moves would be one step of `plan`, too,
+// which would be a swap.
+//
+// Without following, an action waits until the other one has ended, as in an execution
+// (execution_trace.h): it enters a place at least one step after the other robot has left it. Such
+// a plan has no rings, so these waits have no cycle either (action_dependency_graph.cpp). If no
+// robot is late, the plan does not change, because its own actions wait at least as long.
+#include "execution/delay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace grove::detail {
+namespace {
+
+// The begin times of actions if no other robot were in the way.
+class Wishes {
+ public:
+  Wishes(const ActionDependencyGraph& order, Time time, std::span<const Delay> late)
+      : order_(order), time_(time), late_(static_cast<std::size_t>(order.agent_count())) {
+    for (const Delay& l : late) late_[l.agent] = l.steps;
+  }
+
+  Time begin(ActionIndex index) const {
+    const Action& action = order_.actions()[index];
+    if (is_done(action)) return action.begin;
+    return is_under_way(action) ? action.begin + late_[action.agent] : time_;
+  }
+  // True if the action must have begun at begin(), because the robot is late and is known to have
+  // begun it.
+  bool is_certain(ActionIndex index) const {
+    const Action& action = order_.actions()[index];
+    return late_[action.agent] > 0 && (is_done(action) || is_under_way(action));
+  }
+
+ private:
+  Time clock(const Action& action) const { return time_ - late_[action.agent]; }
+  bool is_done(const Action& action) const { return action.begin + action.steps <= clock(action); }
+  // True if the robot's delay occurred within the action.
+  bool is_under_way(const Action& action) const {
+    return action.begin < clock(action) && !is_done(action);
+  }
+
+  const ActionDependencyGraph& order_;
+  const Time time_;
+  std::vector<Time> late_;  // by agent
+};
+
+[[noreturn]] void refuse(const Instance& instance, const ActionDependencyGraph& order,
+                         ActionIndex index, Time time) {
+  const Action& action = order.actions()[index];
+  const ActionIndex other = order.after(index);
+  const std::string before =
+      other == kNoAction ? "others"
+                         : fmt::format("'{}'", instance.agent(order.actions()[other].agent).id);
+  throw InfeasibleDelay(
+      action.agent,
+      fmt::format("'{}' cannot have reached {} by step {}, because {} had not left it",
+                  instance.agent(action.agent).id, instance.world().name(action.to), time, before));
+}
+
+void require_possible(const Instance& instance, Time time, std::span<const Delay> late) {
+  for (const Delay& l : late) {
+    const std::string& id = instance.agent(l.agent).id;
+    if (l.steps > time)
+      throw InfeasibleDelay(
+          l.agent, fmt::format("'{}' cannot be {} steps late; expected at most {}, the steps that "
+                               "have passed",
+                               id, l.steps, time));
+    if (std::ranges::count(late, l.agent, &Delay::agent) > 1)
+      throw InfeasibleDelay(l.agent,
+                            fmt::format("'{}' is named twice; expected each robot once", id));
+  }
+}
+
+// In every plan of an instance, work in progress at the start continues at once. For a late robot
+// it does not, so its work is moved by the delay.
+void delay_work_begun_before(const Instance& instance, std::span<const Delay> late, Plan& plan) {
+  for (const Delay& l : late) {
+    if (!instance.world().is_working(instance.agent(l.agent).start)) continue;
+    AgentPlan& robot = plan.agents[l.agent];
+    WorkTime& work = robot.work.front();
+    work.begin += l.steps;
+    work.end += l.steps;
+    const Time cost = std::max(robot.cost, work.end);
+    plan.cost += cost - robot.cost;
+    robot.cost = cost;
+    robot.path.resize(static_cast<std::size_t>(cost) + 1, robot.path.back());
+  }
+}
+
+}  // namespace
+
+Plan delayed_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
+                  Time time, std::span<const Delay> late) {
+  require_possible(instance, time, late);
+  const Wishes wishes(order, time, late);
+  ExecutionTrace drive{std::vector<Time>(order.actions().size()),
+                       std::vector<Time>(order.actions().size())};
+  for (std::int32_t number = 0; number < order.step_count(); ++number) {
+    Time begin = 0;
+    for (const ActionIndex a : order.step(number)) {
+      begin = std::max(begin, wishes.begin(a));
+      if (order.before(a) != kNoAction) begin = std::max(begin, drive.end[order.before(a)]);
+      if (const ActionIndex other = order.after(a); other != kNoAction)
+        begin = std::max(begin, instance.may_follow() ? drive.begin[other] : drive.end[other]);
+    }
+    for (const ActionIndex a : order.step(number)) {
+      if (wishes.is_certain(a) && begin > wishes.begin(a)) refuse(instance, order, a, time);
+      drive.begin[a] = begin;
+      drive.end[a] = begin + order.actions()[a].steps;
+    }
+  }
+  Plan driven = executed_plan(instance, plan, order, drive);
+  delay_work_begun_before(instance, late, driven);
+  return driven;
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// The formats of libMultiRobotPlanning, of mapf-visualizer and of EECBS. The others are in
+// planviz_file.cpp and robot_paths.cpp.
+#include "io/plan_export.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "io/atomic_file.h"
+#include "io/format_support.h"
+#include "io/plan_steps.h"
+#include "io/yaml_text.h"
+#include "model/distance_field.h"
+
+namespace grove::detail {
+namespace {
+
+// The line "  key: value" if the run has a counter `name`; else "".
+std::string count_line(const Stats& stats, const std::string& name, std::string_view key) {
+  const auto it = stats.counts.find(name);
+  return it == stats.counts.end() ? "" : fmt::format("  {}: {}\n", key, it->second);
+}
+
+std::string statistics_text(const Solution& solution) {
+  const Stats& stats = solution.stats;
+  std::string text = fmt::format("statistics:\n  cost: {}\n  makespan: {}\n", solution.plan->cost,
+                                 makespan(*solution.plan));
+  if (const auto it = stats.measures.find("wall_s"); it != stats.measures.end())
+    text += fmt::format("  runtime: {}\n", it->second);
+  return text + count_line(stats, "nodes_expanded", "highLevelExpanded") +
+         count_line(stats, "low_level_expanded", "lowLevelExpanded");
+}
+
+void add_steps(std::string& text, const Grid& grid, const Path& path) {
+  const auto steps = until_rest(path);
+  for (std::size_t t = 0; t < steps.size(); ++t) {
+    const Position p = grid.position(steps[t]);
+    fmt::format_to(std::back_inserter(text), "    - x: {}\n      y: {}\n      t: {}\n", p.x, p.y,
+                   t);
+  }
+}
+
+// YAML parsers search for the colon only within this number of characters.
+constexpr std::size_t kLongestKey = 1024;
+
+std::string key_text(const Instance& instance, AgentIndex agent) {
+  std::string key = yaml_text(instance.agent(agent).id);
+  if (key.size() > kLongestKey)
+    throw NotRepresentable(
+        fmt::format("agents/{}", agent),
+        fmt::format("the id has {} bytes in YAML, where it is a key; expected at most {}",
+                    key.size(), kLongestKey),
+        Loss::kNothing);
+  return key;
+}
+
+}  // namespace
+
+void write_libmrp_schedule(const std::filesystem::path& path, const Instance& instance,
+                           const Solution& solution) {
+  require_free_grid(instance, "libMultiRobotPlanning's schedule");
+  std::string text = statistics_text(solution) + "schedule:\n";
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    text += fmt::format("  {}:\n", key_text(instance, i));
+    add_steps(text, instance.grid(), solution.plan->agents[i].path);
+  }
+  write_file_atomically(path, text);
+}
+
+namespace {
+
+// mapf-visualizer finds only positions that are followed by a comma.
+void add_position(std::string& text, const Grid& grid, Cell cell) {
+  const Position p = grid.position(cell);
+  fmt::format_to(std::back_inserter(text), "({},{}),", p.x, p.y);
+}
+
+// The number of steps that are not waits on the agent's last cell. Such waits do not count even if
+// the agent leaves the cell again later.
+Cost loss(const Path& path) {
+  Cost steps = 0;
+  for (std::size_t t = 1; t < path.size(); ++t)
+    steps += path[t - 1] != path.back() || path[t] != path.back();
+  return steps;
+}
+
+// A lower bound on the finish time: the maximum distance to a task or the destination.
+Time farthest_stop(const Instance& instance, const Agent& agent) {
+  const DistanceField distance = distance_field(instance.grid(), agent.start);
+  Time farthest = agent.goal ? distance[*agent.goal] : 0;
+  for (TaskIndex task : agent.tasks)
+    farthest = std::max(farthest, distance[instance.task(task).cell]);
+  return farthest;
+}
+
+std::string head_text(const Instance& instance, const Solution& solution, const std::string& map) {
+  Cost sum_of_loss = 0;
+  for (const AgentPlan& agent : solution.plan->agents) sum_of_loss += loss(agent.path);
+  Cost sum_of_farthest = 0;
+  Time farthest = 0;
+  for (const Agent& agent : instance.agents()) {
+    const Time time = farthest_stop(instance, agent);
+    sum_of_farthest += time;
+    farthest = std::max(farthest, time);
+  }
+  std::string text = fmt::format(
+      "agents={}\nmap_file={}\nsolver=grove\nsolved=1\nsoc={}\nsoc_lb={}\nmakespan={}\n"
+      "makespan_lb={}\nsum_of_loss={}\nsum_of_loss_lb={}\n",
+      instance.agent_count(), map, solution.plan->cost, solution.lower_bound,
+      makespan(*solution.plan), farthest, sum_of_loss, sum_of_farthest);
+  const Stats& stats = solution.stats;
+  if (const auto it = stats.measures.find("wall_s"); it != stats.measures.end())
+    text += fmt::format("comp_time={}\n", it->second * 1000);  // in milliseconds
+  if (const auto it = stats.counts.find("seed"); it != stats.counts.end())
+    text += fmt::format("seed={}\n", it->second);
+  return text;
+}
+
+}  // namespace
+
+void write_visualizer_text(const std::filesystem::path& path, const Instance& instance,
+                           const Solution& solution, const std::string& map) {
+  require_free_grid(instance, "mapf-visualizer's text");
+  const Grid& grid = instance.grid();
+  const std::vector<AgentPlan>& agents = solution.plan->agents;
+  std::string text = head_text(instance, solution, map);
+  text += "starts=";
+  for (const AgentPlan& agent : agents) add_position(text, grid, agent.path.front());
+  text += "\ngoals=";
+  for (const AgentPlan& agent : agents) add_position(text, grid, agent.path.back());
+  text += "\nsolution=\n";
+  for (Time t = 0; t <= makespan(*solution.plan); ++t) {
+    text += fmt::format("{}:", t);
+    for (const AgentPlan& agent : agents) add_position(text, grid, state_at(agent.path, t));
+    text += '\n';
+  }
+  write_file_atomically(path, text);
+}
+
+void write_path_lists(const std::filesystem::path& path, const Instance& instance,
+                      const Solution& solution) {
+  require_free_grid(instance, "EECBS's path lists");
+  std::string text;
+  for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
+    text += fmt::format("Agent {}: ", i);
+    for (Cell cell : until_rest(solution.plan->agents[i].path)) {
+      const Position p = instance.grid().position(cell);
+      fmt::format_to(std::back_inserter(text), "({},{})->", p.y, p.x);
+    }
+    text += '\n';
+  }
+  write_file_atomically(path, text);
+}
+
+}  // namespace grove::detail

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "joint/database_groups.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace grove::detail {
+namespace {
+
+constexpr std::size_t kMostEntries = std::size_t{1}
+                                     << 18;         // entries of a database made before the search
+constexpr std::int64_t kMostTableWork = 4'000'000;  // of these together; see search/work.h
+constexpr std::size_t kMostLateEntries = std::size_t{1} << 21;
+constexpr std::size_t kMostGroupedLate = 6;
+
+}  // namespace
+
+void DatabaseGroups::plan() {
+  const std::size_t size = agents_.size();
+  if (size < 3 || size > kMostGrouped) return;
+  for (std::size_t a = 0; a < size; ++a)
+    for (std::size_t b = a + 1; b < size; ++b) plan({a, b});
+  for (std::size_t a = 0; a < size && size > 3; ++a)
+    for (std::size_t b = a + 1; b < size; ++b)
+      for (std::size_t c = b + 1; c < size; ++c) plan({a, b, c});
+  std::ranges::stable_sort(late_, {}, [&](const Members& members) { return work_of(members); });
+}
+
+void DatabaseGroups::plan(Members members) {
+  const std::size_t entries = PatternDatabase::entries(agents_, members);
+  if (entries <= kMostEntries && planned_work_ + work_of(members) <= kMostTableWork) {
+    planned_work_ += work_of(members);
+    to_come_.push_back(std::move(members));
+  } else if (entries <= kMostLateEntries && agents_.size() <= kMostGroupedLate) {
+    late_.push_back(std::move(members));
+  }
+}
+
+bool DatabaseGroups::make_first(std::deque<Members>& of, const Limits& limits) {
+  auto database = PatternDatabase::make(instance_, agents_, of.front(), limits);
+  if (!database) return false;
+  databases_.push_back(std::move(*database));
+  work_ += work_of(of.front());
+  bytes_ += PatternDatabase::entries(agents_, of.front());
+  of.pop_front();
+  return true;
+}
+
+bool DatabaseGroups::make_next(const Limits& limits) {
+  if (!make_first(to_come_, limits)) return false;
+  if (to_come_.empty()) group();
+  return true;
+}
+
+bool DatabaseGroups::late_is_due(std::int64_t of_search) const {
+  return !late_.empty() && work_ + work_of(late_.front()) <= of_search;
+}
+
+bool DatabaseGroups::make_late(const Limits& limits) {
+  if (!make_first(late_, limits)) return false;
+  group();
+  return true;
+}
+
+void DatabaseGroups::group() {
+  excess_.assign(databases_.size() + 1, 0);
+  groupings_.clear();
+  Grouping none;
+  none.fill(static_cast<std::uint8_t>(databases_.size()));
+  add_groupings(0, 0, none, 0);
+}
+
+// Adds all maximal groupings that extend `so_far` by databases from `first` on with free agents.
+void DatabaseGroups::add_groupings(std::size_t first, unsigned taken, Grouping so_far,
+                                   std::size_t count) {
+  bool ends = true;
+  for (std::size_t i = 0; i < databases_.size() && count < so_far.size(); ++i) {
+    unsigned members = 0;
+    for (const std::size_t member : databases_[i].members()) members |= 1u << member;
+    if ((taken & members) != 0) continue;
+    ends = false;
+    if (i < first) continue;
+    so_far[count] = static_cast<std::uint8_t>(i);
+    add_groupings(i + 1, taken | members, so_far, count + 1);
+  }
+  if (ends && count > 0) groupings_.push_back(so_far);
+}
+
+Cost DatabaseGroups::excess(const Node* nodes) {
+  for (std::size_t i = 0; i < databases_.size(); ++i) {
+    const std::uint8_t excess = databases_[i].excess(nodes);
+    if (excess == PatternDatabase::kUnreachable) return kInfiniteCost;
+    excess_[i] = excess;
+  }
+  int best = 0;
+  for (const Grouping& grouping : groupings_) {
+    int sum = 0;
+    for (const std::uint8_t database : grouping) sum += excess_[database];
+    best = std::max(best, sum);
+  }
+  return best;
+}
+
+}  // namespace grove::detail

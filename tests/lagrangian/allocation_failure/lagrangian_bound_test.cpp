@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// The Lagrangian bound with an allocation failure anywhere in a round: it ends, and its bound is
+// valid.
+#include "lagrangian/lagrangian_bound.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/lagrangian/tiny_agents.h"
+#include "tests/support/failing_new.h"
+
+namespace grove::detail::lagrangian_test {
+namespace {
+
+constexpr int kRounds = 12;
+
+struct End {
+  Cost lower_bound = 0;
+  bool failed = false;
+};
+
+// `refuse_at`: number of the allocation within the jobs that fails, from 0; negative: none.
+End run(Known& known, int refuse_at) {
+  const Tuning tuning;
+  const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
+  Pricer pricer(bound->multipliers(), known.stops);
+  End end;
+  while (!bound->ended() && bound->rounds() < kRounds) {
+    auto job = bound->next();
+    if (!job) break;
+    testing::allocations_until_failure = refuse_at;
+    bound->perform(*job, pricer, 20, 0, {});
+    refuse_at = testing::allocations_until_failure;
+    testing::allocations_until_failure = -1;
+    end.failed = end.failed || job->failed;
+    bound->commit(std::move(*job));
+  }
+  end.lower_bound = bound->lower_bound();
+  return end;
+}
+
+TEST(LagrangianBoundWithoutMemory, EndsAndKeepsItsBound) {
+  Known known(corridor());
+  const Cost whole = run(known, -1).lower_bound;
+  int failures = 0;
+  for (int at = 0;; at += 1 + at / 20, ++failures) {
+    const End end = run(known, at);
+    ASSERT_LE(end.lower_bound, whole) << "failure " << at;
+    if (!end.failed) break;
+  }
+  EXPECT_GT(failures, 8);
+}
+
+}  // namespace
+}  // namespace grove::detail::lagrangian_test

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+//! Model of one agent for the searches: its poses, its stops, and its least remaining costs under no constraints except those on the
+//! order of stops.
+use crate::instance::{Agent, Instance, Place, World};
+use crate::orders::{After, Bound, Orders};
+use crate::tokens::Map;
+use std::rc::Rc;
+
+/// The time `inf`, later than every time that a certificate may name.
+pub const NEVER: u32 = 1 << 30;
+
+/// A list of numbers for each number from 0 to `count` - 1, in compressed rows.
+struct Lists {
+    first: Vec<u32>,
+    items: Vec<u32>,
+}
+
+impl Lists {
+    fn of(count: usize, pairs: &[(u32, u32)]) -> Lists {
+        let mut first = vec![0u32; count + 1];
+        pairs.iter().for_each(|pair| first[pair.0 as usize + 1] += 1);
+        (0..count).for_each(|i| first[i + 1] += first[i]);
+        let (mut free, mut items) = (first.clone(), vec![0; pairs.len()]);
+        for &(from, to) in pairs {
+            items[free[from as usize] as usize] = to;
+            free[from as usize] += 1;
+        }
+        Lists { first, items }
+    }
+
+    fn at(&self, i: u32) -> &[u32] { &self.items[self.first[i as usize] as usize..self.first[i as usize + 1] as usize] }
+}
+
+/// Poses of all agents with the same `turn` (steps of a quarter turn; 0: these agents do not turn), and the steps between poses.
+pub struct Poses {
+    turn: u32,
+    each: u32,
+    place: Vec<Place>,
+    next: Lists,
+    back: Lists,
+}
+
+impl Poses {
+    pub fn of(world: &World, turn: u32) -> Poses {
+        let each = if turn == 0 { 1 } else { 4 + 8 * (turn - 1) };
+        let places = world.links.len() as u32;
+        let count = places.checked_mul(each).expect("fewer poses");
+        let place = (0..count).map(|pose| pose / each).collect();
+        let mut poses = Poses { turn, each, place, next: Lists::of(0, &[]), back: Lists::of(0, &[]) };
+        let mut steps = Vec::new();
+        for place in (0..places).filter(|&place| world.passable[place as usize]) {
+            if turn == 0 {
+                steps.extend(world.links[place as usize].iter().map(|&next| (place, next)));
+                continue;
+            }
+            for from in 0..4 {
+                steps.extend(world.ahead(place, from).map(|next| (place * each + from, next * each + from)));
+                for to in [(from + 1) % 4, (from + 3) % 4] {
+                    steps.extend((0..turn).map(|k| (poses.pose(place, (from, to, k)), poses.pose(place, (from, to, k + 1)))));
+                }
+            }
+        }
+        poses.next = Lists::of(count as usize, &steps);
+        steps.iter_mut().for_each(|step| *step = (step.1, step.0));
+        poses.back = Lists::of(count as usize, &steps);
+        poses
+    }
+
+    fn pose(&self, place: Place, (from, to, k): (u32, u32, u32)) -> u32 {
+        let within = match k {
+            _ if self.turn == 0 => 0,
+            0 => from,
+            _ if k == self.turn => to,
+            _ => 4 + (from * 2 + u32::from(to == (from + 1) % 4)) * (self.turn - 1) + k - 1,
+        };
+        place * self.each + within
+    }
+
+    pub fn place(&self, pose: u32) -> Place { self.place[pose as usize] }
+
+    pub fn next(&self, pose: u32) -> &[u32] { self.next.at(pose) }
+
+    fn on(&self, place: Place) -> std::ops::Range<u32> { place * self.each..(place + 1) * self.each }
+
+    /// Returns for each pose the least cost of going to a source plus the cost of that source. A source is (cost, pose).
+    fn spread(&self, mut sources: Vec<(u32, u32)>) -> Vec<u32> {
+        sources.sort_unstable_by(|one, two| two.cmp(one));
+        let mut found = vec![NEVER; self.place.len()];
+        let (mut now, mut wave, mut cost) = (Vec::new(), Vec::new(), 0);
+        while !wave.is_empty() || sources.last().map_or(false, |source| source.0 < NEVER) {
+            if wave.is_empty() { cost = sources[sources.len() - 1].0; }
+            while sources.last().map_or(false, |source| source.0 == cost) { wave.extend(sources.pop().map(|source| source.1)); }
+            std::mem::swap(&mut now, &mut wave);
+            for pose in now.drain(..) {
+                if found[pose as usize] == NEVER {
+                    found[pose as usize] = cost;
+                    wave.extend(self.back.at(pose).iter().filter(|&&before| found[before as usize] == NEVER));
+                }
+            }
+            cost += 1;
+        }
+        found
+    }
+}
+
+pub struct Stop {
+    pub task: u32,
+    pub place: Place,
+    pub duration: u32,
+}
+
+/// A set of stops done. `rest`: for each post that may be next, the remaining cost from the arrival at it, and the post; the least first.
+struct Done {
+    stops: u64,
+    rest: Vec<(u32, u32)>,
+}
+
+/// One restriction of which stops may have which number, with the remaining costs for paths that cost at most `limit`.
+struct Choice {
+    allowed: Vec<u64>,
+    after: After,
+    limit: u32,
+    least: u32,
+    numbers: Map<u64, u32>,
+    done: Vec<Done>,
+}
+
+/// With at most this number of stops all sets of stops are considered at once.
+const MAX_STOPS_AT_ONCE: usize = 5;
+/// With at most this number of stops all sets are considered when the first limit does not suffice.
+const MAX_STOPS_COMPLETE: usize = 11;
+/// With more stops only orders are considered that cost at most this many steps more than the best one.
+const MAX_EXCESS: u32 = 200;
+
+pub struct AgentModel {
+    pub poses: Rc<Poses>,
+    pub start: u32,
+    /// The stop that the agent works on at time 0, and the time at which this work ends.
+    pub working: Option<(u32, u32)>,
+    pub stops: Vec<Stop>,
+    /// For each place the set of stops there. Empty if the agent has no tasks.
+    stops_at: Vec<u64>,
+    /// The agent rests on the place of its last stop: it has no goal, and no stop takes time.
+    pub rests_on_last: bool,
+    pub plain_goal: Option<Place>,
+    ends: Vec<u32>,
+    /// Posts: a stop with a pose in which it may be done.
+    posts: Vec<(usize, u32)>,
+    /// From each pose to each post, row by row.
+    distances: Vec<u32>,
+    bound: Option<Bound>,
+    /// Restrictions considered so far, and the number of the current one.
+    choices: Vec<Choice>,
+    now: usize,
+}
+
+impl AgentModel {
+    pub fn of(instance: &Instance, agent: &Agent, poses: Rc<Poses>) -> AgentModel {
+        let timed = |place| agent.tasks.iter().any(|&t| instance.tasks[t as usize].place == place && instance.tasks[t as usize].duration > 0);
+        let mut stops: Vec<Stop> = Vec::new();
+        let mut stops_at = vec![0u64; if agent.tasks.is_empty() { 0 } else { instance.world.links.len() }];
+        for &task in &agent.tasks {
+            let (place, duration) = (instance.tasks[task as usize].place, instance.tasks[task as usize].duration);
+            if duration > 0 || (!timed(place) && stops_at[place as usize] == 0) {
+                assert!(stops.len() < 63, "an agent with more than 63 stops");
+                stops_at[place as usize] |= 1 << stops.len();
+                stops.push(Stop { task, place, duration });
+            }
+        }
+        let number_of = |task| stops.iter().position(|stop| stop.task == task).expect("a stop") as u32;
+        let working = agent.working.map(|(task, done)| (number_of(task), instance.tasks[task as usize].duration - done));
+        let ends: Vec<(u32, u32)> = match (agent.goal, agent.goal_heading) {
+            (Some(goal), Some(heading)) => vec![(0, poses.pose(goal, (heading, heading, 0)))],
+            (Some(goal), None) => poses.on(goal).map(|pose| (0, pose)).collect(),
+            (None, _) if stops.is_empty() => (0..poses.place.len() as u32).map(|pose| (0, pose)).collect(),
+            (None, _) => stops.iter().flat_map(|stop| poses.on(stop.place)).map(|pose| (0, pose)).collect(),
+        };
+        let plain = |goal: &Place| agent.goal_heading.is_none() && !timed(*goal);
+        let mut model = AgentModel {
+            start: poses.pose(agent.start, agent.looks),
+            working,
+            rests_on_last: agent.goal.is_none() && stops.iter().all(|stop| stop.duration == 0),
+            plain_goal: agent.goal.filter(plain),
+            ends: poses.spread(ends),
+            posts: Vec::new(),
+            distances: Vec::new(),
+            bound: None,
+            choices: Vec::new(),
+            now: 0,
+            poses,
+            stops,
+            stops_at,
+        };
+        let on = |(stop, at): (usize, &Stop)| model.poses.on(at.place).map(move |pose| (stop, pose));
+        model.posts = model.stops.iter().enumerate().flat_map(on).collect();
+        let to: Vec<Vec<u32>> = model.posts.iter().map(|&(_, pose)| model.poses.spread(vec![(0, pose)])).collect();
+        model.distances = (0..model.poses.place.len()).flat_map(|pose| to.iter().map(move |row| row[pose])).collect();
+        model
+    }
+
+    fn distances(&self, pose: u32) -> &[u32] { &self.distances[pose as usize * self.posts.len()..][..self.posts.len()] }
+
+    pub fn all(&self) -> u64 { (1 << self.stops.len()) - 1 }
+
+    pub fn stops_at(&self, place: Place) -> u64 { self.stops_at.get(place as usize).copied().unwrap_or(0) }
+
+    pub fn has_no_duration(&self, stops: u64) -> u64 {
+        (0..self.stops.len()).filter(|&j| stops >> j & 1 == 1 && self.stops[j].duration == 0).fold(0, |all, j| all | 1 << j)
+    }
+
+    /// Sets the current restriction: `allowed[k]` is the set of stops that may have number k.
+    pub fn choose(&mut self, allowed: &[u64]) {
+        match self.choices.iter().position(|choice| choice.allowed == allowed) {
+            Some(known) => self.now = known,
+            None => self.add_choice(allowed.to_vec(), if self.stops.len() <= MAX_STOPS_AT_ONCE { NEVER } else { 0 }),
+        }
+    }
+
+    /// Computes the remaining costs under a restriction, at least for paths that cost up to `wanted`, and makes it the current one.
+    fn add_choice(&mut self, allowed: Vec<u64>, wanted: u32) {
+        let size = |choice: &Choice| 10_000 + choice.after.len() + 5 * choice.done.len();
+        if self.choices.iter().map(size).sum::<usize>() > 4_000_000 { self.choices.clear(); }
+        let mut bound = self.bound.take();
+        let orders = Orders {
+            first: self.distances(self.start),
+            legs: self.posts.iter().flat_map(|&(_, pose)| self.distances(pose)).copied().collect(),
+            last: self.posts.iter().map(|&(_, pose)| self.ends[pose as usize]).collect(),
+            durations: self.stops.iter().map(|stop| stop.duration).collect(),
+            working: self.working.map(|(stop, end)| (stop as usize, stop * self.poses.each + self.start % self.poses.each, end)),
+            posts: &self.posts,
+            allowed: &allowed,
+        };
+        let (after, limit, least) = orders.after(&mut bound, wanted);
+        self.bound = bound;
+        self.now = self.choices.len();
+        self.choices.push(Choice { allowed, after, limit, least, numbers: Map::default(), done: Vec::new() });
+    }
+
+    /// Searches may miss paths that cost more.
+    pub fn limit(&self) -> u32 { self.choices[self.now].limit }
+
+    /// Raises the limit to `cost` or more, if that is affordable. Returns whether the limit suffices for `cost` now.
+    pub fn raise_limit(&mut self, cost: u32) -> bool {
+        let few = self.stops.len() <= MAX_STOPS_COMPLETE;
+        if self.limit() < cost && (few || cost < self.choices[self.now].least + MAX_EXCESS) {
+            let Choice { allowed, limit, least, .. } = self.choices.swap_remove(self.now);
+            self.add_choice(allowed, if few { NEVER } else { cost.max(limit + ((limit - least) / 4).max(2)) });
+        }
+        self.limit() >= cost
+    }
+
+    /// Returns the number of a set of stops done.
+    pub fn number(&mut self, stops: u64) -> u32 {
+        let Choice { after, numbers, done, .. } = &mut self.choices[self.now];
+        if let Some(&found) = numbers.get(&stops) { return found; }
+        let next = |(post, &(stop, _)): (usize, &(usize, u32))| {
+            let rest = after.get(&(stops | 1 << stop, post as u32)).filter(|_| stops >> stop & 1 == 0);
+            rest.map(|rest| (rest + self.stops[stop].duration, post as u32))
+        };
+        let mut rest: Vec<(u32, u32)> = self.posts.iter().enumerate().filter_map(next).collect();
+        rest.sort_unstable();
+        numbers.insert(stops, done.len() as u32);
+        done.push(Done { stops, rest });
+        done.len() as u32 - 1
+    }
+
+    pub fn done(&self, number: u32) -> u64 { self.choices[self.now].done[number as usize].stops }
+
+    /// Returns the least remaining cost from a pose with these stops done. If all paths through this state cost more than the limit,
+    /// the result may be too high or NEVER.
+    pub fn remains(&self, number: u32, pose: u32) -> u32 {
+        let Done { stops, rest } = &self.choices[self.now].done[number as usize];
+        if *stops == self.all() { return self.ends[pose as usize]; }
+        let (distances, mut least) = (self.distances(pose), NEVER);
+        for &(rest, post) in rest.iter().take_while(|rest| rest.0 < NEVER) {
+            if rest >= least { break; }
+            least = least.min(rest + distances[post as usize]);
+        }
+        least
+    }
+}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+//! States of one agent under constraints, and the steps between them, for all searches.
+use crate::agent::{AgentModel, NEVER};
+use crate::instance::Place;
+use crate::rules::{Chains, Rules, Flags, EARLY};
+
+/// `done`: number of the set of stops done; `left`: remaining steps of work on the last of them.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct State {
+    pub pose: u32,
+    pub done: u32,
+    pub left: u32,
+    pub flags: Flags,
+}
+
+/// A state, the number of the interval of time in which its place is free, and a time in this interval.
+pub type Arrival = (State, u32, u32);
+
+pub struct Successors<'a> {
+    pub model: &'a mut AgentModel,
+    pub chains: &'a Chains,
+    pub rules: &'a Rules,
+}
+
+impl Successors<'_> {
+    pub fn place(&self, state: &State) -> Place { self.model.poses.place(state.pose) }
+
+    fn full(&self, state: &State) -> bool { self.model.done(state.done) == self.model.all() }
+
+    pub fn starts(&mut self) -> Vec<State> {
+        let (pose, place, mut found) = (self.model.start, self.model.poses.place(self.model.start), Vec::new());
+        let (stop, left) = self.model.working.map_or((0, 0), |(stop, end)| (1 << stop, end));
+        let works = stop == 0 || self.rules.allowed[0] & stop != 0;
+        if works && self.rules.holding(place, 0).is_some() {
+            let done = self.done_on(place, 0) | stop;
+            let state = State { pose, done: self.model.number(done), left, flags: self.rules.arrived(place, 0) };
+            self.arrive(state, &mut found);
+        }
+        found
+    }
+
+    /// Adds the stops on this place that take no time, unless the order of stops is constrained: they are done on arrival.
+    fn done_on(&self, place: Place, done: u64) -> u64 {
+        let here = self.model.stops_at(place) & !done;
+        if here == 0 || self.rules.ordered { done } else { done | self.model.has_no_duration(here) }
+    }
+
+    /// Returns the states in which a stop on this place is the next one: it is done, or work on it begins.
+    pub fn choices(&mut self, state: State) -> Vec<State> {
+        let done = self.model.done(state.done);
+        let mut open = self.model.stops_at(self.place(&state)) & !done;
+        if open == 0 || state.left > 0 { return Vec::new(); }
+        open &= self.rules.allowed[done.count_ones() as usize];
+        let begin = |stop: usize| State { done: self.model.number(done | 1 << stop), left: self.model.stops[stop].duration, ..state };
+        (0..64).filter(|stop| open >> stop & 1 == 1).map(begin).collect()
+    }
+
+    fn arrive(&mut self, state: State, found: &mut Vec<State>) {
+        found.push(state);
+        found.extend(self.choices(state));
+    }
+
+    /// Whether the path ends in this state: the order of stops is constrained, and the agent rests where it did the last stop.
+    pub fn over(&self, state: &State) -> bool { self.rules.ordered && self.model.rests_on_last && self.full(state) }
+
+    /// Returns the states at `time` + 1 that may follow `state` at `time`.
+    pub fn steps(&mut self, state: State, time: u32) -> Vec<State> {
+        let (mut found, mut gone) = (Vec::new(), Vec::new());
+        let stays = self.rules.holding(self.place(&state), time + 1);
+        if state.left == 0 && self.over(&state) { return found; }
+        if stays.is_some() { self.arrive(State { left: state.left.saturating_sub(1), ..state }, &mut found); }
+        if state.left == 0 {
+            self.go((state, stays.unwrap_or(0), time), (time + u32::from(stays.is_some()), time), &mut gone);
+            gone.into_iter().for_each(|(state, _, _)| self.arrive(state, &mut found));
+        }
+        found
+    }
+
+    /// Appends to `found` the earliest arrivals in other poses. The agent may be on its place until `stays`, and may leave it for another
+    /// place at `leaves` at the latest.
+    pub fn go(&mut self, (state, interval, time): Arrival, (stays, leaves): (u32, u32), found: &mut Vec<Arrival>) {
+        let (from, poses) = (self.place(&state), self.model.poses.clone());
+        for &pose in poses.next(state.pose) {
+            let to = poses.place(pose);
+            if to == from {
+                if time < stays { found.push((State { pose, ..state }, interval, time + 1)); }
+                continue;
+            }
+            let (flags, exit) = self.rules.passing(self.chains, state.flags, from, to);
+            let mut after = State { pose, flags, ..state };
+            if self.model.stops_at(to) != 0 {
+                let done = self.done_on(to, self.model.done(state.done));
+                after.done = self.model.number(done);
+            }
+            for interval in self.rules.ending(to, time + 1)..self.rules.intervals(to).end {
+                let (first, last) = self.rules.interval(interval);
+                if first > leaves + 1 { break; }
+                let (first, last) = (first.max(time + 1), last.min(leaves + 1));
+                if let Some(time) = self.rules.arrival(from, to, exit, first, last) {
+                    let early = self.rules.arrived(to, time);
+                    found.push((State { flags: flags | early, ..after }, interval, time));
+                    if early != 0 {
+                        let time = self.rules.arrival(from, to, exit, self.rules.rest_from(to).max(first), last);
+                        found.extend(time.map(|time| (after, interval, time)));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Returns a lower bound on the remaining cost.
+    pub fn remains(&self, state: &State) -> u32 { state.left + self.model.remains(state.done, state.pose) }
+
+    /// Whether the agent may rest in this state, if its place is free for ever.
+    pub fn rests(&self, state: &State) -> bool { state.flags & EARLY == 0 && self.full(state) && self.remains(state) == 0 }
+
+    /// Whether a path may end in this state at this time.
+    pub fn may_end(&self, state: &State, time: u32) -> bool {
+        let holding = self.rules.holding(self.place(state), time);
+        holding.map_or(false, |number| self.rules.interval(number).1 == NEVER) && self.rests(state)
+    }
+}
