@@ -54,7 +54,7 @@ class Search {
     const Expansion expansion = expander_.expand(node, kInfiniteCost, limits_);
     for (const NodePtr& child : expansion.children) frontier_.push(child);
     generated_ += static_cast<std::int64_t>(expansion.children.size());
-    frontier_.settle(node);
+    frontier_.complete(node);
   }
 
   std::int64_t generated() const { return generated_; }

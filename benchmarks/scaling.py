@@ -79,7 +79,7 @@ def prepared(case, a, folder):
 def simulated(case, problem, ranks, a, folder, machine=()):
     """Simulates a case; returns a row per number of ranks, without runs that reached a limit."""
     table = folder / "table.csv"
-    run([a.bin / "grove-sim", *problem, "--ranks", ",".join(map(str, ranks)), "--cost-per-work",
+    run([a.bin / "grove-sim", *problem, "--ranks", ",".join(map(str, ranks)), "--seconds-per-work",
          a.cost_per_work, "--memory-limit", a.memory_limit, "--output", table, *machine])
     with table.open(encoding="utf-8", newline="") as file:
         rows = [{"instance": str(case), **row} for row in csv.DictReader(file)]

@@ -93,15 +93,14 @@ class ReceiveTimeout {
 }  // namespace
 
 UnresponsiveRanks::UnresponsiveRanks(Solution found, std::int64_t count)
-    : std::runtime_error(
-          fmt::format("{} ranks say nothing any more after a limit has struck", count)),
+    : std::runtime_error(fmt::format("{} ranks did not respond after a limit was reached", count)),
       solution(std::move(found)),
       ranks(count) {}
 
 std::optional<Solution> solve_distributed(const Problem& problem, const SolveOptions& options,
                                           const Limits& limits, Transport& transport,
                                           RunObserver& observer,
-                                          const std::function<void()>& meanwhile) {
+                                          const std::function<void()>& poll) {
   const Limits::Clock::time_point begin = limits.now();
   RankProcess member(problem, options, limits, observer, transport);
   Searching searching(problem, options, limits, member.rank(), transport.rank());
@@ -114,7 +113,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
   while (!member.left()) {
     const double now = seconds();
     const bool heard = member.exchange_messages(now);
-    meanwhile();
+    poll();
     if (auto* coordinator = member.coordinator()) {
       const std::int64_t silent = coordinator->check_unresponsive_ranks();
       if (silent > 0) throw UnresponsiveRanks(coordinator->conclude(), silent);

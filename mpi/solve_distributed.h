@@ -26,7 +26,7 @@ struct UnresponsiveRanks : std::runtime_error {
 // Solves with all ranks of `transport`. Each rank calls this with the same problem and options,
 // except for its own number of threads. The calling thread communicates, other threads search. Rank
 // 0 returns the solution, the other ranks return nullopt. The limits of rank 0 are those of the
-// run, but the limits of any rank may stop it. `meanwhile` is called every few milliseconds. On
+// run, but the limits of any rank may stop it. `poll` is called every few milliseconds. On
 // rank 0 `observer` receives the events of the run; of single nodes it receives only roots.
 // `options.deterministic` must not be set. Throws what solve() throws. Rank 0 throws
 // UnresponsiveRanks; the other ranks then wait for rank 0 until their process is ended from
@@ -35,6 +35,6 @@ struct UnresponsiveRanks : std::runtime_error {
 std::optional<Solution> solve_distributed(const Problem& problem, const SolveOptions& options,
                                           const Limits& limits, Transport& transport,
                                           RunObserver& observer,
-                                          const std::function<void()>& meanwhile);
+                                          const std::function<void()>& poll);
 
 }  // namespace grove::detail

@@ -3,11 +3,11 @@
 # Sourced by tools/package-test and tools/fresh-machine: makes a minimal Debian 12 in a folder and runs
 # commands in it. Needs root and debootstrap. Packages come from this machine's apt sources.
 
-give_up() { echo "tools/${0##*/}: error: $*" >&2; exit 2; }
+fail() { echo "tools/${0##*/}: error: $*" >&2; exit 2; }
 
 needs_debootstrap() {
-  [ "$(id -u)" -eq 0 ] || give_up "needs root, because it makes a root file system"
-  command -v debootstrap >/dev/null || give_up "debootstrap was not found; expected the Debian package debootstrap"
+  [ "$(id -u)" -eq 0 ] || fail "needs root, because it makes a root file system"
+  command -v debootstrap >/dev/null || fail "debootstrap was not found; expected the Debian package debootstrap"
 }
 
 # make_bare_debian ROOT: a minimal Debian 12 in an empty folder, with a user `someone`.
@@ -17,7 +17,7 @@ make_bare_debian() {
   # shellcheck disable=SC2016
   sources=$(apt-get indextargets --format '$(SITE) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' |
     grep -E '^[^ ]+ bookworm(-updates|-security)? ' | sort -u) ||
-    give_up "apt has no source of Debian 12 (bookworm); expected one in /etc/apt"
+    fail "apt has no source of Debian 12 (bookworm); expected one in /etc/apt"
   mirror=$(awk '$2 == "bookworm" { print $1; exit }' <<<"$sources")
   quietly debootstrap --variant=minbase bookworm "$root" "$mirror"
   chmod 755 "$root"

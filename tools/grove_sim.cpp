@@ -60,7 +60,7 @@ instance and to start ranks is not included.
 
 A run that reached a limit is unfinished: its row has only how far it came.
 
-Without --cost-per-work the run of one rank is timed, and its mean time per unit of work (about
+Without --seconds-per-work the run of one rank is timed, and its mean time per unit of work (about
 one label of the low level) is the cost of work in the other runs. If the value is given, all
 results are repeatable.
 
@@ -96,6 +96,9 @@ void add_options(CLI::App& app, SimArguments& a) {
       "maximum interval at which a rank polls the network, seconds; shorter soon after a message")
       ->type_name("S");
   add_number(app, "--cost-per-work", a.machine.seconds_per_work, 0, 1e3,
+             "deprecated name of --seconds-per-work")
+      ->group("");
+  add_number(app, "--seconds-per-work", a.machine.seconds_per_work, 0, 1e3,
              "time per unit of work, seconds; 0: as measured here")
       ->type_name("S");
   a.solve.instance.add_rules_to(app);
@@ -208,7 +211,7 @@ class Study {
     const SimulatedWorker::Tally& tally = alone.ranks.front().worker;
     if (a_.machine.seconds_per_work > 0 || tally.work <= 0) return;
     a_.machine.seconds_per_work = tally.processor_s / tally.work;
-    note(fmt::format("--cost-per-work {:.4g}", a_.machine.seconds_per_work));
+    note(fmt::format("--seconds-per-work {:.4g}", a_.machine.seconds_per_work));
   }
 
   void report(const SimulatedRun& run, const SimulatedRun& alone) {

@@ -27,11 +27,11 @@ namespace grove::mpi {
 /// number of ranks on the host, unless each rank is bound to its own cores and has its own memory
 /// limit.
 ///
-/// \throws On all ranks what grove::solve() throws, if the arguments of any rank are invalid; and
-///         InvalidArgument with field() "/instance" if the ranks have different instances,
-///         "/deterministic" if that is set, "/method" for methods that need one process. A later
-///         error occurs on one rank only: then call MPI_Abort. Rank 0 throws Error if other ranks
-///         do not respond a second or two after a limit was reached; then call MPI_Abort, too.
+/// Throws on all ranks what grove::solve() throws, if the arguments of any rank are invalid; and
+/// InvalidArgument with field() "/instance" if the ranks have different instances, "/deterministic"
+/// if that is set, "/method" for methods that need one process. A later error occurs on one rank
+/// only: then call MPI_Abort. Rank 0 throws Error if other ranks do not respond a second or two
+/// after a limit was reached; then call MPI_Abort, too.
 GROVE_API std::optional<Solution> solve(const Instance& instance, const Options& options = {},
                                         MPI_Comm communicator = MPI_COMM_WORLD);
 

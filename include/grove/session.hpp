@@ -51,22 +51,20 @@ class GROVE_API Session {
   /// that makes the plan invalid, and if no plan was found.
   std::optional<Plan> plan() const;
 
-  /// Advances the session by `steps` time steps along its plan.
-  /// Afterwards each robot in `late` is Delay::steps behind the plan, and its delay propagates to
-  /// the robots that must wait for it. After the end of the plan all robots rest. Replaces
-  /// instance() and plan() by what remains of them, with time counted from 0. \param steps  Time
-  /// steps, >= 0. \param late   Delays at the end of these steps, at most one entry per robot.
-  /// \throws InvalidArgument and leaves the session unchanged. field() is "" without a plan,
-  /// "/steps"
-  ///         if steps < 0, "/late/<i>" for an unknown robot or a negative delay, "/late" for a
-  ///         delay above `steps`, a robot that is named twice, or a delay that is impossible.
+  /// Advances the session by `steps` time steps along its plan. Afterwards each robot in `late` is
+  /// Delay::steps behind the plan, and its delay propagates to the robots that must wait for it.
+  /// After the end of the plan all robots rest. Replaces instance() and plan() by what remains of
+  /// them, with time counted from 0.
+  ///
+  /// Throws InvalidArgument and leaves the session unchanged. field() is "" without a plan,
+  /// "/steps" if steps < 0, "/late/<i>" for an unknown robot or a negative delay, "/late" for a
+  /// delay above `steps`, a robot that is named twice, or a delay that is impossible.
   void advance(int steps, const std::vector<Delay>& late = {});
 
   /// Changes the instance; the next replan() takes it into account. Throws InvalidArgument and
   /// leaves the session unchanged if the change is impossible: a robot is on a place to block or
   /// must go there, the place is blocked already, an id is taken or unknown. field() is
-  /// "/new_tasks/<i>/...",
-  /// "/dropped_tasks/<i>" or "/blocked/<i>".
+  /// "/new_tasks/<i>/...", "/dropped_tasks/<i>" or "/blocked/<i>".
   void change(const Change& change);
 
   /// Returns the default options of replan() and `grove replan`: those of Options, with a time

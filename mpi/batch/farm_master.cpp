@@ -68,7 +68,7 @@ void FarmMaster::on(int from, Aborted&) {
 
 template <typename Other>
 void FarmMaster::on(int, Other&) {
-  throw std::logic_error("the master of a batch is told what is not for it");
+  throw std::logic_error("farm master: unexpected message type");
 }
 
 void FarmMaster::end_assignment(int leader, const std::string* id) {

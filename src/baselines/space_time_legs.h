@@ -49,7 +49,7 @@ class SpaceTimeLegs : public Legs {
   // Of the leg in progress.
   Time first_ = 0;             // time of the first row
   std::vector<Label> labels_;  // by time - first_, then cell; the last row is all times from
-                               // settled_ on
+                               // static_from_ on
   std::uint32_t stamp_ = 0;
 };
 

@@ -71,7 +71,7 @@ constexpr std::uint8_t kFree = 2;
 
 std::uint8_t stored(Policy policy) {
   if (policy == Policy::kAuto)
-    throw std::invalid_argument("a checkpoint must be of a policy that is settled");
+    throw std::invalid_argument("a checkpoint needs a policy other than auto");
   return policy == Policy::kFixed ? kFixed : kFree;
 }
 

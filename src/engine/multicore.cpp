@@ -7,7 +7,7 @@
 // workers. So either the parking worker sees the node or the pushing worker sees the parked one.
 //
 // Two cases in which a worker does not park:
-// - No node is live. Then the next tree is due or the run is over, and a worker must find out
+// - No node is live. Then the next tree is due or the run is over, and a worker must determine this
 //   which.
 // - It is the last one awake. With several ranks, nodes arrive from other ranks, and the thread
 //   that pushes them wakes no worker. Also, a live node may be with no worker here, because it is

@@ -12,8 +12,7 @@
 //   work raises no bound) or the gap exceeds large_gap (no tree closes it soon): neighbourhoods may
 //   fail a hundred times before the first of many gains.
 // - Cap: r <= clamp(8 t, 1/4, 8), t = (tree work) / primal_full_share_work, because the tree closes
-// most
-//   small instances within tenths of a second, whatever plan there is. While the gap exceeds
+//   most small instances within tenths of a second, whatever plan there is. While the gap exceeds
 //   large_gap the cap is 8 at once.
 // r depends neither on the size of the instance nor on the speed of the machine. The numbers are
 // the defaults of tunables.def.

@@ -208,7 +208,7 @@ class Session::Impl {
   const std::optional<Plan>& plan() const { return plan_; }
 
   void advance(Time steps, std::span<const Delay> late) {
-    GROVE_ASSERT(plan_, "time goes on by a plan");
+    GROVE_ASSERT(plan_, "advance() needs a plan");
     const bool is_anyone_late =
         std::ranges::any_of(late, [](const Delay& l) { return l.steps != 0; });
     const Plan driven =

@@ -63,7 +63,7 @@ class MemoryBudgets {
     return limits_.last_resident() > alarm_ && resident_bytes() > alarm_;
   }
   // Cuts the budgets, given the bytes held now. The caller then evicts down to both budgets,
-  // returns free memory to the system, and calls settled().
+  // returns free memory to the system, and calls memory_returned().
   void cut(std::size_t nodes_hold, std::size_t expanders_hold);
   void memory_returned();
 

@@ -250,7 +250,7 @@ int LagrangianBound::accept(int helper, PricingReply answer) {
   const auto agents = static_cast<AgentIndex>(answer.prices.size());
   if (agents == 0 || answer.paths.size() != answer.prices.size() || answer.first < asked_ ||
       answer.first > instance_.agent_count() - agents)
-    throw std::invalid_argument("prices that nobody has asked for");
+    throw std::invalid_argument("pricing result: was not requested");
   int counted = 0;
   for (AgentIndex i = 0; i < agents; ++i) {
     labels_[answer.first + i] = answer.work * kLabelsPerWork / agents;

@@ -41,7 +41,7 @@ std::uint32_t read(const std::string& from, std::size_t& at) {
     number |= static_cast<std::uint32_t>(byte & 0x7f) << bits;
     if (byte < 0x80) return number;
   }
-  throw std::invalid_argument("changes of a tariff that are cut short");
+  throw std::invalid_argument("multipliers: update is cut short");
 }
 
 // Zigzag encoding: small numbers for small amounts of either sign.
@@ -129,17 +129,17 @@ MultiplierUpdate Multipliers::update_for(std::vector<Amount>& known) const {
 
 void Multipliers::learn(const MultiplierUpdate& news) {
   for (const RelaxedRow& row : news.rows) {
-    if (!is_possible(row)) throw std::invalid_argument("a row of a tariff for another instance");
+    if (!is_possible(row)) throw std::invalid_argument("multipliers: row of another instance");
     add(row);
   }
   std::uint64_t id = 0;
   for (std::size_t at = 0; at < news.charges.size(); ++id) {
     id += read(news.charges, at);
     const std::int64_t more = unfolded(read(news.charges, at));
-    if (id >= rows_.size()) throw std::invalid_argument("a charge for a row that is not known");
+    if (id >= rows_.size()) throw std::invalid_argument("multipliers: unknown row");
     const std::int64_t charge = multipliers_[id] + more;
     if (charge < 0 || charge > PenalizedSearch::kMostPrice)
-      throw std::invalid_argument("a charge that nobody makes");
+      throw std::invalid_argument("multiplier out of range");
     set_multiplier(static_cast<RowId>(id), static_cast<Amount>(charge));
   }
 }

@@ -30,7 +30,7 @@ enum class PathOutcome : std::uint8_t {
 struct PathQuery {
   static constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
 
-  std::span<const Constraint> constraints = {};  // obeyed also while resting at the end
+  std::span<const Constraint> constraints = {};  // also satisfied while resting at the end
   // Among the paths of equal cost that the search generates, it prefers few conflicts with these;
   // null: no preference.
   const ConflictAvoidanceTable* others = nullptr;
@@ -58,10 +58,10 @@ class AgentPlanner {
   virtual ~AgentPlanner() = default;
 
   // Finds a path of least cost from the start at time 0 that realizes some sequence of the class
-  // and obeys the constraints of `query`, if that cost is at most the cutoff. The path ends when
-  // the agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound. May widen
-  // the costs to go of `goals`. Throws std::invalid_argument for a query that is invalid or that
-  // this planner does not support.
+  // and satisfies the constraints of `query`, if that cost is at most the cutoff. The path ends
+  // when the agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound. May
+  // widen the costs to go of `goals`. Throws std::invalid_argument for a query that is invalid or
+  // that this planner does not support.
   virtual PathOutcome find(SequenceStages& goals, const PathQuery& query, const Limits& limits,
                            Path& path) = 0;
 

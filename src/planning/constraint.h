@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Constraints of a constraint-tree node on one agent. Only this file and constraint.cpp define
-// which agents a constraint concerns and when a path obeys it.
+// which agents a constraint concerns and when a path satisfies it.
 #pragma once
 
 #include <cstddef>
@@ -67,7 +67,7 @@ inline bool is_about_sequence(const Constraint& c) {
   return c.kind == ConstraintKind::kStopIs || c.kind == ConstraintKind::kStopIsNot;
 }
 
-// Does `path` (not empty), including its rest for ever, obey `c`? `c` must not be about the
+// Does `path` (not empty), including its rest for ever, satisfy `c`? `c` must not be about the
 // sequence. O(length).
 bool satisfies(const World& world, const Path& path, const Constraint& c,
                const Corridors& corridors);

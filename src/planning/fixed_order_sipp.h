@@ -23,8 +23,8 @@ class FixedOrderSipp {
   ~FixedOrderSipp();
 
   // Finds a path of least cost from goals.start() at time 0 that visits the goals in order and
-  // obeys the constraints of `query`, if that cost is at most the cutoff. The path ends when the
-  // agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound. Throws
+  // satisfies the constraints of `query`, if that cost is at most the cutoff. The path ends when
+  // the agent comes to rest: its cost is path.size() - 1. Writes `path` only on kFound. Throws
   // std::invalid_argument for more than 255 goals, for constraints that do not apply to a path of
   // this world, and for reservations.
   PathOutcome find(const GoalSequence& goals, const PathQuery& query, const Limits& limits,

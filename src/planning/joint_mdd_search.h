@@ -12,7 +12,7 @@
 namespace grove::detail {
 
 // Result for two agents and their MDDs. If the MDDs hold all optimal paths under the agents'
-// constraints, kDependent proves that any two paths that obey the constraints and do not collide
+// constraints, kDependent proves that any two paths that satisfy the constraints and do not collide
 // cost at least 1 more than the two optima together.
 enum class Dependence : std::uint8_t {
   kIndependent,  // some path of a and some path of b do not collide

@@ -24,7 +24,7 @@
 // cost C or less: C < beyond(). So all stages along a path of cost C are known, and the path is in
 // them at times t with t + h <= C. Hence no move of such a path is dropped. A path comes to rest at
 // C by a move at C, into a slot where it may rest (or stands there at C = 0): the last step is not
-// a wait. Conversely, each walk to such an end obeys the constraints, because they concern only
+// a wait. Conversely, each walk to such an end satisfies the constraints, because they concern only
 // slots and moves. The one exception is the time by which the agent must have come to rest; C is
 // compared with it first.
 //

@@ -76,7 +76,7 @@ class MddBuilder {
   explicit MddBuilder(const World& world);
   ~MddBuilder();
 
-  // Builds the MDD of all paths that realize a sequence of the class, obey `constraints` (also
+  // Builds the MDD of all paths that realize a sequence of the class, satisfy `constraints` (also
   // while resting) and come to rest exactly at `cost`. If `cost` is the least cost, these are all
   // optimal paths. Widens the costs to go of `goals` as needed. `paths` is empty after all outcomes
   // except kBuilt. Throws std::invalid_argument for a constraint that does not fit the world.

@@ -24,11 +24,11 @@ class ActiveConstraints {
   void undo(const CertificateConstraint& side) { count(side, -1); }
   void clear() { counts_.clear(); }
 
-  // Whether `demand` is active. If it returns false, a side of "later" may still impose it.
+  // Whether `constraint` is active. If it returns false, a side of "later" may still impose it.
   bool has(const CertificateConstraint& constraint) const;
   // Whether `side` would add no constraint.
   bool has_side(const CertificateConstraint& side) const;
-  // Whether `side` imposes `demand`, if *this holds the constraints that are active without the
+  // Whether `side` imposes `constraint`, if *this holds the constraints that are active without the
   // side. For valid proofs only.
   bool is_of(const CertificateConstraint& constraint, const CertificateConstraint& side) const;
 

@@ -47,7 +47,7 @@ void audit(const Problem& problem, const Node& node, std::span<const AgentIndex>
   for (const AgentIndex agent : scope)
     for (const Constraint& c : constraints[agent])
       require(satisfies(problem.instance.world(), paths[agent], c, problem.corridors),
-              "agent {} does not obey '{}' on place {}, times {} to {}", agent, name_of(c.kind),
+              "agent {} does not satisfy '{}' on place {}, times {} to {}", agent, name_of(c.kind),
               c.cell, c.begin, c.end);
   require(node.cost() == cost, "a node says that it costs {}, its paths {}", node.cost(), cost);
   require(node.bound() >= cost, "a node's bound {} is below its cost {}", node.bound(), cost);

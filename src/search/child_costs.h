@@ -28,8 +28,8 @@ class ChildCosts {
   ChildCosts(PathPlanner& planner, WorkerCache& memory, std::int64_t label_limit)
       : planner_(planner), memory_(memory), most_labels_(label_limit) {}
 
-  // Computes by how much the individual costs of the agents in scope rise in total if `demand` is
-  // added; kInfiniteCost if by more than `slack`.
+  // Computes by how much the individual costs of the agents in scope rise in total if `constraint`
+  // is added; kInfiniteCost if by more than `slack`.
   Outcome increase(NodeView& view, const AgentConstraint& constraint, Cost slack,
                    const Limits& limits, Cost& increase);
 

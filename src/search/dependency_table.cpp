@@ -127,7 +127,7 @@ bool DependencyTable::merge_group(const std::vector<AgentIndex>& agents,
                                   const std::vector<Id>& subproblems, Known known) {
   GROVE_ASSERT(
       agents.size() > 2 && agents.size() == subproblems.size() && std::ranges::is_sorted(agents),
-      "a group is its agents in ascending order, and their situations");
+      "a group is its agents in ascending order, and their subproblems");
   const auto [rarest, next] = rarest_two(subproblems);
   const Id under = subproblems[rarest];
   return merge(under, [&](Part& part) {

@@ -18,8 +18,8 @@ namespace grove::detail {
 
 // Weights (*excesses*) of pairs and groups of agents, keyed by the agents' subproblems: a lower
 // bound on the cost of the agents together, minus the sum of their individual costs. A subproblem
-// is an agent with its order of visits and its set of constraints (subproblem_table.h); variables
-// call its number a situation. The key of a group is its agents in ascending order and their
+// is an agent with its order of visits and its set of constraints; subproblem_table.h
+// numbers it. The key of a group is its agents in ascending order and their
 // subproblems. Thread-safe.
 //
 // A group is *listed* under its rarest subproblem, because few nodes look that one up. The list
@@ -59,7 +59,7 @@ class DependencyTable {
     return {std::max(a.excess, b.excess), a.exact || b.exact, std::max(a.expansions, b.expansions)};
   }
 
-  // `situations` numbers the subproblems and must outlive this object.
+  // `subproblems` numbers the subproblems and must outlive this object.
   explicit DependencyTable(const SubproblemTable& subproblems) : subproblems_(subproblems) {}
 
   Known of_pair(Id first, Id second) const;
@@ -144,7 +144,7 @@ class DependencyTable {
   template <class What>
   bool merge(Id under, What what);
 
-  // The places, in `situations`, of a group's rarest subproblem and of the next rarest: those with
+  // The places, in `subproblems`, of a group's rarest subproblem and of the next rarest: those with
   // the most bytes of constraints. (Not the newest: a subproblem received from another process is
   // new here, but need not be rare.) Ties go to the larger number, which is about the newer one.
   std::array<std::size_t, 2> rarest_two(const std::vector<Id>& subproblems) const;

@@ -122,7 +122,7 @@ void Frontier::reinsert(NodePtr node) {
 void Frontier::release_locked(const NodePtr& node) {
   const auto it = taken_.find(rank(node));
   GROVE_ASSERT(it != taken_.end() && std::ranges::count(in_progress_, node) > 0,
-               "what is settled or given back was taken");
+               "only taken nodes are completed or reinserted");
   if (--it->second == 0) taken_.erase(it);
   std::swap(*std::ranges::find(in_progress_, node), in_progress_.back());
   in_progress_.pop_back();

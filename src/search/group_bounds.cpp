@@ -29,9 +29,9 @@ bool says_something(const Known& known) {
 }
 
 // Computes the numbers of the subproblems of all agents at a node.
-class SituationsAt {
+class SubproblemsAt {
  public:
-  explicit SituationsAt(SharedCache& memory) : memory_(memory) {}
+  explicit SubproblemsAt(SharedCache& memory) : memory_(memory) {}
 
   const std::vector<Id>& of(const Node& node) {
     node.constraints(constraints_);
@@ -77,7 +77,7 @@ class Collector {
 
  private:
   SharedCache& memory_;
-  SituationsAt subproblems_;
+  SubproblemsAt subproblems_;
   std::set<Id> seen_;
   std::vector<bool> is_new_;  // by AgentIndex: whether no earlier node has this subproblem
 };
@@ -108,7 +108,7 @@ std::vector<GroupBound> group_bounds_of(std::span<const NodePtr> nodes, SharedCa
 
 void merge(std::span<const GroupBound> findings, std::span<const NodePtr> nodes,
            SharedCache& memory) {
-  SituationsAt subproblems(memory);
+  SubproblemsAt subproblems(memory);
   const Node* at = nullptr;  // the node whose subproblems are in `ids`
   std::vector<Id> ids;
   std::vector<Id> key;

@@ -70,8 +70,8 @@ class NodeView {
   bool conflict_free() const { return conflicts_.empty(); }
   // The first conflict of these two agents. Returns nullptr if there is none.
   const Conflict* conflict_between(AgentIndex a, AgentIndex b) const;
-  // Replaces `agents` by the agents in scope that must be re-planned under `demand`: agents whose
-  // path violates an implied constraint, and every agent with an implied constraint on its
+  // Replaces `agents` by the agents in scope that must be re-planned under `constraint`: agents
+  // whose path violates an implied constraint, and every agent with an implied constraint on its
   // sequence.
   void affected_agents(const AgentConstraint& constraint, std::vector<AgentIndex>& agents) const;
 

@@ -15,7 +15,7 @@
 // *Shortcut.* The test examines all places, so it is skipped where there is room: if at least k + 3
 // places of a connected component have three neighbours or more, where k is the number of agents.
 // *Proof.* With m free places the component has at most k + m places. A path between crossings on
-// which an agent may be stuck, or which may separate crowds (reach_with_room.cpp), has at least m -
+// which an agent may be stuck, or which may separate groups (reach_with_room.cpp), has at least m -
 // 2 places with two neighbours. That leaves at most k + 2 others.
 #include "search/pebble_motion.h"
 

@@ -31,12 +31,12 @@
 //
 // *Converse* (no answer of Grove relies on it): all others are reachable. Where a way has
 // d <= m + 2 - (sum of both needs), the crossings at its ends are one for their agents. Joining
-// crossings along such ways gives sets of crossings. The *crowd* of a set consists of the agents
-// that are not stuck as seen from some crossing of it. A crowd can be arranged in any order on the
+// crossings along such ways gives sets of crossings. The *group* of a set consists of the agents
+// that are not stuck as seen from some crossing of it. A group can be arranged in any order on the
 // nodes that it has: every arrangement of the free nodes can be reached, and two agents of the
-// crowd can be brought to a crossing together, change places, and all agents be brought back.
+// group can be brought to a crossing together, change places, and all agents be brought back.
 //
-// *Reachable nodes.* A crowd reaches the nodes of its crossings, and the nodes of ways from there
+// *Reachable nodes.* A group reaches the nodes of its crossings, and the nodes of ways from there
 // with t <= m + 1 - need, because b <= m. A stuck agent always has the same number of agents on
 // either side; it reaches the nodes that leave room for 0 to m free nodes on one side.
 #include <algorithm>
@@ -83,7 +83,7 @@ class Crossings {
     return board_.is_on_ring(node) || board_.neighbors(node).size() > 2;
   }
   int need(PebbleNode crossing) const { return may_follow_ && board_.is_on_ring(crossing) ? 1 : 2; }
-  // The number of the set of joined crossings that contains `crossing`; it identifies the crowd.
+  // The number of the set of joined crossings that contains `crossing`; it identifies the group.
   PebbleNode group(PebbleNode crossing) const { return joined_[crossing]; }
   // The max distance from `crossing` of an agent that is not stuck as seen from it.
   int most_steps(PebbleNode crossing) const { return free_ + 1 - need(crossing); }
@@ -136,11 +136,11 @@ class Crossings {
   const bool may_follow_;
   std::vector<Way> ways_;
   std::vector<PebbleNode> joined_;  // by node; during construction a union-find forest of regions
-  // Pairs of a node of a way and a crowd that reaches it, sorted.
+  // Pairs of a node of a way and a group that reaches it, sorted.
   std::vector<std::pair<PebbleNode, PebbleNode>> near_;
 };
 
-// The crowds and the stuck agents of one configuration.
+// The groups and the stuck agents of one configuration.
 class Membership {
  public:
   Membership(const Crossings& crossings, const PebbleConfiguration& arrangement)
@@ -159,7 +159,7 @@ class Membership {
       if (crossings.is_first(crossings.ways()[way])) find_queue(way);
   }
 
-  // The crowd of the agent on `node`; kStuck if the agent is stuck or the node is free.
+  // The group of the agent on `node`; kStuck if the agent is stuck or the node is free.
   PebbleNode group(PebbleNode node) const { return groups_[node]; }
   // By way: the nodes of the agents that are stuck on it, in order.
   const std::vector<std::vector<PebbleNode>>& queues() const { return queues_; }
@@ -214,7 +214,7 @@ class Membership {
   std::vector<std::vector<PebbleNode>> queues_;  // by way
 };
 
-// All pairs of an agent and its crowd, sorted.
+// All pairs of an agent and its group, sorted.
 std::vector<std::pair<AgentIndex, PebbleNode>> groups_of(const PebbleConfiguration& arrangement,
                                                          const Membership& membership) {
   std::vector<std::pair<AgentIndex, PebbleNode>> groups;

@@ -41,7 +41,7 @@ std::string& key_begun(AgentIndex agent, const AgentSequencing& order) {
   return key;
 }
 
-AgentSubproblem situation_of(std::string_view key) {
+AgentSubproblem subproblem_of(std::string_view key) {
   AgentSubproblem subproblem;
   subproblem.order = taken_from<const AgentSequencing*>(key);
   subproblem.agent = taken_from<AgentIndex>(key);
@@ -115,7 +115,7 @@ SubproblemTable::Known SubproblemTable::known(Id id) const {
 
 AgentSubproblem SubproblemTable::subproblem(Id id) const {
   return parts_.with(parts_.part_of(id), [&](const Part& part) {
-    return situation_of(part.key(static_cast<Id>(place_of(id))));
+    return subproblem_of(part.key(static_cast<Id>(place_of(id))));
   });
 }
 

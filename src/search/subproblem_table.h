@@ -24,8 +24,8 @@ struct AgentSubproblem {
   PackedConstraints constraints;  // in canonical order
 };
 
-// Numbers the low-level subproblems and caches the cost bound of each. A subproblem ("situation" in
-// names) is an agent with its sequence class and a set of constraints. Most nodes of a constraint
+// Numbers the low-level subproblems and caches the cost bound of each. A subproblem
+// is an agent with its sequence class and a set of constraints. Most nodes of a constraint
 // tree query subproblems that other nodes queried before. Keys are compared in full, so a hash
 // collision costs time but never changes a result. A cost is a function of the subproblem only, so
 // the cache changes no result. Thread-safe.

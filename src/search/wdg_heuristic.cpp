@@ -33,7 +33,7 @@
 // covering_bound() computes the least total that satisfies all statements.
 //
 // *Cache.* The excess of a pair depends only on the two subproblems (agent, sequence class and
-// constraint set; "situation" in names). So a bound proven at one node holds at every node where
+// constraint set). So a bound proven at one node holds at every node where
 // both agents have the same subproblems. (Which bound was proven depends on the cutoff at that
 // time.) From a node to its child one subproblem changes, so nearly all pairs are cached. Pairs
 // that do not conflict now but conflicted in the same subproblems at some other node count as well.
@@ -75,7 +75,7 @@ WdgHeuristic::WdgHeuristic(const Problem& problem, const SearchOptions& options,
       pair_brancher_(problem, options, planner, memory),
       pair_dependency_(problem.instance.world()),
       joint_groups_(problem.instance, tuning_, planner),
-      situation_(static_cast<std::size_t>(agents_)) {}
+      subproblem_(static_cast<std::size_t>(agents_)) {}
 
 WdgHeuristic::Outcome WdgHeuristic::find_bound(const NodePtr& node, NodeView& view, Cost cutoff,
                                                BoundingEffort bounding_effort, const Limits& limits,
@@ -124,16 +124,16 @@ bool WdgHeuristic::help(const NodePtr& node, NodeView& view, Cost cutoff, double
 
 void WdgHeuristic::look_at(NodeView& view) {
   for (AgentIndex agent = 0; agent < agents_; ++agent) {
-    situation_[agent] = view.subproblem(agent);
+    subproblem_[agent] = view.subproblem(agent);
     GROVE_ASSERT(may_cost(agent, view.cost_of(agent)),
-                 "an agent's path at a node is a cheapest one in its situation");
+                 "an agent's path at a node is a cheapest one in its subproblem");
   }
 }
 
 // The excess of a pair or group counts from the costs of its agents' paths at the node where it was
 // proven. It is valid at other nodes because the paths cost the same there; this is the check.
 bool WdgHeuristic::may_cost(AgentIndex agent, Time cost) const {
-  const SubproblemTable::Known known = memory_.known(situation_[agent]);
+  const SubproblemTable::Known known = memory_.known(subproblem_[agent]);
   return known.exact ? cost == known.at_least : cost >= known.at_least;
 }
 
@@ -161,7 +161,7 @@ WdgHeuristic::Outcome WdgHeuristic::solve_conflicting(NodeView& view, Cost slack
     const bool solved =
         known.exact || solve(view, std::array{a, b}, slack, tuning_.pair_expansions, limits, known);
     if (!solved) return Outcome::kStopped;
-    memory_.merge_pair(situation_[a], situation_[b], b, known);
+    memory_.merge_pair(subproblem_[a], subproblem_[b], b, known);
   }
   return Outcome::kDone;
 }
@@ -181,7 +181,7 @@ std::optional<Dependence> WdgHeuristic::compare(NodeView& view, AgentIndex a, Ag
 
 const Mdd* WdgHeuristic::optimal_paths(NodeView& view, AgentIndex agent, const Limits& limits) {
   const Time cost = view.cost_of(agent);
-  return memory_.paths(situation_[agent], agent, view.order(agent), view.constraints(agent), cost,
+  return memory_.paths(subproblem_[agent], agent, view.order(agent), view.constraints(agent), cost,
                        limits);
 }
 
@@ -225,7 +225,7 @@ std::vector<std::vector<AgentIndex>> WdgHeuristic::groups_in_conflict(const Node
 
 std::vector<SubproblemTable::Id> WdgHeuristic::key(std::span<const AgentIndex> group) const {
   std::vector<SubproblemTable::Id> ids;
-  for (AgentIndex agent : group) ids.push_back(situation_[agent]);
+  for (AgentIndex agent : group) ids.push_back(subproblem_[agent]);
   return ids;
 }
 
@@ -318,11 +318,11 @@ void WdgHeuristic::leave() {
 void WdgHeuristic::collect(std::vector<GroupExcess>& statements) {
   for (AgentIndex a = 0; a < agents_; ++a) {
     partners_.clear();
-    memory_.partners(situation_[a], partners_);
+    memory_.partners(subproblem_[a], partners_);
     for (const DependencyTable::Partner& b : partners_)
-      if (situation_[b.agent] == b.subproblem) statements.push_back({{a, b.agent}, b.excess});
+      if (subproblem_[b.agent] == b.subproblem) statements.push_back({{a, b.agent}, b.excess});
   }
-  memory_.groups_at(situation_, [&](const DependencyTable::Group& group) {
+  memory_.groups_at(subproblem_, [&](const DependencyTable::Group& group) {
     if (group.known.excess > 0) statements.push_back({group.agents, group.known.excess});
   });
   std::ranges::sort(statements, [](const GroupExcess& s, const GroupExcess& t) {

@@ -82,7 +82,7 @@ class WdgHeuristic {
   bool may_cost(AgentIndex agent, Time cost) const;
   Outcome compute_weights(NodeView& view, Cost slack, const Limits& limits);
   Known known(AgentIndex a, AgentIndex b) const {
-    return memory_.of_pair(situation_[a], situation_[b]);
+    return memory_.of_pair(subproblem_[a], subproblem_[b]);
   }
   Outcome solve_conflicting(NodeView& view, Cost slack, double share, const Limits& limits);
   std::optional<Dependence> compare(NodeView& view, AgentIndex a, AgentIndex b,
@@ -113,8 +113,8 @@ class WdgHeuristic {
   Brancher pair_brancher_;
   JointMddSearch pair_dependency_;
   JointGroups joint_groups_;
-  std::vector<SubproblemTable::Id> situation_;  // by AgentIndex, at the node
-  std::vector<Open> open_;                      // unsorted; the search takes the node of least cost
+  std::vector<SubproblemTable::Id> subproblem_;  // by AgentIndex, at the node
+  std::vector<Open> open_;  // unsorted; the search takes the node of least cost
   std::vector<NodePtr> children_;
   std::vector<ProofSplit> written_;  // of the current group, if a certificate is written
   std::vector<DependencyTable::Partner> partners_;

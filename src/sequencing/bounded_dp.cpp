@@ -15,7 +15,7 @@
 // *Relaxation.* The relaxation of the class itself is tried first. It decides hopeless classes
 // without any graph, and so prevents one hopeless class from enlarging the graph for all.
 //
-// *Canonical sequences.* If many stops lie in a row, there are so many sequences of the same cost
+// *Canonical sequences.* If many stops lie in a row, there are many sequences of the same cost
 // that no graph holds them. If the graph exceeds most_states_, a graph of the canonical sequences
 // (passed_stops.cpp) of the queried class replaces it, and is built separately for each class. They
 // include a cheapest member, which is all that a query needs. If that graph becomes too large as

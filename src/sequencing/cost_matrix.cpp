@@ -26,8 +26,7 @@ CostMatrix cost_matrix(const Instance& instance, AgentIndex agent,
                         : least_from(world, instance.task(who.stops[row]).cell, who.kind, distance);
     matrix.cost(n, column) = distance[who.start];
   };
-  for (int stop = 0; stop < n; ++stop)
-    fill_column(stop, distances.to_task(who.stops[stop]));
+  for (int stop = 0; stop < n; ++stop) fill_column(stop, distances.to_task(who.stops[stop]));
   if (!instance.rests_on_last_stop(agent)) fill_column(n, distances.to_rest(agent));
   // Work in progress is completed first.
   if (world.is_working(who.start))

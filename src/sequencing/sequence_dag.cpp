@@ -372,7 +372,7 @@ class SequenceDagBuilder {
       if (direct_ != nullptr && dag_.nodes_[i].left != 0)
         compute_walks(dag_.nodes_[i]);
       else
-        settle(dag_.nodes_[i]);
+        compute_cost_to_go_of(dag_.nodes_[i]);
     }
     return true;
   }
@@ -416,7 +416,7 @@ class SequenceDagBuilder {
 
   // Dropped ports also get the cost of their routes inside the graph, because these routes are
   // real.
-  void settle(const SequenceDag::Node& node) {
+  void compute_cost_to_go_of(const SequenceDag::Node& node) {
     Time onward[kMaxTasksPerAgent * kPorts];
     for_each_stop(node.left, [&](int next) {
       for (int port = next * kPorts; port < (next + 1) * kPorts; ++port)

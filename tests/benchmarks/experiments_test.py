@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The experiments' scripts, on maps of our own making.
+"""Tests the scripts of the experiments on small maps.
 
-    experiments_test.py GROVE    GROVE: the program; without it, what runs it is skipped
+    experiments_test.py GROVE    GROVE: the program; without it, tests that run it are skipped
 """
 import csv
 import json
@@ -22,7 +22,7 @@ from harness.instances import Case, Maps, scenario_with_enough_rows  # noqa: E40
 
 GROVE = pathlib.Path("build/release/bin/grove")
 DATA = BENCHMARKS / "data"
-MAP = "empty-32-32"  # what the folders of the tests call the one of the data folder
+MAP = "empty-32-32"  # name of the map in the folders of the tests; empty-32x32 in the data folder
 
 
 def row(**values):
@@ -32,7 +32,7 @@ def row(**values):
 
 
 class Folder(unittest.TestCase):
-    """Tests with a folder of maps: one map, two scenarios of 200 rows."""
+    """Provides a folder of maps: one map, two scenarios of 200 rows."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -47,25 +47,25 @@ class Folder(unittest.TestCase):
 
 
 class Instances(Folder):
-    def test_a_long_enough_scenario_is_used_as_it_is(self):
+    def test_scenario_with_enough_rows_is_used_unchanged(self):
         case = Case(MAP, 100, 100, 1)
         self.assertEqual(scenario_with_enough_rows(self.maps, case, self.folder),
                          self.maps.scenario(case))
 
-    def test_a_short_one_is_followed_by_the_next(self):
+    def test_short_scenario_is_extended_by_the_next(self):
         longer = scenario_with_enough_rows(self.maps, Case(MAP, 150, 100, 1), self.folder)
         lines = longer.read_text().splitlines()
         self.assertEqual(len(lines), 1 + 400)
         self.assertEqual(sum(line.startswith("version") for line in lines), 1)
 
-    def test_missing_files(self):
+    def test_missing_files_are_named(self):
         self.assertIsNone(self.maps.missing(Case(MAP, 5, 9, 1)))
         self.assertEqual(self.maps.missing(Case(MAP, 5, 9, 3)).name, f"{MAP}-random-3.scen")
         self.assertEqual(self.maps.missing(Case("no", 5, 9, 1)).name, "no.map")
 
 
 class Results(unittest.TestCase):
-    def test_first_plan(self):
+    def test_time_of_the_first_plan_is_read_from_the_log(self):
         log = ("     expanded   open   memory      time\n"
                "B           0      0     8 MB     0.10s\n"
                "C           3      1     8 MB     1.25s\n"
@@ -73,19 +73,19 @@ class Results(unittest.TestCase):
         self.assertEqual(runs.first_plan_seconds(log), 1.25)
         self.assertIsNone(runs.first_plan_seconds(log[:100]))
 
-    def test_gap(self):
+    def test_gap_is_relative_to_the_bound(self):
         self.assertEqual(runs.gap(101, 100), 0.01)
         self.assertEqual(runs.gap(0, 0), 0)
         self.assertIsNone(runs.gap(None, 100))
         self.assertIsNone(runs.gap(1, 0))
 
-    def test_ids_tell_cases_apart(self):
+    def test_ids_of_cases_differ(self):
         cases = [Case("m", 5, None, 1), Case("m", 5, None, 2), Case("m", 5, 9, 1), Case("m", 5, 9, 1, mg=True)]
         self.assertEqual([case.id for case in cases],
                          ["m-random-1-5", "m-random-2-5", "experiments/m_s1_n5_m9", "experiments/m_s1_n5_m9_mg"])
         self.assertEqual([case.problem for case in cases], ["mapf", "mapf", "cts", "mg"])
 
-    def test_within_one_percent_is_exact(self):
+    def test_within_one_percent_is_computed_exactly(self):
         self.assertTrue(tables.within_one_percent(row(cost=707, lower_bound=700)))
         self.assertFalse(tables.within_one_percent(row(cost=708, lower_bound=700)))
         self.assertFalse(tables.within_one_percent(row(lower_bound=700)))
@@ -96,7 +96,7 @@ class Tables(unittest.TestCase):
         return [[entry.strip() for entry in line.strip("|").split("|")]
                 for line in text.splitlines()[2:]]
 
-    def test_proofs(self):
+    def test_table_of_proofs(self):
         rows = [row(status="optimal", cost=10, lower_bound=10, wall_s=1.0),
                 row(status="feasible", cost=20, lower_bound=10, wall_s=5.0),
                 row(status="unknown", lower_bound=10, wall_s=9.0, agents=7)]
@@ -105,14 +105,14 @@ class Tables(unittest.TestCase):
                           ["m", "7", "1", "0", "0", "1", "9.00"],
                           ["all", "", "3", "1", "1", "1", "5.00"]])
 
-    def test_comparison(self):
+    def test_table_of_the_comparison(self):
         rows = [row(status="optimal", wall_s=1.0), row(status="feasible", wall_s=9.0),
                 row(method="other", status="feasible", wall_s=2.0),
                 row(method="other", status="unknown", wall_s=9.0) | {"solved": False}]
         self.assertEqual(self.entries(tables.comparison(rows)),
                          [["m", "5", "1/2", "1.00", "1/2", "2.00"]])
 
-    def test_ablation_compares_what_both_solved(self):
+    def test_ablation_compares_instances_solved_by_both(self):
         solved = {"status": "optimal", "cost": 1, "lower_bound": 1}
         rows = [row(**solved, nodes=9, wall_s=0.999), row(**solved, nodes=9, wall_s=1, scenario=2),
                 row(**solved, nodes=39, wall_s=1.999, method="less"),
@@ -121,7 +121,7 @@ class Tables(unittest.TestCase):
                          [["Grove", "2/2", "2", "2", "2", "1.00", "1.00"],
                           ["less", "1/2", "1", "1", "1", "4.00", "2.00"]])
 
-    def test_no_plan_at_all(self):
+    def test_tables_without_any_plan(self):
         rows = [row(status="error")]
         for make in (tables.cells, tables.proofs, tables.plans, tables.comparison):
             self.assertEqual(len(make(rows).splitlines()) > 2, True)
@@ -134,25 +134,25 @@ class OtherSolvers(Folder):
         return runs.row_of(runs.Job(runs.OtherSolver(GROVE, "other", command, pattern),
                                     Case(MAP, 7, None, 1), time_limit), self.maps)
 
-    def test_cost_from_the_output(self):
+    def test_cost_is_read_from_the_output(self):
         found = self.result("import sys\nprint('agents', sys.argv[2], 'cost=123')", r"cost=(\d+)")
         self.assertEqual((found["status"], found["solved"], found["cost"]), ("feasible", True, 123))
         self.assertIs(found["checked"], False)
 
-    def test_cost_from_its_file(self):
+    def test_cost_is_read_from_the_output_file(self):
         found = self.result("import sys\nopen(sys.argv[3], 'w').write('a,b\\n1,77\\n')",
                             r"^1,(\d+)$")
         self.assertEqual((found["status"], found["solved"], found["cost"]), ("feasible", True, 77))
 
-    def test_no_match_is_no_plan(self):
+    def test_output_without_a_match_is_unknown(self):
         found = self.result("print('timeout')", r"cost=(\d+)")
         self.assertEqual((found["status"], found["solved"], found["runtime_s"]), ("unknown", False, 5))
 
-    def test_no_cost_is_below_nothing(self):
+    def test_negative_cost_is_an_error(self):
         found = self.result("print('cost=-1')", r"cost=(-?\d+)")
         self.assertEqual((found["status"], found["error"]), ("error", f"{MAP} 7 scenario 1: claims a cost of -1"))
 
-    def test_a_program_that_is_not_there(self):
+    def test_missing_program_is_an_error(self):
         job = runs.Job(runs.OtherSolver(GROVE, "other", "/no/such/program", "(x)"), Case(MAP, 7, None, 1), 1)
         self.assertEqual(runs.row_of(job, self.maps)["status"], "error")
 
@@ -172,7 +172,7 @@ class WithTheProgram(Folder):
         with open(self.folder / "rows.csv", newline="", encoding="utf-8") as file:
             return done, list(csv.DictReader(file))
 
-    def test_paper(self):
+    def test_paper_experiment_writes_rows_and_tables(self):
         done, rows = self.experiment("paper", "--agents", "2", "3", "--tasks", "4", "--scenarios",
                                      "1", "2", "-j", "2", "--", "--omega", "0")
         self.assertEqual([row["status"] for row in rows], 4 * ["optimal"])
@@ -180,12 +180,12 @@ class WithTheProgram(Folder):
         self.assertIn("| all |  | 4 | 4 | 4 | 0 |", done.stdout)
         self.assertIn("skipped 4 of 12 cases: ", done.stderr)
 
-    def test_mg(self):
+    def test_mg_experiment_writes_a_row(self):
         _, rows = self.experiment("paper", "--map", MAP, "--agents", "2", "--tasks", "3",
                                   "--scenarios", "1", "--mg")
         self.assertEqual(len(rows), 1)
 
-    def test_classical_beside_another_solver(self):
+    def test_classical_experiment_compares_another_solver(self):
         done, rows = self.experiment(
             "classical", "--scenarios", "1", "--time-limit", "1", "--other", "echo",
             "echo cost 99{agents}", r"cost (\d+)")
@@ -194,8 +194,8 @@ class WithTheProgram(Folder):
         self.assertIn("echo: solved", done.stdout)
         self.assertIn("2 plans of echo are unchecked claims", done.stderr)
 
-    # No plan costs less than what is proven.
-    def test_claims_below_a_proven_bound_are_told(self):
+    def test_claims_below_a_proven_bound_are_reported(self):
+        # No plan costs less than a proven lower bound.
         done, rows = self.experiment(
             "classical", "--scenarios", "1", "--time-limit", "1", "--other", "echo",
             "echo cost {agents}", r"cost (\d+)", code=1)
@@ -208,8 +208,8 @@ class WithTheProgram(Folder):
         self.assertEqual(report.returncode, 0, report.stderr)
         self.assertIn("proofs contradict each other", report.stderr)
 
-    # Of a solver that writes Grove's own plan, but for what `change` makes of its paths or its cost.
     def with_paths(self, change):
+        """Returns the row of a solver that writes the plan of Grove, with its paths or cost modified by `change`."""
         case = Case(MAP, 5, None, 1)
         (self.folder / "solver.py").write_text(f"""
 import json, subprocess, sys
@@ -239,7 +239,7 @@ print("cost", cost)
             self.assertIn("claims a plan of cost", row["error"])
             self.assertNotIn("\n", row["error"])
 
-    def test_a_regex_without_a_cost(self):
+    def test_regex_without_a_group_is_refused(self):
         done = subprocess.run([sys.executable, BENCHMARKS / "experiments.py", "classical", "--other", "x", "y", "z"],
                               capture_output=True, text=True, check=False)
         self.assertIn("--other x: found 'z'; expected a group that is the cost", done.stderr)
@@ -256,7 +256,7 @@ print("cost", cost)
         self.assertGreater(int(row["nodes_generated"]), 0)
         self.assertNotIn("seed", row)
 
-    def test_ablation_knows_all_techniques(self):
+    def test_ablation_runs_without_each_technique(self):
         names = experiments.technique_names(GROVE)
         self.assertGreater(len(names), 2)
         done, rows = self.experiment("ablation", "--agents", "2", "--tasks", "3", "--scenarios", "1")
@@ -272,13 +272,13 @@ print("cost", cost)
         self.assertEqual([(row["instance"], row["method"], row["status"], row["cost"]) for row in rows],
                          [("line", "Grove", "optimal", "2"), ("line", "without primal", "optimal", "2")])
 
-    def test_failures_are_rows_and_an_exit_code(self):
+    def test_failures_are_rows_and_set_the_exit_code(self):
         done, rows = self.experiment("paper", "--agents", "2", "--tasks", "3", "--scenarios", "1",
                                      "--", "--no-such-option", code=1)
         self.assertEqual([row["status"] for row in rows], ["error"])
         self.assertIn("--no-such-option", done.stderr)
 
-    def test_nothing_to_run(self):
+    def test_experiments_without_instances_fail(self):
         self.experiment("large", code=1)
         self.experiment("crowded", code=1)
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The paper's experiments in small: every run is there, nothing contradicts, and more instances go on.
+"""Tests the experiments of the paper on few instances: all runs are present, proofs agree, further instances are added.
 
     paper_test.py GROVE
 """
@@ -34,7 +34,7 @@ class Paper(unittest.TestCase):
                                "--time-limit", "0.3", *options], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
 
-    def test_goes_on_with_more_agents(self):
+    def test_results_are_extended_with_more_agents(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             for agents in ("2", "2,3"):
@@ -49,16 +49,16 @@ class Paper(unittest.TestCase):
                 self.assertEqual(rows(folder / "report/contradictions.csv"), [])
                 self.assertTrue((folder / "report/omega_study.svg").exists())
 
-    def test_results_do_not_mix(self):
+    def test_other_settings_in_the_same_folder_are_refused(self):
         with tempfile.TemporaryDirectory() as name:
             (Path(name) / "settings.json").write_text('{"movingai": null, "time_limit": 3.0}')
             error = self.refused(name, "--time-limit", "2", "--grove", GROVE)
             self.assertIn("expected the same maps and time limit, or another folder", error)
 
-    def test_a_program_that_is_not_there(self):
+    def test_missing_program_is_an_error(self):
         with tempfile.TemporaryDirectory() as name:
             self.assertIn("tools/quickstart", self.refused(name, "--grove", "/no/such/grove"))
-            self.assertFalse((Path(name) / "settings.json").exists())  # which nothing stands for
+            self.assertFalse((Path(name) / "settings.json").exists())  # no results exist for these settings
 
     def test_signals_reach_the_bench(self):
         with tempfile.TemporaryDirectory() as name:
@@ -68,7 +68,7 @@ class Paper(unittest.TestCase):
             running.send_signal(signal.SIGTERM)
             _, err = running.communicate(timeout=HANG_S)
             self.assertEqual(running.returncode, 130, err)
-            self.assertIn("the same command goes on", err)
+            self.assertIn("repeat the command to resume", err)
             self.assertNotIn("Traceback", err)
 
     def refused(self, *arguments):
@@ -80,5 +80,5 @@ class Paper(unittest.TestCase):
 
 if __name__ == "__main__":
     GROVE = Path(sys.argv.pop(1)).resolve()
-    os.environ.pop("GROVE_MOVINGAI", None)  # maps of our own making
+    os.environ.pop("GROVE_MOVINGAI", None)  # uses generated maps
     unittest.main()

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What the paper says beside what came out here: the pages show what the files say."""
+"""Tests the comparison of published results with ours: the pages agree with the result files."""
 import pathlib
 import sys
 import unittest
@@ -17,7 +17,10 @@ def measured(success, runtime=10.0, sqr=None):
 
 
 def cells():
-    """Two rooms: in the first A is better than all baselines and B twice as good as the best; in the second only B solves any."""
+    """Returns two cells of a room map.
+
+    In the first A is better than all baselines and B solves twice as many as the best; in the second only B solves any.
+    """
     baselines = {name: measured(0.4, 5.0, 1.0) for name in published.BASELINES}
     nothing = dict.fromkeys(published.BASELINES, measured(0))
     cell = SimpleNamespace(map="room-1", agents=5, tasks=10)
@@ -36,7 +39,7 @@ class _Key:
 
 
 class Pages(unittest.TestCase):
-    def test_they_show_what_the_files_say(self):
+    def test_pages_agree_with_the_result_files(self):
         rows = published.our_rows()
         for name, (table, page) in published.PARTS.items():
             with self.subTest(name):
@@ -44,7 +47,7 @@ class Pages(unittest.TestCase):
                 self.assertIsNotNone(shown)
                 self.assertEqual(shown.group(), shown.group(1) + table(rows))
 
-    def test_every_statement_of_the_paper_is_in_a_table(self):
+    def test_tables_list_every_statement_of_the_paper(self):
         rows = published.our_rows()
         tables = published.claims_table(rows) + published.omega_table(rows)
         for each in published.published():
@@ -52,8 +55,8 @@ class Pages(unittest.TestCase):
 
 
 class Claims(unittest.TestCase):
-    def test_what_they_say(self):
-        for claim, says in {
+    def test_claims_are_computed_from_the_cells(self):
+        for claim, text in {
             "success-ratio": "2 times at most (room, N = 5, M = 10: B against Optimal-CBS)",
             "speed-up": "10 times at most (room, N = 5, M = 10: B against Optimal-CBS)",
             "quality-loss": "5.0 % at most (room, N = 5, M = 10: B)",
@@ -67,7 +70,7 @@ class Claims(unittest.TestCase):
             "runtime-c": "2 of 2 cells",
         }.items():
             with self.subTest(claim):
-                self.assertEqual(published.CLAIMS[claim](cells()), says)
+                self.assertEqual(published.CLAIMS[claim](cells()), text)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What the script of the scaling study makes of its figures, and that its pages show them."""
+"""Tests the script of the scaling study and that the pages agree with its result files."""
 import fractions
 import json
 import os
@@ -22,13 +22,13 @@ RESULTS = BENCHMARKS / "results/scaling"
 
 
 class Results(unittest.TestCase):
-    def test_shares_of_the_time_sum_to_one(self):
+    def test_time_shares_sum_to_one(self):
         for row in scaling.read(RESULTS / "simulated.csv"):
             shares = scaling.shares(row).values()
             self.assertAlmostEqual(sum(shares), 1, delta=1e-3, msg=row)
             self.assertGreaterEqual(min(shares), 0, row)
 
-    def test_the_pages_show_what_the_files_say(self):
+    def test_pages_agree_with_the_result_files(self):
         pages = [path.read_text(encoding="utf-8") for path in (RESULTS / "README.md", BENCHMARKS / "tried-and-rejected.md")]
         rows = {name: scaling.read(RESULTS / f"{name}.csv")
                 for name in ("simulated", "bound", "long", "earlier", "weak", "compared", "processor")}
@@ -39,10 +39,10 @@ class Results(unittest.TestCase):
         self.assertIn(scaling.earlier_table(rows["earlier"], rows["simulated"] + rows["long"]), pages[1])
 
 
-class Hours(unittest.TestCase):
-    """Each has a plan to begin with, of the cost that its page says."""
+class LongInstances(unittest.TestCase):
+    """Tests the hour-long instances: each has a start plan of the cost stated on its page."""
 
-    def test_plans_are_of_the_instances_that_are_drawn(self):
+    def test_start_plans_are_valid_for_the_instances(self):
         page = (BENCHMARKS / "data/long/README.md").read_text(encoding="utf-8")
         self.assertEqual({str(case) for case in scaling.LONG},
                          {file.name.removesuffix(".plan.json")
@@ -55,7 +55,7 @@ class Hours(unittest.TestCase):
                 cost = json.loads(plan.read_text(encoding="utf-8"))["cost"]
                 self.assertRegex(page, rf"\| {case} \|.*\| {cost:,} \|")
 
-    def test_runs_end_with_the_bound_that_is_known(self):
+    def test_omega_ends_runs_at_the_known_bound(self):
         with tempfile.TemporaryDirectory() as name:
             plan = pathlib.Path(name) / "a.plan.json"
             for cost, bound in ((1206, 1206), (2284, 2281), (16340, 16333)):
@@ -67,10 +67,10 @@ class Hours(unittest.TestCase):
 
 class Study(unittest.TestCase):
     def test_ranks_grow_with_the_work(self):
-        self.assertEqual([scaling.ranks_for({"wall_s": str(alone)}, 2.5) for alone in (0.1, 3, 10, 320)],
+        self.assertEqual([scaling.ranks_for({"wall_s": str(seconds)}, 2.5) for seconds in (0.1, 3, 10, 320)],
                          [2, 2, 4, 128])
 
-    def test_rows_of_an_instance_and_a_number_of_ranks_are_replaced(self):
+    def test_merge_replaces_rows_of_the_same_instance_and_ranks(self):
         with tempfile.TemporaryDirectory() as name:
             path = pathlib.Path(name) / "rows.csv"
             first, second = (str(case) for case in scaling.HARD[:2])

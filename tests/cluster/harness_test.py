@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""cluster/two_hosts and cluster/local_slurm themselves: what runs in there, and that nothing of it
-stays, however they end. Exit code 77: they cannot run here, and say why."""
+"""Tests cluster/two_hosts and cluster/local_slurm: what runs in them, and that they leave no process, however they end.
+Exit code 77: they cannot run here; the output gives the reason."""
 import os
 import signal
 import subprocess
@@ -15,8 +15,8 @@ from support import CLUSTER, wait_until
 
 TWO_HOSTS = CLUSTER / "two_hosts"
 LOCAL_SLURM = CLUSTER / "local_slurm"
-# Who may read what root may, in whatever folder this is.
-NOBODY = ["setpriv", "--reuid", "65534", "--regid", "65534", "--clear-groups",
+# Not root, but with permission to read every file, so that the test works in any folder.
+UNPRIVILEGED = ["setpriv", "--reuid", "65534", "--regid", "65534", "--clear-groups",
           "--inh-caps", "+dac_override", "--ambient-caps", "+dac_override"]
 
 
@@ -26,18 +26,18 @@ def run(*command):
 
 
 def programs_with(mark):
-    """The names of the processes, in any namespace, in whose environment `mark` stands."""
+    """Returns the names of the processes, in any namespace, whose environment contains `mark`."""
     found = []
     for process in Path("/proc").glob("[0-9]*"):
         try:
             if mark.encode() in (process / "environ").read_bytes():
                 found.append((process / "comm").read_text(encoding="utf-8").strip())
         except OSError:
-            pass  # it has ended meanwhile
+            pass  # the process has ended in the meantime
     return found
 
 
-class WhatRuns(unittest.TestCase):
+class Commands(unittest.TestCase):
     def test_exit_code_is_that_of_the_command(self):
         for script, code in (("exit 0", 0), ("exit 5", 5), ("kill -TERM $$", 128 + 15)):
             self.assertEqual(run(TWO_HOSTS, "sh", "-c", script).returncode, code)
@@ -50,17 +50,17 @@ class WhatRuns(unittest.TestCase):
                    "ppr:1:node", "hostname")
         self.assertEqual(sorted(done.stdout.split()), ["node1", "node2"], done.stderr)
 
-    def test_slurm_has_as_many_nodes_as_asked_for(self):
+    def test_slurm_has_the_requested_number_of_nodes(self):
         for nodes, names in (("1", ["node1"]), ("2", ["node1", "node2"])):
             done = run(LOCAL_SLURM, "--nodes", nodes, "--", "srun", "-N", nodes, "hostname")
             self.assertEqual(sorted(done.stdout.split()), names, done.stderr)
 
-    def test_without_the_right_to_it_says_so(self):
-        done = run(*NOBODY, sys.executable, LOCAL_SLURM, "true")
+    def test_missing_permission_is_reported(self):
+        done = run(*UNPRIVILEGED, sys.executable, LOCAL_SLURM, "true")
         self.assertEqual(done.returncode, 77)
         self.assertIn("only root", done.stderr)
 
-    def test_without_a_file_of_hosts_says_so(self):
+    def test_missing_hosts_file_is_reported(self):
         with tempfile.TemporaryDirectory() as folder:
             done = run("unshare", "--mount", "sh", "-c", f"cp -a /etc {folder} && rm {folder}/etc/hosts && "
                        f"mount --bind {folder}/etc /etc && exec {LOCAL_SLURM} true")
@@ -68,8 +68,8 @@ class WhatRuns(unittest.TestCase):
         self.assertIn("not possible on this machine: /etc/hosts is missing", done.stderr)
 
 
-class WhatStays(unittest.TestCase):
-    """Nothing."""
+class Cleanup(unittest.TestCase):
+    """Tests that no process remains."""
 
     def killed_by(self, number):
         mark = f"GROVE_TEST_MARK={uuid.uuid4()}"
@@ -80,18 +80,18 @@ class WhatStays(unittest.TestCase):
         wait_until("a job in Slurm", lambda: programs <= set(programs_with(mark)), harness)
         harness.send_signal(number)
         self.assertEqual(harness.wait(), -9 if number == signal.SIGKILL else 128 + number)
-        wait_until("all processes gone", lambda: not programs_with(mark))
+        wait_until("all processes have ended", lambda: not programs_with(mark))
 
-    def test_after_an_interrupt(self):
+    def test_no_process_remains_after_sigint(self):
         self.killed_by(signal.SIGINT)
 
-    def test_after_a_termination(self):
+    def test_no_process_remains_after_sigterm(self):
         self.killed_by(signal.SIGTERM)
 
-    def test_after_a_kill(self):
+    def test_no_process_remains_after_sigkill(self):
         self.killed_by(signal.SIGKILL)
 
-    def test_after_the_command_has_ended(self):
+    def test_no_process_remains_after_the_command_has_ended(self):
         mark = f"GROVE_TEST_MARK={uuid.uuid4()}"
         with tempfile.TemporaryDirectory() as folder:
             ran = Path(folder) / "ran"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The job scripts with every option that docs/command-line.md tells, and with a second one of those that
-they give themselves: without Slurm, whose commands are stood in for, and on one rank."""
+"""Tests the job scripts with every option of docs/command-line.md, and with options that the scripts also set
+themselves. Runs without Slurm, whose commands are replaced, and on one rank."""
 import json
 import os
 import re
@@ -15,12 +15,12 @@ from mpi_test import MpiTest  # found by support
 
 INSTANCE = DATA / "first.cts.json"
 SLURM = {
-    # What follows its own options.
+    # Runs the command after the options of srun.
     "srun": 'while case $1 in --*) ;; *) false ;; esac; do shift; done; exec "$@"',
     "scontrol": 'echo "$@" >>scontrol.log',
 }
-# Not for grove-mpi: --deterministic, --log-tree, and --anytime with the only method that has it; and
-# the plan to start from need not keep to --no-following.
+# grove-mpi does not support --deterministic, --log-tree, and --anytime with the only method that has it.
+# The start plan may violate --no-following.
 NOT_OURS = {"--deterministic", "--anytime", "--log-tree", "--no-following"}
 VALUES = {
     "--omega": "0.5", "--time-limit": "20", "--memory-limit": "1", "--threads": "1",
@@ -29,7 +29,7 @@ VALUES = {
     "--incumbents": "best", "--proof": "bound.proof", "--output": "other.json", "--require-plan": None, "--log": "run.log",
     "--log-format": "jsonl", "--verbose": None, "--quiet": None, "--confine": None,
 }
-TECHNIQUES = {"--without": "bypass"}  # of the policy free
+TECHNIQUES = {"--without": "bypass"}  # a technique of the policy free only
 OF_SCENARIOS = {"--map": DATA / "empty-32x32.map", "--agents": "3"}
 
 
@@ -45,7 +45,7 @@ def words(options):
 
 
 def until(condition):
-    """Of a shell: waits for an event, or until the process in the background has ended."""
+    """Returns shell code that waits for `condition`, or until the process in the background has ended."""
     return f"until {condition} || ! kill -0 $!; do sleep 0.05; done 2>/dev/null"
 
 
@@ -81,10 +81,10 @@ class Scripts(MpiTest):
         self.assertEqual(done.returncode, code, done.stdout)
         return done.stdout
 
-    def test_the_values_here_are_of_all_documented_options(self):
+    def test_every_documented_option_has_a_value_here(self):
         self.assertEqual({*VALUES, *TECHNIQUES, *OF_SCENARIOS, *NOT_OURS}, documented())
 
-    def test_every_option(self):
+    def test_scripts_pass_every_option_on(self):
         for script, what in (("solve.sbatch", INSTANCE), ("array.sbatch", "instances.txt"),
                              ("preempt.sbatch", INSTANCE)):
             self.run_script(script, what, *words(VALUES))
@@ -95,7 +95,7 @@ class Scripts(MpiTest):
             (self.folder / "other.json").unlink()
             self.run_script(script, what, *words(TECHNIQUES))
 
-    def test_what_the_scripts_say_themselves(self):
+    def test_defaults_of_the_scripts_are_used(self):
         self.run_script("array.sbatch", "instances.txt")
         checked_plan(INSTANCE, self.folder / "plans/1-first.plan.json")
         self.run_script("array.sbatch", "instances.txt", "--checkpoint", "kept/%a")
@@ -104,16 +104,16 @@ class Scripts(MpiTest):
         checked_plan(INSTANCE, self.folder / "first.plan.json")
         self.assertTrue((self.folder / "first.checkpoint/checkpoint.grove").exists())
 
-    def test_memory_is_what_slurm_grants(self):
+    def test_memory_limit_is_the_grant_of_slurm(self):
         cores = {"SLURM_MEM_PER_CPU": "500", "SLURM_CPUS_ON_NODE": "2"}
-        for granted, said in (({"SLURM_MEM_PER_NODE": "2000"}, "2.1 GB of them granted"), ({}, ""),
+        for granted, output in (({"SLURM_MEM_PER_NODE": "2000"}, "2.1 GB of them granted"), ({}, ""),
                                 (cores, "1.0 GB of them granted")):
             for script, what in (("solve.sbatch", INSTANCE), ("array.sbatch", "instances.txt"),
                                  ("preempt.sbatch", INSTANCE)):
                 self.run_script(script, what, "--log", "run.log", granted=granted)
-                self.assertIn(said, (self.folder / "run.log").read_text(encoding="utf-8"))
+                self.assertIn(output, (self.folder / "run.log").read_text(encoding="utf-8"))
 
-    def test_array_counts_a_last_line_without_an_end(self):
+    def test_array_counts_a_last_line_without_a_newline(self):
         command = re.search(r'--array=1-"\$\((.*?)\)"', (CLUSTER / "array.sbatch").read_text(encoding="utf-8")).group(1)
         (self.folder / "instances.txt").write_text(f"{DATA}/missing.cts.json\n{INSTANCE}", encoding="utf-8")
         lines = subprocess.run(["sh", "-c", command], cwd=self.folder, check=True, text=True, stdout=subprocess.PIPE).stdout
@@ -121,16 +121,16 @@ class Scripts(MpiTest):
         self.run_script("array.sbatch", "instances.txt", granted={"SLURM_ARRAY_TASK_ID": "2"})
         checked_plan(INSTANCE, self.folder / "plans/2-first.plan.json")
 
-    def test_scenarios(self):
+    def test_scripts_run_scenarios(self):
         for script in ("solve.sbatch", "preempt.sbatch"):
             self.run_script(script, DATA / "empty-32x32.scen", *words(OF_SCENARIOS), "--output", "p")
 
     def requeued(self):
-        """How often the job has been put back into the queue."""
+        """Returns how often the job has been requeued."""
         log = self.folder / "scontrol.log"
         return log.read_text(encoding="utf-8").count("requeue 7\n") if log.exists() else 0
 
-    def test_an_interrupted_run_goes_back_into_the_queue_wherever_its_log_is(self):
+    def test_interrupted_run_is_requeued_with_any_log_option(self):
         hard = hard_instance(self.folder)
         checkpoint = self.folder / "hard.checkpoint/checkpoint.grove"
         interrupted = self.executable("interrupted", f'''"{program("GROVE_MPI")}" "$@" --checkpoint-interval 0.2 &
@@ -142,15 +142,15 @@ wait $!''')
             self.run_script("preempt.sbatch", hard, "--resume", "never", *log, grove_mpi=interrupted)
             self.assertEqual(self.requeued(), number + 1)
 
-    def test_a_plan_that_an_interrupted_run_left_puts_nothing_back(self):
+    def test_plan_of_an_earlier_interrupted_run_requeues_no_job(self):
         plan = json.loads((self.folder / "start.json").read_text(encoding="utf-8"))
         plan["stats"]["stopped_by"] = "interrupt"
         (self.folder / "first.plan.json").write_text(json.dumps(plan), encoding="utf-8")
-        said = self.run_script("preempt.sbatch", INSTANCE, "--time-limit", "0")
-        self.assertIn("first.plan.json keeps its valid plan", said)
+        output = self.run_script("preempt.sbatch", INSTANCE, "--time-limit", "0")
+        self.assertIn("first.plan.json keeps its valid plan", output)
         self.assertEqual(self.requeued(), 0)
 
-    def test_a_lost_rank_is_started_again_from_its_checkpoint(self):
+    def test_run_with_a_lost_rank_restarts_from_its_checkpoint(self):
         lost = self.executable("lost", f'''echo >>runs
 [ "$(wc -l <runs)" -gt 2 ] && exec "{program("GROVE_MPI")}" "$@" --time-limit 0
 "{program("GROVE_MPI")}" "$@" --checkpoint-interval 0.2 &
@@ -159,10 +159,10 @@ kill -KILL $!
 wait $!''')
         hard = hard_instance(self.folder)
         runs = self.folder / "runs"
-        said = self.run_script("preempt.sbatch", hard, grove_mpi=lost)
-        self.assertIn("A rank was lost (exit code 137): restart 2 of 3\n", said)
+        output = self.run_script("preempt.sbatch", hard, grove_mpi=lost)
+        self.assertIn("A rank was lost (exit code 137): restart 2 of 3\n", output)
         self.assertEqual(runs.read_text().count("\n"), 3)
-        self.assertEqual(said.count("Resuming from a checkpoint"), 2)
+        self.assertEqual(output.count("Resuming from a checkpoint"), 2)
         runs.unlink()
         self.run_script("preempt.sbatch", "--restarts", "1", hard, "--resume", "never", grove_mpi=lost, code=137)
         self.assertEqual(runs.read_text().count("\n"), 2)
@@ -171,14 +171,14 @@ wait $!''')
         bad = self.run_script("preempt.sbatch", "--restarts", hard, code=2)
         self.assertEqual(bad, f"preempt.sbatch: --restarts: found '{hard}'; expected a whole number\n")
 
-    def test_an_answer_without_a_rank_that_stood_still_is_one(self):
+    def test_answer_without_an_unresponsive_rank_is_accepted(self):
         for warning in ("did not respond at shutdown", "said nothing when all was to end"):
             silent = self.executable("silent", f'''echo >>runs
 "{program("GROVE_MPI")}" "$@"
 for log in *.log; do echo "Warning: 1 of 2 ranks {warning}: ..." >>"$log"; done
 exit 137''')
-            said = self.run_script("preempt.sbatch", hard_instance(self.folder), "--time-limit", "0", grove_mpi=silent)
-            self.assertNotIn("restart", said)
+            output = self.run_script("preempt.sbatch", hard_instance(self.folder), "--time-limit", "0", grove_mpi=silent)
+            self.assertNotIn("restart", output)
             self.assertEqual((self.folder / "runs").read_text().count("\n"), 1)
             for file in (self.folder / "runs", *self.folder.glob("*.log")):
                 file.unlink()

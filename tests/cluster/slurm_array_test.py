@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""cluster/array.sbatch: a list of instances, a job each. Run by cluster/local_slurm."""
+"""Tests cluster/array.sbatch: a list of instances, one job each. Run by cluster/local_slurm."""
 import shutil
 import tempfile
 import unittest
@@ -34,7 +34,7 @@ class ArrayScript(MpiTest):
                                 self.folder / f"plans/{line}-{name}.plan.json")
             self.assertEqual(plan["status"], "optimal")
 
-    def test_a_line_too_many_fails_alone(self):
+    def test_index_beyond_the_list_fails_without_the_others(self):
         self.assertEqual(sorted(self.exit_codes("3-4")), [0, 2])
         self.assertEqual([plan.name for plan in self.folder.glob("plans/*")],
                          ["3-first.plan.json"])

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""cluster/solve.sbatch: one solve on two nodes. Run by cluster/local_slurm --nodes 2."""
+"""Tests cluster/solve.sbatch: one solve on two nodes. Run by cluster/local_slurm --nodes 2."""
 import os
 import tempfile
 import unittest
@@ -24,7 +24,7 @@ class SolveScript(MpiTest):
             plan = checked_plan(EASY, Path(folder) / "plan.json")
             self.assertEqual(plan["status"], "optimal", log)
 
-    def test_memory_and_nodes_as_users_ask_for_them(self):
+    def test_job_runs_with_all_requests_of_memory_and_nodes(self):
         for options in (["--mem=0"], ["--mem-per-cpu=500M"], ["--exclusive"], ["--exclusive", "--mem-per-cpu=500M"], []):
             with self.subTest(options), tempfile.TemporaryDirectory() as folder:
                 codes = submit_and_wait("--cpus-per-task=1", "--output=log", *options, CLUSTER / "solve.sbatch", EASY,

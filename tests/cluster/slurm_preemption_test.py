@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""cluster/preempt.sbatch: stopped and started again, the search goes on where it was. Run by
+"""Tests cluster/preempt.sbatch: a search that is stopped and started again resumes from its checkpoint. Run by
 cluster/local_slurm."""
 import os
 import re
@@ -17,7 +17,7 @@ TIME_LIMIT_S = 60  # more than any run takes here
 
 
 class PreemptScript:
-    """A job of it on an instance that it will not have solved, just started."""
+    """Base of tests: starts a job of the script on an instance that the job will not have solved."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -30,7 +30,7 @@ class PreemptScript:
                        CLUSTER / "preempt.sbatch", self.instance, "--omega", "0",
                        "--time-limit", TIME_LIMIT_S, cwd=self.folder).strip()
         self.addCleanup(subprocess.run, ["scancel", self.job], check=False)
-        # Without an expansion there would be nothing to go on from.
+        # Without an expansion there is nothing to resume.
         wait_until("a plan and an expansion", lambda: re.search(r"^[A-Z* ] +[1-9]\d*( +\d+){4} ", self.log(), re.M))
 
     def log(self):
@@ -38,13 +38,13 @@ class PreemptScript:
         return path.read_text(encoding="utf-8") if path.exists() else ""
 
     def rows(self, since=0):
-        """Those of the log that have an incumbent."""
+        """Returns the rows of the log that have an incumbent."""
         return re.findall(r"^[A-Z* ]( +\d+){5} ", self.log()[since:], re.M)
 
     def job_is(self, **fields):
-        """Whether Slurm says so of the job: job_is(JobState="RUNNING")."""
-        said = run("scontrol", "--oneliner", "show", "job", self.job)
-        return all(f" {name}={value} " in said for name, value in fields.items())
+        """Returns whether Slurm reports these fields of the job, for example job_is(JobState="RUNNING")."""
+        output = run("scontrol", "--oneliner", "show", "job", self.job)
+        return all(f" {name}={value} " in output for name, value in fields.items())
 
     def wait_until_job_is(self, **fields):
         try:
@@ -57,7 +57,7 @@ class PreemptScript:
         return list((self.folder / "hard.checkpoint").rglob("checkpoint.grove"))
 
     def second_run(self, bound_before):
-        """The job, which is in the queue once more, goes on where it was."""
+        """Asserts that the requeued job resumes the search."""
         before = len(self.log())
         wait_until("the second run", lambda: self.starts_again() and self.rows(before))
         self.assertRegex(self.log()[before:], RESUMED)
@@ -68,9 +68,8 @@ class PreemptScript:
         self.assertGreaterEqual(plan["lower_bound"], bound_before)
 
     def starts_again(self):
-        """Slurm lets a job that it has put back into the queue wait for two minutes; two seconds
-        are enough, but in the second of its end a node may refuse it ("already killed"), and it is
-        held for good."""
+        """Releases a requeued job after 2 s; Slurm would let it wait for two minutes. A node may refuse a job in
+        the second in which it ends ("already killed"); Slurm then holds the job for good."""
         if self.job_is(JobState="PENDING"):
             time.sleep(2)
             for command in (["release", self.job], ["update", f"JobId={self.job}", "StartTime=now"]):
@@ -79,7 +78,7 @@ class PreemptScript:
 
 
 class AnUrgentJob(PreemptScript, unittest.TestCase):
-    def test_a_checkpoint_on_demand_then_the_place_is_needed(self):
+    def test_job_with_a_requested_checkpoint_resumes_after_preemption(self):
         self.assertEqual(self.checkpoint_files(), [])
         run("scancel", "--signal=USR1", self.job)
         wait_until("a checkpoint", self.checkpoint_files)
@@ -93,8 +92,8 @@ class AnUrgentJob(PreemptScript, unittest.TestCase):
 
 
 class TimeOfGrace(PreemptScript, unittest.TestCase):
-    def test_the_program_ends_in_time_and_the_script_asks_for_another_run(self):
-        # What a cluster with GraceTime does first: a SIGTERM to the ranks, but not to the script.
+    def test_interrupted_ranks_end_in_time_and_the_job_is_requeued(self):
+        # A cluster with GraceTime first sends SIGTERM to the ranks, but not to the script.
         run("scancel", "--signal=TERM", self.job)
         self.wait_until_job_is(JobState="PENDING", Restarts="1")
         plan = checked_plan(self.instance, self.plan)
@@ -104,7 +103,7 @@ class TimeOfGrace(PreemptScript, unittest.TestCase):
 
 
 class Cancelled(PreemptScript, unittest.TestCase):
-    def test_a_cancelled_job_writes_its_plan_and_does_not_come_back(self):
+    def test_cancelled_job_writes_its_plan_and_is_not_requeued(self):
         run("scancel", self.job)
         self.wait_until_job_is(JobState="CANCELLED", Restarts="0")
         self.assertIn("Plan file", self.log())

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What the tests of the cluster folder share. They run inside cluster/local_slurm or
-cluster/two_hosts, with the program to test in GROVE_MPI and the checker of plans in GROVE."""
+"""Provides helpers for the cluster tests, which run inside cluster/local_slurm or cluster/two_hosts. The environment
+variable GROVE_MPI names the program to test, GROVE the plan checker."""
 import json
 import os
 import re
@@ -18,36 +18,36 @@ EASY = DATA / "rooms-32x32_n10_m30.cts.json"  # solved to optimality within a se
 
 
 def program(variable):
-    """The program that an environment variable names."""
+    """Returns the path of the program that an environment variable names."""
     path = os.environ.get(variable, "")
     if not os.access(path, os.X_OK):
-        raise AssertionError(f"the environment variable {variable} must name a program, and is "
+        raise AssertionError(f"the environment variable {variable} must name a program; found "
                              f"'{path}'")
     return path
 
 
 def run(*command, **options):
-    """What it printed; an error, with all that it said, if it does not end with 0."""
+    """Returns the output of a command. Raises AssertionError with the output if the exit code is not 0."""
     done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, text=True, **options)
     if done.returncode != 0:
-        raise AssertionError(f"{' '.join(map(str, command))}\nended with {done.returncode}:\n"
+        raise AssertionError(f"{' '.join(map(str, command))}\nexited with code {done.returncode}:\n"
                              f"{done.stdout}")
     return done.stdout
 
 
 def submit_and_wait(*arguments, **options):
-    """Calls sbatch; returns the exit codes of the job, or of all jobs of the array, when it has
-    ended. (sbatch --wait looks but every few seconds.)"""
+    """Calls sbatch, waits, and returns the exit codes of the job, or of all jobs of the array. (sbatch --wait polls
+    only every few seconds.)"""
     job = run("sbatch", "--parsable", *arguments, **options).strip()
     wait_until(f"job {job} has ended", lambda: not run("squeue", "--noheader", "--jobs", job))
-    said = run("scontrol", "show", "job", job)
-    return [int(code) for code in re.findall(r" ExitCode=(\d+):", said)]
+    output = run("scontrol", "show", "job", job)
+    return [int(code) for code in re.findall(r" ExitCode=(\d+):", output)]
 
 
 def recording_program(folder):
-    """A program that is GROVE_MPI but for a line in `folder`/ranks for every start of a rank: its
-    host."""
+    """Writes a program that runs GROVE_MPI and appends the host of each started rank to `folder`/ranks. Returns its
+    path."""
     path = Path(folder) / "recording-grove-mpi"
     path.write_text(f'#!/bin/sh\nhostname >>"{folder}/ranks"\n'
                     f'exec "{program("GROVE_MPI")}" "$@"\n', encoding="utf-8")
@@ -60,13 +60,13 @@ def recorded_hosts(folder):
 
 
 def checked_plan(instance, plan):
-    """The plan file's content, after grove check has said that it is valid."""
+    """Returns the content of the plan file after grove check has accepted it."""
     run(program("GROVE"), "check", instance, plan)
     return json.loads(Path(plan).read_text(encoding="utf-8"))
 
 
 def hard_instance(folder):
-    """An instance on which the search finds plans soon, but no proof within a minute."""
+    """Generates an instance on which the search finds plans soon, but no proof within a minute. Returns its path."""
     path = Path(folder) / "hard.cts.json"
     run(program("GROVE"), "generate", "instance", "--map", DATA / "rooms-32x32.map",
         "--agents", 30, "--tasks", 60, "--seed", 1, "-o", path)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""A solve by two hosts without Slurm, as docs/operators.md says. Run by cluster/two_hosts."""
+"""Tests a solve on two hosts without Slurm, as docs/operators.md describes. Run by cluster/two_hosts."""
 import os
 import tempfile
 import unittest
@@ -18,13 +18,13 @@ class TwoHosts(MpiTest):
             "--output", "plan.json", cwd=folder)
         return checked_plan(EASY, Path(folder) / "plan.json")
 
-    def test_a_rank_on_each_host(self):
+    def test_one_rank_per_host_solves(self):
         with tempfile.TemporaryDirectory() as folder:
             plan = self.solve(folder, "--map-by", "ppr:1:node", "--bind-to", "none")
             self.assertEqual(plan["status"], "optimal")
             self.assertEqual(recorded_hosts(folder), ["node1", "node2"])
 
-    def test_two_ranks_on_each_host(self):
+    def test_two_ranks_per_host_solve(self):
         with tempfile.TemporaryDirectory() as folder:
             plan = self.solve(folder, "--map-by", "ppr:2:node", "--bind-to", "none")
             self.assertEqual(plan["status"], "optimal")

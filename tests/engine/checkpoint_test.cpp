@@ -268,7 +268,7 @@ class DamagedCheckpoint : public ::testing::Test {
   void expect_damage_found(const std::string& bytes, const char* place, std::size_t offset) {
     const std::string message = read_result(bytes);
     EXPECT_TRUE(message.find("is damaged") != std::string::npos ||
-                message.find("is no checkpoint") != std::string::npos ||
+                message.find("is not a checkpoint") != std::string::npos ||
                 message.find("of format version") != std::string::npos)
         << place << ' ' << offset << ": " << message;
   }

@@ -336,7 +336,7 @@ Instance random_instance(std::uint64_t seed) {
   return tiny.build();
 }
 
-// Advances the session and checks the plan and the states of late robots.
+// Advances the session and checks the plan and the states of delayed robots.
 void advance_and_check(Session& session, Time time, Random& random) {
   const Instance before = session.instance();
   const Plan plan = *session.plan();

@@ -46,7 +46,7 @@ TEST(ExecutionTrace, AllRobotsArriveWithoutCollisions) {
       solution.plan = executed_plan(instance, *plan, order, driven);
       solution.status = status_of(solution.plan->cost, 0, solution.omega);
       const auto wrong = check(instance, solution);
-      ASSERT_TRUE(wrong.empty()) << seed << ", " << schedule << ": " << wrong[0].place << " "
+      ASSERT_TRUE(wrong.empty()) << seed << ", " << schedule << ": " << wrong[0].json_pointer << " "
                                  << wrong[0].message;
     }
   }

@@ -169,9 +169,9 @@ int main(int argc, char** argv) {
   std::string plan_file;
   app.add_option("INSTANCE", instance_file, "drive a plan of this, in place of random ones");
   app.add_option("PLAN", plan_file);
-  app.add_option("--plans", plans, "so many plans, every third one of robots that go round")
+  app.add_option("--plans", plans, "number of plans; in every third one robots rotate")
       ->capture_default_str();
-  app.add_option("--drives", drives, "so many drives of each")->capture_default_str();
+  app.add_option("--drives", drives, "executions per plan")->capture_default_str();
   app.add_option("--seed", seed, "of the first one")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   Counts counts;

@@ -200,11 +200,11 @@ TEST(PlantedOptimum, SurvivesNodeEviction) {
         return options;
       },
       [&](const Solution& solution, const PlantedOptimum&) {
-        const std::int64_t given_up = solution.stats.counts.at("nodes_evicted");
-        evicted += given_up;
+        const std::int64_t count = solution.stats.counts.at("nodes_evicted");
+        evicted += count;
         restarts += solution.stats.counts.at("restarts");
-        asked += given_up > 0;
-        optimal += given_up > 0 && solution.status == Status::kOptimal;
+        asked += count > 0;
+        optimal += count > 0 && solution.status == Status::kOptimal;
       });
   EXPECT_GT(evicted, 1000);
   EXPECT_GT(restarts, 10);

@@ -56,10 +56,10 @@ Run run(const Instance& instance, const FuzzCase& fuzz_case, const oracle::Answe
       static_cast<double>(std::clock() - worked_before) / CLOCKS_PER_SEC));
   const auto& texts = run.solution.stats.texts;
   const auto stop = texts.find("stopped_by");
-  const bool gave_up = (fuzz_case.options.node_memory != SolveOptions::kUnlimited ||
-                        fuzz_case.strike == Strike::kMemory) &&
-                       stop != texts.end() && stop->second == "memory limit";
-  run.stopped = limits.reason() != StopReason::kNone || excuses(fuzz_case.strike) || gave_up;
+  const bool out_of_memory = (fuzz_case.options.node_memory != SolveOptions::kUnlimited ||
+                              fuzz_case.strike == Strike::kMemory) &&
+                             stop != texts.end() && stop->second == "memory limit";
+  run.stopped = limits.reason() != StopReason::kNone || excuses(fuzz_case.strike) || out_of_memory;
   run.duration = end - begin;
   // A process that had to wait is not late: only its processor time beyond the deadline counts.
   const Clock::time_point due = std::max(begin, deadline);

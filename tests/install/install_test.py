@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What is installed serves people who have nothing else of Grove.
+"""Tests an installation of Grove without its source and build folders.
 
     install_test.py SOURCE BUILD COMPILER CMAKE PYTHON [--long]
 
-PYTHON: for which the module is built; empty: for none. Installs BUILD into a temporary folder, and builds projects of others against that. With --long also
-a project that holds Grove as a folder of its own, without MPI and CBC (some minutes).
+PYTHON: the interpreter for which the module is built; empty if it is not built. Installs BUILD into a temporary folder
+and builds dependent projects against it. With --long also builds a project that contains Grove as a subdirectory,
+without MPI and CBC (some minutes).
 """
 import os
 import re
@@ -79,10 +80,10 @@ int main(int argc, char** argv) {
 }
 """
 MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-# What the shared library shows besides its public API: instances of the standard library's templates.
-SHOWN = re.compile(r"^(grove::(?!detail::)|(typeinfo|typeinfo name|vtable|VTT) for grove::(?!detail::)|"
+# Exported symbols of the shared library: the public API and template instances of the standard library.
+EXPORTED = re.compile(r"^(grove::(?!detail::)|(typeinfo|typeinfo name|vtable|VTT) for grove::(?!detail::)|"
                    r"(\w+ )*std::|.* std::)")
-# Libraries of which users see nothing, whatever they link.
+# Parts of symbols that must not be exported: those of bundled libraries and of grove::detail.
 HIDDEN = re.compile(r"nlohmann|CLI::|YAML|pugi|fmt::|cereal|grove::detail")
 
 
@@ -98,7 +99,7 @@ class Installed(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = Path(tempfile.mkdtemp())
-        cls.prefix = cls.folder / "pre fix"  # a blank must not matter
+        cls.prefix = cls.folder / "pre fix"  # a path with a blank
         run(CMAKE, "--install", BUILD, "--prefix", cls.prefix)
         cls.library = next(cls.prefix.glob("lib/**/libgrove.so"))
 
@@ -119,28 +120,28 @@ class Installed(unittest.TestCase):
         run(CMAKE, "--build", folder / "build", "--parallel", "2")
         self.assertEqual(run(folder / "build/stranger"), "cost 3\n")
 
-    def test_find_package(self):
+    def test_project_with_find_package_is_built(self):
         self.solves(self.project("shared", "find_package(grove 0.1 REQUIRED COMPONENTS core)", "grove::grove"))
 
-    def test_find_package_static(self):
+    def test_project_with_the_static_library_is_built(self):
         folder = self.project("static", "find_package(grove REQUIRED)", "grove::grove_static")
         self.solves(folder)
         self.assertNotIn("libgrove", run("ldd", folder / "build/stranger"))
 
-    def test_another_version_is_not_found(self):
+    def test_newer_version_is_not_found(self):
         folder = self.project("newer", "find_package(grove 0.2 REQUIRED)", "grove::grove")
         with self.assertRaisesRegex(AssertionError, "0.2"):
             self.solves(folder)
 
-    def test_pkg_config(self):
+    def test_project_with_pkg_config_is_built(self):
         folder = self.project("pkg", "", "")
         flags = run("pkg-config", "--cflags", "--libs", "grove",
                     PKG_CONFIG_PATH=self.library.parent / "pkgconfig")
-        flags = shlex.split(flags)  # as a shell would with eval
+        flags = shlex.split(flags)  # splits like eval of a shell
         run(COMPILER, "-std=c++20", "main.cpp", *flags, "-o", "stranger", folder=folder)
         self.assertEqual(run(folder / "stranger", LD_LIBRARY_PATH=self.library.parent), "cost 3\n")
 
-    def test_the_example(self):
+    def test_minimal_example_is_built(self):
         example = next(self.prefix.glob("share/doc/**/minimal.cpp"))
         folder = self.project("example", "find_package(grove REQUIRED)", "grove::grove")
         shutil.copy(example, folder / "main.cpp")
@@ -149,8 +150,8 @@ class Installed(unittest.TestCase):
         run(CMAKE, "--build", folder / "build")
         self.assertIn("one task more", run(folder / "build/stranger"))
 
-    def test_the_example_of_a_session(self):
-        """From public headers and the standard library alone, as its README says."""
+    def test_lifelong_example_is_built(self):
+        """Builds the lifelong example only from public headers and the standard library, as its README describes."""
         installed = next(self.prefix.glob("share/doc/**/lifelong"))
         readme = (Path(SOURCE) / "examples/lifelong/README.md").read_text()
         lines = [line for line in readme.splitlines() if line.startswith("    ")]
@@ -162,12 +163,12 @@ class Installed(unittest.TestCase):
             f"-DCMAKE_PREFIX_PATH={self.prefix}")
         run(CMAKE, "--build", folder / "build", "--parallel", "2")
         program, grid = folder / "build/grove-lifelong", Path(SOURCE) / "benchmarks/data/rooms-32x32.map"
-        said = run(program, grid, "--robots", "8", "--tasks", "20", "--steps", "20", "--turn-steps", "1")
-        self.assertIn("20 of 20 errands done", said)
+        output = run(program, grid, "--robots", "8", "--tasks", "20", "--steps", "20", "--turn-steps", "1")
+        self.assertIn("20 of 20 errands done", output)
         with self.assertRaisesRegex(AssertionError, "exit 2.*\n.*--robots: found 'many'; expected a number from 1"):
             run(program, grid, "--robots", "many")
 
-    def test_mpi(self):
+    def test_project_with_mpi_is_built(self):
         if not (self.prefix / "include/grove/mpi.hpp").exists():
             self.skipTest("Grove is built without MPI")
         folder = self.project("mpi", "find_package(grove REQUIRED COMPONENTS mpi)", "grove::mpi")
@@ -175,57 +176,57 @@ class Installed(unittest.TestCase):
         run(CMAKE, "-S", folder, "-B", folder / "build", f"-DCMAKE_CXX_COMPILER={COMPILER}",
             f"-DCMAKE_PREFIX_PATH={self.prefix}")
         run(CMAKE, "--build", folder / "build")
-        said = run("mpirun", "--oversubscribe", "-np", "3", folder / "build/stranger", **MPI)
-        self.assertEqual(sorted(said.splitlines()), [f"rank {i} is well" for i in range(3)])
+        output = run("mpirun", "--oversubscribe", "-np", "3", folder / "build/stranger", **MPI)
+        self.assertEqual(sorted(output.splitlines()), [f"rank {i} is well" for i in range(3)])
 
-    def test_python(self):
+    def test_python_module_is_installed(self):
         if not PYTHON:
             self.skipTest("Grove is built without Python")
         venv = self.folder / "venv"
         run(PYTHON, "-m", "venv", "--without-pip", venv)
         run(CMAKE, "--install", BUILD, "--component", "python", "--prefix", venv)
-        said = run(venv / "bin/python", "-c",
+        output = run(venv / "bin/python", "-c",
                    "import grove; i = grove.instance_from_arrays(grove.World(['....']), [(0, 0)], [(3, 0)]);"
                    "print(grove.solve(i), grove.__version__, grove.__file__)", folder=self.folder)
-        self.assertRegex(said, r"optimal, cost 3, .* \d+\.\d+\.\d+ \S+/venv/")
+        self.assertRegex(output, r"optimal, cost 3, .* \d+\.\d+\.\d+ \S+/venv/")
 
-    def test_manual(self):
+    def test_manual_completions_and_schemas_are_installed(self):
         for file in ("man/man1/grove-solve.1", "man/man1/grove-sim.1", "bash-completion/completions/grove",
                      "zsh/site-functions/_grove", "fish/vendor_completions.d/grove.fish",
                      "grove/schemas/instance.schema.json"):
             self.assertGreater((self.prefix / "share" / file).stat().st_size, 100, file)
 
-    def test_the_interface_is_the_public_api(self):
-        shown = [line.split(" ", 2)[2] for line in run("nm", "-DC", "--defined-only", self.library).splitlines()]
-        self.assertIn("grove::version()", shown)
-        self.assertEqual([name for name in shown if not SHOWN.match(name) or HIDDEN.search(name)], [])
+    def test_shared_library_exports_only_the_public_api(self):
+        exported = [line.split(" ", 2)[2] for line in run("nm", "-DC", "--defined-only", self.library).splitlines()]
+        self.assertIn("grove::version()", exported)
+        self.assertEqual([name for name in exported if not EXPORTED.match(name) or HIDDEN.search(name)], [])
 
-    def test_soname(self):
+    def test_soname_has_major_and_minor_version(self):
         self.assertRegex(run("readelf", "-d", self.library), r"SONAME.*\[libgrove\.so\.\d+\.\d+\]")
 
-    def test_no_header_of_the_inside(self):
+    def test_internal_headers_are_not_installed(self):
         headers = sorted((self.prefix / "include").rglob("*"))
         self.assertTrue(all(header.suffix == ".hpp" for header in headers if header.is_file()), headers)
         self.assertFalse([header for header in headers if header.name == "detail"])
 
-    def test_programs(self):
+    def test_programs_are_installed(self):
         program = self.prefix / "bin/grove"
         data = Path(SOURCE) / "benchmarks/data"
         plan = self.folder / "first.plan.json"
         run(program, "solve", data / "first.cts.json", "--quiet", "--output", plan)
         self.assertIn("valid", run(program, "check", data / "first.cts.json", plan))
-        for command in ("report", "toio", "vda5050"):  # programs of their own, which lie apart
+        for command in ("report", "toio", "vda5050"):  # separate programs in other folders
             self.assertIn(f"grove {command}", run(program, command, "--help"))
 
-    def test_cluster(self):
+    def test_cluster_scripts_are_installed(self):
         if not (self.prefix / "bin/grove-mpi").exists():
             self.skipTest("Grove is built without MPI")
         for name in ("solve.sbatch", "array.sbatch", "preempt.sbatch"):
             run("bash", "-n", self.prefix / "share/grove/cluster" / name)
         self.assertTrue(next(self.prefix.glob("share/doc/**/operators.md")).is_file())
 
-    def test_pictures_are_a_part(self):
-        """grove itself needs neither MPI nor what draws, and says which package does."""
+    def test_grove_runs_without_the_picture_component(self):
+        """Checks that grove depends on neither MPI nor graphics libraries and names the package that draws pictures."""
         program = self.prefix / "bin/grove"
         self.assertNotRegex(run("ldd", program), r"lib(mpi|cairo|X11|hwloc|OpenCL|tbb)\b")
         data = Path(SOURCE) / "benchmarks/data"
@@ -237,8 +238,8 @@ class Installed(unittest.TestCase):
         with self.assertRaisesRegex(AssertionError, "exit 2.*\n.*Debian package grove-pictures"):
             run(bare / "grove", "view", data / "first.cts.json", "--svg", "b.svg", folder=self.folder)
 
-    def test_uninstalling_leaves_nothing(self):
-        prefix = self.folder / "gone soon"
+    def test_uninstalling_removes_all_files(self):
+        prefix = self.folder / "to uninstall"
         run(CMAKE, "--install", BUILD, "--prefix", prefix)
         manifest = (Path(BUILD) / "install_manifest.txt").read_text()
         for command in ("report", "toio", "vda5050"):
@@ -250,11 +251,11 @@ class Installed(unittest.TestCase):
             Path(file).unlink()
         self.assertEqual([file for file in prefix.rglob("*") if not file.is_dir()], [])
 
-    def test_smoke(self):
-        said = run(self.prefix / "share/grove/smoke-test")
-        self.assertRegex(said, "(?m)^ok +solve$")
-        self.assertRegex(said, "(?m)^ok +library by CMake$")
-        broken = self.folder / "broken"  # whose grove says yes to everything
+    def test_smoke_test_detects_a_broken_installation(self):
+        output = run(self.prefix / "share/grove/smoke-test")
+        self.assertRegex(output, "(?m)^ok +solve$")
+        self.assertRegex(output, "(?m)^ok +library by CMake$")
+        broken = self.folder / "broken"  # with a grove that always succeeds
         for name in ("bin", "share/grove"):
             (broken / name).mkdir(parents=True)
         shutil.copy(self.prefix / "share/grove/smoke-test", broken / "share/grove")
@@ -262,7 +263,7 @@ class Installed(unittest.TestCase):
         with self.assertRaisesRegex(AssertionError, "(?s)exit 1.*FAILED   check refuses a wrong plan"):
             run(broken / "share/grove/smoke-test")
 
-    def test_add_subdirectory(self):
+    def test_project_with_grove_as_subdirectory_is_built(self):
         if not IS_LONG:
             self.skipTest("takes some minutes: --long")
         folder = self.project("inside", "add_subdirectory(grove)", "grove::grove")

@@ -90,7 +90,7 @@ TEST(LifFile, NullAndEmptyPropertiesAreIgnored) {
 
 TEST(LifFile, SeveralLayoutsRequireAChoice) {
   EXPECT_EQ(refused(kFloors),
-            "p.lif.json: /layouts: 2 layouts; expected --layout with one of 'high', 'low'");
+            "p.lif.json: /layouts: found 2 layouts; expected --layout with one of 'high', 'low'");
   EXPECT_EQ(refused(kFloors, {.layout = "roof"}),
             "p.lif.json: /layouts: there is no layout 'roof'; expected one of 'high', 'low'");
   std::vector<std::string> warnings;
@@ -241,10 +241,10 @@ TEST(LifFile, RefusesInvalidFilesWithThePlace) {
       {curve("1e300", "[0,0,1,1]", two),
        properties + "/trajectory/degree: found 1e+300; expected a whole number from 1 to 16"},
       {curve("2", "[0,0,1,1]", two),
-       properties + "/trajectory/controlPoints: 2 points; expected more than the degree, 2"},
+       properties + "/trajectory/controlPoints: found 2 points; expected more than the degree, 2"},
       {curve("1", "[0,0,1]", two),
        properties +
-           "/trajectory/knotVector: 3 knots; expected 4, for 2 control points and degree 1"},
+           "/trajectory/knotVector: found 3 knots; expected 4, for 2 control points and degree 1"},
       {curve("1", "[0,1,0.5,1]", two),
        properties + "/trajectory/knotVector/2: found 0.5; expected at least the knot before"},
       {curve("1", "[0,0,1,1]", R"([{"x": 0, "y": 0, "weight": 0}, {"x": 1, "y": 0}])"),

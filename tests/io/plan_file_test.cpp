@@ -77,6 +77,12 @@ TEST_F(PlanFile, RoundTrips) {
   EXPECT_EQ(written(back), kWritten);
 }
 
+TEST_F(PlanFile, ReadsOldNamesOfCounters) {
+  std::string text = kWritten;
+  text.replace(text.find("nodes_expanded"), 14, "joint_pairs");
+  EXPECT_EQ(read(text).stats.counts.at("joint_mdd_nodes"), 7);
+}
+
 TEST_F(PlanFile, WithoutAPlanHasNeitherCostNorAgents) {
   Solution unknown;
   unknown.lower_bound = 12;

@@ -58,7 +58,7 @@ TEST(DistanceFields, AreExactForLongDistances) {
   }
 }
 
-// So many tasks that several threads are used.
+// Enough tasks for several threads.
 Instance many_tasks() {
   constexpr int kSide = 200;
   std::vector<bool> passable(kSide * kSide, true);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A checkpoint that turns out to be damaged while ranks search already ends the job at once."""
+"""Checks that a checkpoint found to be damaged when ranks already search ends the job at once."""
 
 import os
 from pathlib import Path
@@ -20,7 +20,7 @@ def solve(folder, *options):
 
 
 class DamagedCheckpoint(unittest.TestCase):
-    def test_ends_the_job_and_says_which_file(self):
+    def test_damaged_checkpoint_ends_the_job_and_names_the_file(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             first = solve(folder)

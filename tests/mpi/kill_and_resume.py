@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Kills a distributed solve at random moments and goes on from its checkpoint, with another number
-of ranks each time, until it ends; the answer must be the one of an undisturbed run. Or, with --script,
-cluster/preempt.sbatch goes on, with three ranks, mpirun standing in for srun.
+"""Kills a distributed solve at random moments and resumes it from its checkpoint until it ends, each time with
+another number of ranks. The answer must be that of an undisturbed run. With --script cluster/preempt.sbatch
+resumes it, with three ranks and with mpirun in place of srun.
 
     kill_and_resume.py [--kills N] [--seed S] [--most-seconds T] [--script] INSTANCE
 
-GROVE and GROVE_MPI name the programs.
+The environment variables GROVE and GROVE_MPI name the programs.
 """
 import argparse
 import os
@@ -29,17 +29,17 @@ SLURM = {"SLURM_MEM_PER_NODE": "6000", "SLURM_CPUS_PER_TASK": "1", "SLURM_NTASKS
 
 
 def undisturbed(instance, folder):
-    code, said = run([GROVE, "solve", instance, "--omega", 0, "--quiet", "--output", "plan.json"],
+    code, output = run([GROVE, "solve", instance, "--omega", 0, "--quiet", "--output", "plan.json"],
                      folder)
-    assert code == 0, said
+    assert code == 0, output
     plan = plan_of(Path(folder) / "plan.json")
     assert plan["status"] == "optimal", plan["status"]
     return plan["cost"]
 
 
 def kill_a_rank(running, dice, checkpoint, most_seconds):
-    """At most `most_seconds` after all have begun to search; None: when they have written a checkpoint. (One
-    that is killed as it connects may leave an mpirun of Open MPI 4 that waits for ever.)"""
+    """Kills a random rank at most `most_seconds` after all ranks have begun to search; with None, when they have
+    written a checkpoint. (If a rank is killed while it connects, mpirun of Open MPI 4 may wait for ever.)"""
     before = written_at(checkpoint)
     ranks = {}
 
@@ -55,42 +55,44 @@ def kill_a_rank(running, dice, checkpoint, most_seconds):
         try:
             os.kill(dice.choice(sorted(ranks.values())), signal.SIGKILL)
         except ProcessLookupError:
-            pass  # it has just ended
+            pass  # the rank has just ended
 
 
 def written_at(file):
     return file.stat().st_mtime_ns if file.exists() else None
 
 
-def lost(said):
-    """How often the script has said so."""
-    return text_of(said).count("A rank was lost")
+def lost(log):
+    """Returns how often the script has reported a lost rank."""
+    return text_of(log).count("A rank was lost")
 
 
 def disturbed_script(instance, folder, kills, dice, most_seconds):
-    """The same of one run of the script, which ends by itself."""
+    """Kills ranks of one run of the job script, which restarts itself. Returns the final plan and the number of
+    killed ranks."""
     (folder / "bin").mkdir()
     (folder / "bin/srun").write_text(SRUN, encoding="utf-8")
     (folder / "bin/srun").chmod(0o755)
-    said = folder / "said"
-    running = start(["sh", "-c", 'exec bash "$@" >said 2>&1', "sh", PREEMPT, "--restarts", kills, instance, "--omega", 0,
-                     "--checkpoint-interval", 0.2, "--output", "plan.json"], folder,
+    log = folder / "script-output"
+    running = start(["sh", "-c", 'exec bash "$@" >script-output 2>&1', "sh", PREEMPT, "--restarts", kills, instance,
+                     "--omega", 0, "--checkpoint-interval", 0.2, "--output", "plan.json"], folder,
                     PATH=f"{folder}/bin:{os.environ['PATH']}", GROVE_MPI=GROVE_MPI, **SLURM)
     killed = 0
     while killed < kills and running.poll() is None:
         checkpoint = folder / f"{instance.name.removesuffix('.cts.json')}.checkpoint/checkpoint.grove"
         kill_a_rank(running, dice, checkpoint, most_seconds)
-        wait_until("the script has seen it", lambda: running.poll() is not None or lost(said) > killed)
-        killed = lost(said)
+        wait_until("the script has reported the lost rank",
+                   lambda: running.poll() is not None or lost(log) > killed)
+        killed = lost(log)
     code = running.wait()
-    text = said.read_text(encoding="utf-8")
+    text = log.read_text(encoding="utf-8")
     assert code == 0, text
-    print(f"{killed} killed, {text.count('Resuming from a checkpoint')} times from a checkpoint")
+    print(f"{killed} killed, {text.count('Resuming from a checkpoint')} times resumed from a checkpoint")
     return plan_of(folder / "plan.json"), killed
 
 
 def disturbed(instance, folder, kills, dice, most_seconds):
-    """The plan in the end, and how many runs were killed before theirs."""
+    """Returns the final plan and the number of runs that were killed before it."""
     killed = 0
     while True:
         ranks = dice.choice([1, 2, 3, 4])
@@ -99,12 +101,12 @@ def disturbed(instance, folder, kills, dice, most_seconds):
                                "--resume", "auto", "--output", "plan.json"), folder)
         if killed < kills:
             kill_a_rank(running, dice, Path(folder) / "kept/checkpoint.grove", most_seconds)
-        said, _ = running.communicate()
+        output, _ = running.communicate()
         if running.returncode == 0:
             return plan_of(Path(folder) / "plan.json"), killed
-        assert killed < kills, said
+        assert killed < kills, output
         killed += 1
-        print(f"killed one of {ranks} ranks: mpirun ended with {running.returncode}")
+        print(f"killed one of {ranks} ranks: mpirun exited with code {running.returncode}")
 
 
 def check(instance, kills, seed, most_seconds=None, way=disturbed):
@@ -113,8 +115,8 @@ def check(instance, kills, seed, most_seconds=None, way=disturbed):
         truth = undisturbed(instance, folder)
         plan, killed = way(instance, Path(folder), kills, dice, most_seconds)
         assert (plan["status"], plan["cost"]) == ("optimal", truth), (plan["status"], plan["cost"])
-        code, said = run([GROVE, "check", instance, "plan.json"], folder)
-        assert code == 0, said
+        code, output = run([GROVE, "check", instance, "plan.json"], folder)
+        assert code == 0, output
         assert killed or not kills, "solved before a rank could be killed"
         print(f"{killed} kills, then optimal with cost {truth}")
         return killed

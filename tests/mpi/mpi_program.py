@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the tests of grove-mpi share. The programs are in the environment: GROVE_MPI and GROVE."""
+"""Provides helpers for the tests of grove-mpi. The environment variables GROVE_MPI and GROVE name the programs."""
 import json
 import os
 import subprocess
@@ -12,18 +12,18 @@ DATA = Path(__file__).resolve().parents[2] / "benchmarks/data"
 GROVE = os.environ.get("GROVE", "")
 GROVE_MPI = os.environ.get("GROVE_MPI", "")
 
-# Containers have root only, and tests more ranks than cores.
+# Containers run as root, and tests start more ranks than there are cores.
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 
 def mpirun(ranks, *command):
-    """The command line of grove-mpi by so many ranks."""
+    """Returns the command line that runs grove-mpi on `ranks` ranks."""
     return ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(ranks), GROVE_MPI,
             *map(str, command)]
 
 
 def run(command, folder):
-    """What it printed on both streams, and its exit code."""
+    """Returns the exit code and the output of both streams."""
     done = subprocess.run([str(word) for word in command], cwd=folder, env=ENVIRONMENT,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return done.returncode, done.stdout
@@ -38,8 +38,8 @@ def plan_of(path):
     return json.loads(Path(path).read_text(encoding="utf-8"))
 
 
-def held_by(pid):
-    """The memory of a process in bytes, its part of what it shares; 0: it has ended."""
+def memory_of(pid):
+    """Returns the proportional set size of a process in bytes, or 0 if it has ended."""
     try:
         rollup = Path(f"/proc/{pid}/smaps_rollup").read_text(encoding="utf-8")
     except OSError:
@@ -48,7 +48,8 @@ def held_by(pid):
 
 
 def processes_of(process):
-    """The ranks that an mpirun, or one below this process, has started on this machine, by number."""
+    """Returns {rank: process id} of the ranks that this mpirun, or one below this process, has started on this
+    machine."""
     pids = subprocess.run(["pgrep", "--parent", str(process.pid if isinstance(process, subprocess.Popen) else process)],
                           capture_output=True, text=True).stdout.split()
     ranks = {}
@@ -62,11 +63,11 @@ def processes_of(process):
     return ranks
 
 
-THREADS_OF_MPI = 3  # that a rank has before any searches: the one that speaks, and two of Open MPI
+THREADS_OF_MPI = 3  # of a rank before its first search thread: the communication thread, and two of Open MPI
 
 
 def searches(pid):
-    """Whether this rank has come so far that threads of it search."""
+    """Returns whether the rank of process `pid` has search threads."""
     try:
         return len(os.listdir(f"/proc/{pid}/task")) > THREADS_OF_MPI
     except FileNotFoundError:

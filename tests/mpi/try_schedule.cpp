@@ -204,8 +204,8 @@ std::vector<std::string> try_schedule(std::uint64_t seed, ScheduleTally& tally) 
     choose_weak_techniques(options.techniques, dice);
   } while (tester.has_killed());
   const auto stop = solution.stats.texts.find("stopped_by");
-  const bool gave_up = stop != solution.stats.texts.end() && stop->second == "memory limit";
-  const bool stopped = !counts.ended || counts.limit_reached || gave_up;
+  const bool out_of_memory = stop != solution.stats.texts.end() && stop->second == "memory limit";
+  const bool stopped = !counts.ended || counts.limit_reached || out_of_memory;
   std::ranges::copy(fuzz::false_claims(instance, truth, options.omega, solution, stopped),
                     std::back_inserter(wrong));
   std::ranges::copy(tester.wrong(), std::back_inserter(wrong));

@@ -113,7 +113,7 @@ TEST(JointOracle, PlansAreValid) {
                             .omega = {},
                             .stats = {}};
     for (const Violation& wrong : check(instance, solution))
-      ADD_FAILURE() << wrong.place << ": " << wrong.message << "\n" << tiny.to_text();
+      ADD_FAILURE() << wrong.json_pointer << ": " << wrong.message << "\n" << tiny.to_text();
   }
 }
 

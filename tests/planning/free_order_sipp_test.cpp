@@ -205,7 +205,7 @@ TEST(FreeOrderSipp, StopsAtTheGivenNumberOfLabels) {
 INSTANTIATE_TEST_SUITE_P(, FreeOrderSippFuzz, ::testing::Bool(),
                          [](const auto& all) { return all.param ? "AllKinds" : "Bars"; });
 
-// So many stops that the cost-to-go is a graph that holds only the sequences of low cost.
+// Enough stops that the cost-to-go is a graph that holds only the sequences of low cost.
 class ManyStops {
  public:
   ManyStops(unsigned seed, bool with_destination) : random_(seed) {

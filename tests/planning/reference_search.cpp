@@ -110,8 +110,8 @@ class Layers {
 }  // namespace
 
 std::optional<Time> reference_cost(const Problem& problem) {
-  const NaiveConflicts nobody;
-  Layers layers(problem, nobody);
+  const NaiveConflicts none;
+  Layers layers(problem, none);
   for (Time t = 0;; ++t) {
     if (layers.conflicts_at_rest(t) != kUnreached) return t;
     if (!layers.step(t + 1)) return std::nullopt;

@@ -16,17 +16,17 @@ SMALL = Path(__file__).resolve().parents[2] / "docs/proof_checker.py"
 
 
 def main(suite):
-    """For tests that are called with the program's path."""
+    """Runs the tests of a file whose first argument is the path of grove-verify."""
     global VERIFY
     VERIFY = Path(sys.argv.pop(1)).resolve()
     suite.main()
 
 
 class Verdict:
-    """code, and what was said; seconds of processor time."""
+    """Exit code and output of a checker, its processor time in seconds and its memory peak in bytes."""
 
     def __init__(self, command):
-        Path("/proc/self/clear_refs").write_text("5")  # a child's peak begins with that of its parent
+        Path("/proc/self/clear_refs").write_text("5")  # the memory peak of a child starts from that of its parent
         with tempfile.TemporaryFile() as out:
             process = subprocess.Popen(command, stdout=out, stderr=subprocess.STDOUT)
             _, status, usage = os.wait4(process.pid, 0)
@@ -34,11 +34,11 @@ class Verdict:
             out.seek(0)
             self.text = out.read().decode()
         self.seconds = usage.ru_utime + usage.ru_stime
-        self.memory = 1024 * usage.ru_maxrss  # bytes, at most
+        self.memory = 1024 * usage.ru_maxrss  # in bytes, an upper bound
 
 
 def verify(instance, certificate, *options):
-    """Of grove-verify; instance: an Instance, or the path of its file; the certificate is text or bytes."""
+    """Runs grove-verify. instance: an Instance, or the path of its file; certificate: text or bytes."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         proof = folder / "proof"
@@ -47,7 +47,7 @@ def verify(instance, certificate, *options):
         return Verdict([VERIFY, path, proof, *options])
 
 
-class Said(NamedTuple):
+class Result(NamedTuple):
     code: int
     text: str
 
@@ -61,26 +61,26 @@ def _small():
 
 
 def small_checker(instance, certificate):
-    """Of docs/proof_checker.py, in this process: starting Python takes longer than a check."""
-    said = io.StringIO()
-    with tempfile.TemporaryDirectory() as name, contextlib.redirect_stdout(said):
+    """Runs docs/proof_checker.py in this process, because starting Python takes longer than a check."""
+    output = io.StringIO()
+    with tempfile.TemporaryDirectory() as name, contextlib.redirect_stdout(output):
         (Path(name) / "proof").write_text(certificate)
         path = instance if isinstance(instance, Path) else instance.write(Path(name))
         try:
             _small().main(path, Path(name) / "proof")
-        except (SystemExit, Exception) as refused:  # a traceback refuses, too
-            return Said(1, f"{refused}\n")
-    return Said(0, said.getvalue())
+        except (SystemExit, Exception) as refused:  # a traceback also counts as a refusal
+            return Result(1, f"{refused}\n")
+    return Result(0, output.getvalue())
 
 
 def small_checker_within(memory, instance, certificate):
-    """The same as a process of its own, which takes so many bytes at most."""
+    """Runs docs/proof_checker.py as a process of its own, with a memory limit of `memory` bytes."""
     code = f"import sys; sys.path.insert(0, {str(SMALL.parent)!r}); import proof_checker as checker; checker.MEMORY = {memory}; checker.run(*sys.argv[1:])"
     with tempfile.TemporaryDirectory() as name:
         (Path(name) / "proof").write_bytes(certificate)
         return Verdict([sys.executable, "-c", code, instance.write(Path(name)), Path(name) / "proof"])
 
 
-def of(following):
-    """What a verdict says of a certificate for worlds where agents may follow each other, or may not."""
+def following_note(following):
+    """Returns the end of a verdict that states whether following is forbidden."""
     return "" if following else ", where following is forbidden"

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Certificates of random tiny instances whose least cost is known: what is true and shown is verified, what is false never is.
+"""Checks certificates of random tiny instances with known optimum: proven claims are verified, false claims never.
 
     generated_test.py GROVE_VERIFY
-    GROVE_FUZZ_FACTOR=20: so many times as many
+    GROVE_FUZZ_FACTOR=20: 20 times as many instances
+
 """
 import os
 import random
@@ -12,7 +13,7 @@ import unittest
 from collections import Counter
 
 import checkers
-from proofs import Liar, Prover, TooLong, text
+from proofs import FaultyProver, Prover, TooLong, text
 from worlds import INF, Agent, Instance, World, least_cost, optimum, random_instance
 
 FACTOR = float(os.environ.get("GROVE_FUZZ_FACTOR", "1"))
@@ -21,7 +22,7 @@ RULES = ("rest", "pass", "stop", "lemma", "later", "joint")
 
 
 def instances(count, kinds=KINDS, first=0):
-    """(rng, kind, instance, following, least cost), each kind in turn."""
+    """Yields (rng, kind, instance, following, least cost), cycling through the kinds."""
     for seed in range(first, first + int(count * FACTOR)):
         rng = random.Random(seed)
         kind = kinds[seed % len(kinds)]
@@ -36,7 +37,7 @@ def raised(certificate, by=1):
 
 
 def mutants(rng, certificate, count):
-    """Certificates in which one thing is different, and the theorem says more."""
+    """Yields certificates with one random change each and a theorem whose bound is 1 higher."""
     lines = raised(certificate).split("\n")[:-1]
     for _ in range(count):
         mutant = list(lines)
@@ -59,19 +60,19 @@ def mutants(rng, certificate, count):
 
 
 def claim(certificate):
-    """What a certificate that was accepted says."""
+    """Returns the bound that a certificate claims."""
     bound = re.findall(r"^theorem (\d+|inf)$", certificate, re.M)[-1]
     return INF if bound == "inf" else int(bound)
 
 
 class Generated(unittest.TestCase):
-    def test_the_least_cost_is_verified_and_no_more(self):
+    def test_optimum_is_verified_and_no_higher_bound(self):
         seen = Counter()
         for rng, kind, instance, following, least in instances(60):
             if least == INF:
                 found = checkers.verify(instance, "\n".join(
                     ["grove-proof 1", f"instance {instance.checksum()}", f"following {'yes' if following else 'no'}", "theorem inf", "joint", "end\n"]))
-                self.assertEqual(found.text, f"verified: there is no plan{checkers.of(following)}\n")
+                self.assertEqual(found.text, f"verified: there is no plan{checkers.following_note(following)}\n")
                 seen["none"] += 1
                 continue
             try:
@@ -80,7 +81,7 @@ class Generated(unittest.TestCase):
                 seen["too long"] += 1
                 continue
             found = checkers.verify(instance, certificate)
-            self.assertEqual(found.text, f"verified: no plan costs less than {least}{checkers.of(following)}\n", f"{kind}\n{certificate}")
+            self.assertEqual(found.text, f"verified: no plan costs less than {least}{checkers.following_note(following)}\n", f"{kind}\n{certificate}")
             self.assertEqual(checkers.verify(instance, raised(certificate)).code, 1, certificate)
             for mutant in mutants(rng, certificate, 4):
                 found = checkers.verify(instance, mutant)
@@ -94,8 +95,8 @@ class Generated(unittest.TestCase):
         self.assertTrue(seen[1] > 80 * FACTOR and seen["none"] and seen["too long"] < 10 * FACTOR, seen)
 
 
-    def test_many_stops(self):
-        """So many that not all sets of them are looked at."""
+    def test_lemma_bounds_are_exact_with_many_stops(self):
+        """Checks agents with 12 stops, for which not all sets of stops are examined."""
         for seed in range(int(2 * FACTOR)):
             rng = random.Random(3 * 10**6 + seed)
             world = World(rng.choice([["............."], ["......", ".@@@@.", "......"], [".......", "@.@.@.@", "@.@.@.@"]]))
@@ -109,33 +110,33 @@ class Generated(unittest.TestCase):
             free = least_cost(instance, 0, [])[0]
             late = [(0, "norest", place, free + rng.randint(8, 12)) for place in cells]
             order = rng.sample(range(12), 12)
-            for demands in (bars[:3], late, [*bars, *((0, "stop", number, task) for number, task in enumerate(order))]):
-                cost = least_cost(instance, 0, [demand[1:] for demand in demands])[0]
-                lemma = "\n".join([f"lemma {cost} 0".replace(f"{INF}", "inf"), *("demand " + text(demand) for demand in demands), "leaf"])
+            for constraints in (bars[:3], late, [*bars, *((0, "stop", number, task) for number, task in enumerate(order))]):
+                cost = least_cost(instance, 0, [constraint[1:] for constraint in constraints])[0]
+                lemma = "\n".join([f"lemma {cost} 0".replace(f"{INF}", "inf"), *("demand " + text(constraint) for constraint in constraints), "leaf"])
                 certificate = f"grove-proof 1\ninstance {instance.checksum()}\nfollowing yes\n{lemma}\ntheorem 0\nleaf\nend\n"
                 self.assertEqual(checkers.verify(instance, certificate).text, "verified: no plan costs less than 0\n", certificate)
                 if cost < INF:
                     certificate = certificate.replace(f"lemma {cost}", f"lemma {cost + 1}")
                     self.assertRegex(checkers.verify(instance, certificate).text, f"costs {cost} and 0 by lemmas", certificate)
 
-    def test_lies_are_seen(self):
-        told = Counter()
+    def test_faulty_proofs_are_refused(self):
+        counts = Counter()
         for number, (rng, kind, instance, following, least) in enumerate(instances(24, first=10**6)):
             known = {}
-            for lie in Liar.LIES if least < INF else ():
-                liar = Liar(instance, rng, lie, following, known)
+            for fault in FaultyProver.FAULTS if least < INF else ():
+                prover = FaultyProver(instance, rng, fault, following, known)
                 try:
-                    certificate = liar.certificate(least + 1)
+                    certificate = prover.certificate(least + 1)
                 except TooLong:
                     continue
-                self.assertTrue(liar.lied, certificate)
+                self.assertTrue(prover.is_faulty, certificate)
                 found = checkers.verify(instance, certificate)
-                self.assertEqual(found.code, 1, f"{number}: {lie}, {kind}, least cost {least}: {found.text}\n{certificate}")
-                told[lie] += 1
-        self.assertGreaterEqual(len(told), 6, told)
-        self.assertGreater(sum(told.values()), 20 * FACTOR, told)
+                self.assertEqual(found.code, 1, f"{number}: {fault}, {kind}, least cost {least}: {found.text}\n{certificate}")
+                counts[fault] += 1
+        self.assertGreaterEqual(len(counts), 6, counts)
+        self.assertGreater(sum(counts.values()), 20 * FACTOR, counts)
 
-    def test_the_small_checker_agrees(self):
+    def test_small_checker_gives_the_same_verdicts(self):
         verdicts = Counter()
         for rng, _, instance, following, least in instances(75, ["plain"], first=2 * 10**6):
             if least == INF or any(agent.goal is None for agent in instance.agents):
@@ -156,7 +157,7 @@ class Generated(unittest.TestCase):
 
     @staticmethod
     def simple(certificate):
-        """No split that `following no` alone permits."""
+        """Returns whether each split is valid without `following no`."""
         return all(len(set(re.findall(r"bar \d+ (\d+)", line))) == 1 for line in certificate.split("\n") if " bar " in line)
 
 

@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Which bugs of the search do certificates betray, without anybody knowing the optimum?
+"""Mutation testing: which bugs of the search do certificates reveal to a user who does not know the optimum?
 
     mutants.py FOLDER [--count N] [--only K,K] [--jobs J]
 
-Copies the sources to FOLDER, inserts the bugs of mutants.txt there, builds that once, and runs grove-fuzz-certificates for
-each of them, chosen by the environment variable GROVE_MUTANT as it starts: for each part of the search that the bug is tried
-on, N tiny instances, searched, with a certificate each that grove-verify checks. Tables, one for each way in which bugs
-come out, say of each bug how often what was claimed was false (the oracle knows), how often the certificate was refused
-or fell short of the claim, and how often a false claim was verified, which must be never: else it ends with 1.
+Copies the sources to FOLDER, inserts the bugs of mutants.txt, and builds once. The environment variable GROVE_MUTANT
+selects the bug of a process. For each bug, and each part of the search that the bug is tried on, grove-fuzz-certificates
+solves N tiny instances and checks their certificates with grove-verify. Prints one table for each kind of result. A row
+counts for one bug the claims that were false (the oracle knows the optimum), the certificates that were refused or proved
+less than was claimed, and the false claims that were verified. Exit code 1: a false claim was verified.
+
 """
 import argparse
 import collections
@@ -25,7 +26,7 @@ ROOT = Path(__file__).resolve().parents[2]
 LIST = Path(__file__).with_suffix(".txt")
 HELPER = """#pragma once
 #include <cstdlib>
-// Is the bug of this number the one that this process has?
+// Returns whether this process has the bug of this number.
 inline bool grove_mutant(int number) {
   static const char* const chosen = std::getenv("GROVE_MUTANT");
   static const int mutant = chosen ? std::atoi(chosen) : -1;
@@ -35,7 +36,7 @@ inline bool grove_mutant(int number) {
 
 
 def read_list():
-    """[(number, file, before, old, new, parts)]"""
+    """Returns [(number, file, before, old, new, parts)]."""
     mutants, file, parts = [], None, ()
     for line in LIST.read_text(encoding="utf-8").splitlines():
         if not line or line.startswith("#"):
@@ -51,7 +52,7 @@ def read_list():
 
 
 def pattern(text):
-    """Matches it with any blanks between its words."""
+    """Returns a regular expression that matches `text` with any white space between its words."""
     return r"\s*".join(re.escape(word) for word in re.findall(r"\w+|[^\w\s]", text))
 
 
@@ -68,7 +69,7 @@ def mutate(text, number, before, old, new):
 
 
 def write_if_new(file, text):
-    """What is as it was is not built again."""
+    """Writes a file unless it has this content, so that unchanged files are not built again."""
     file.parent.mkdir(parents=True, exist_ok=True)
     if not file.exists() or file.read_text(encoding="utf-8") != text:
         file.write_text(text, encoding="utf-8")
@@ -86,7 +87,7 @@ def copy_sources(folder, mutants):
     write_if_new(folder / "include/grove_mutant.h", HELPER)
     for file, text in texts.items():
         include = '#include "grove_mutant.h"\n'
-        # Behind what a header has to begin with.
+        # In a header after #pragma once.
         write_if_new(folder / file, text.replace("#pragma once\n", "#pragma once\n" + include, 1)
                      if file.endswith(".h") else include + text)
 
@@ -108,7 +109,7 @@ def trial(folder, number, parts, count, seconds):
 
 
 def summed(of_parts, usual):
-    """Over all parts, without what is refused or ends in an error although there is no bug."""
+    """Sums the counts of all parts, without the refusals and errors that also occur without a bug."""
     sums = collections.Counter()
     for part, counts in of_parts.items():
         sums.update(counts)
@@ -131,15 +132,15 @@ def trial_of_part(folder, place, number, part, count, seconds):
         return {"died": 1}
 
 
-BELIEVED = "A FALSE CLAIM WAS VERIFIED"
-GROUPS = (BELIEVED, "Caught where what was claimed is false", "Caught before anything false was claimed",
-          "Noticed by the search itself: it ends with an error, or not at all",
-          "Nothing false was claimed, nothing caught")
+FALSE_CLAIM_VERIFIED = "A FALSE CLAIM WAS VERIFIED"
+GROUPS = (FALSE_CLAIM_VERIFIED, "Detected with a false claim", "Detected without a false claim",
+          "Detected by the search: it ends with an error, or not at all",
+          "Not detected: no false claim, no refusal")
 
 
 def group_of(counts):
     if counts["believed"] or counts["false"] > counts["refused_false"]:
-        return BELIEVED
+        return FALSE_CLAIM_VERIFIED
     if counts["false"]:
         return GROUPS[1]
     if counts["refused"]:
@@ -159,7 +160,7 @@ HEAD = ("| | where | bug | tried on | claims | false | refused or short | false 
 
 
 def show(mutants, counts):
-    """Tables by group."""
+    """Prints the tables, one per group."""
     for group in GROUPS:
         rows = [row(m, c) for m, c in zip(mutants, counts) if group_of(c) == group]
         if rows:
@@ -189,7 +190,7 @@ def main():
             counts.append(summed(run.result(), usual))
             print(row(mutant, counts[-1]), group_of(counts[-1]), file=sys.stderr, flush=True)
     show(chosen, counts)
-    failed = any(group_of(c) == BELIEVED for c in counts)
+    failed = any(group_of(c) == FALSE_CLAIM_VERIFIED for c in counts)
     sys.exit(1 if failed else 0)
 
 

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Each bug of mutants.txt has its one place in the sources, however these have changed."""
+"""Checks that each bug of mutants.txt matches exactly one place in the sources."""
 import unittest
 
 import mutants
 
 
 class Mutants(unittest.TestCase):
-    def test_each_is_inserted_in_one_place(self):
+    def test_each_bug_is_inserted_in_one_place(self):
         inserted = 0
         for number, file, before, old, new, _ in mutants.read_list():
             with self.subTest(number=number):

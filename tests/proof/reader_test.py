@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Whatever grove-verify is handed: it says so in a line and ends with 1 or 2, at once.
+"""Tests grove-verify with arbitrary input: it prints one line and ends with exit code 1 or 2 without delay.
 
     reader_test.py GROVE_VERIFY
+
 """
 import ctypes
 import ctypes.util
@@ -30,23 +31,24 @@ def compressed(data):
 
 
 def many(line):
-    """Eight million of them, in some ten thousand bytes; this process never holds them (a child's peak begins with its parent's)."""
+    """Returns eight million copies of a line, compressed to some ten thousand bytes. This process never holds them,
+    because the memory peak of a child starts from that of its parent."""
     frames = 80 * compressed(100_000 * line)
     assert len(frames) < 60_000
     return frames
 
 
 class Reader(unittest.TestCase):
-    def ends(self, data, codes=(1, 2), says="^(refused|unreadable): ", instance=CROSS, options=(), seconds=1):
+    def ends(self, data, codes=(1, 2), message="^(refused|unreadable): ", instance=CROSS, options=(), seconds=1):
         found = checkers.verify(instance, data, *options)
         self.assertIn(found.code, codes, (data[:200], found.text))
-        self.assertRegex(found.text, says)
+        self.assertRegex(found.text, message)
         self.assertEqual(found.text.count("\n"), 1, found.text)
-        self.assertNotIn(".rs", found.text)  # nothing that overflowed
+        self.assertNotIn(".rs", found.text)  # no panic, for example by an overflow
         self.assertLess(found.seconds, seconds, data[:200])
         return found
 
-    def test_compressed(self):
+    def test_compressed_certificates_are_read(self):
         whole = compressed(GOOD.encode())
         for data in (GOOD, whole, compressed(GOOD[:100].encode()) + compressed(GOOD[100:].encode())):
             self.ends(data, (0,), "^verified: no plan costs less than 5\n")
@@ -60,30 +62,31 @@ class Reader(unittest.TestCase):
             found = checkers.verify(CROSS, bytes(broken))
             self.assertTrue(found.code in (1, 2) or (found.code, found.text) == (0, "verified: no plan costs less than 5\n"), found.text)
 
-    def test_little_that_becomes_much_keeps_to_the_memory_limit(self):
-        """Splits as deep as they are many: some ten thousand bytes, hundreds of megabytes of lines."""
+    def test_decompression_bomb_keeps_the_memory_limit(self):
+        """Checks some ten thousand bytes that decompress to hundreds of megabytes: splits, each below the one
+        before."""
         bomb = compressed(GOOD.split("lemma")[0].encode() + b"theorem 5\n") + many(b"split 0 bar 4 1 1 | 1 bar 4 1 1\n")
         found = self.ends(bomb, (1,), "^refused: line [0-9]+: the memory limit is reached\n", options=("--memory-limit", "0.05"), seconds=60)
-        self.assertLess(found.memory, 0.05e9 + 150e6)   # and the window of zstd, and the program
+        self.assertLess(found.memory, 0.05e9 + 150e6)  # the limit, and the window of zstd and the program
 
     @unittest.skipUnless(shutil.which("zstd"), "no zstd")
-    def test_the_small_checker_keeps_to_its_memory_limit(self):
+    def test_small_checker_keeps_its_memory_limit(self):
         bomb = compressed(certificate(HALL, "theorem 99").removesuffix("end\n").encode()) + many(b"split 0 bar 7 2 2 | 1 bar 7 2 2\n")
         found = checkers.small_checker_within(100_000_000, HALL, bomb)
         self.assertEqual(found.code, 1, found.text)
         self.assertRegex(found.text, "^refused: needs more than 0.1 GB of memory\n$")
         self.assertLess(found.memory, 0.2e9)
 
-    def test_cut_off(self):
+    def test_truncated_certificates_are_refused(self):
         for length in range(len(GOOD)):
             self.ends(GOOD[:length])
         self.ends("", (2,), "^unreadable: line 1: expected more\n")
 
-    def test_more_than_there_should_be(self):
+    def test_text_after_the_end_is_refused(self):
         for more in ("\n", "end\n", "leaf\n", " "):
             self.ends(GOOD + more, (2,))
 
-    def test_what_no_line_may_be(self):
+    def test_invalid_lines_are_refused(self):
         lines = GOOD.split("\n")[:-1]
         for at in range(len(lines)):
             for other in ("", " ", "leaf ", "leaf  0", "leaf x", "leaf -1", "leaf +0", "joint 0", "prices 1", "lemma", "lemma 5", "split", "split |",
@@ -92,14 +95,14 @@ class Reader(unittest.TestCase):
                           "theorem inf ", "following", "instance", "instance 0", "grove-proof 2", "end ", "\t", "\0", "é"):
                 self.ends("\n".join([*lines[:at], other, *lines[at + 1:]]) + "\n")
 
-    def test_random_bytes(self):
+    def test_random_bytes_are_refused(self):
         rng = random.Random(2)
         for count in (1, 10, 1000, 100000):
             self.ends(rng.randbytes(count))
             self.ends(b"\x28\xb5\x2f\xfd" + rng.randbytes(count), (2,))
             self.ends(GOOD.encode()[:60] + rng.randbytes(count))
 
-    def test_random_changes(self):
+    def test_random_changes_never_verify_another_theorem(self):
         rng = random.Random(3)
         words = GOOD.split(" ")
         for _ in range(300):
@@ -109,7 +112,7 @@ class Reader(unittest.TestCase):
             found = checkers.verify(CROSS, " ".join(changed))
             self.assertTrue(found.code in (1, 2) or found.text == "verified: no plan costs less than 5\n", changed)
 
-    def test_huge_numbers(self):
+    def test_huge_numbers_are_refused(self):
         for number in (2**30 - 1, 2**30, 2**31, 2**32 - 1, 2**63, 2**64 - 1, 2**64, 10**100):
             for lines in (["theorem {}", "leaf"], ["theorem {}", "joint"], ["lemma {} 0", "leaf"], ["lemma 0 {}", "leaf"], ["theorem 5", "leaf {}"],
                           ["theorem 5", "split 0 bar 4 {0} {0} | 1 bar 4 {0} {0}", "leaf", "leaf"], ["theorem 5", "split 0 bar {0} 1 1 | 1 bar {0} 1 1"],
@@ -121,27 +124,27 @@ class Reader(unittest.TestCase):
                 rows = [row.format(number) for row in rows]
                 self.ends(certificate(CROSS, "theorem 6", "prices", *rows, "end"), (1,), "^refused: ", options=["--time-limit", "1"], seconds=2)
 
-    def test_a_million_splits(self):
+    def test_million_splits_without_leaves_are_refused(self):
         for split in ("0 bar 4 1 1 | 1 bar 4 1 1", "0 norest 5 2 | 0 rest 5 2", "1 bar 4 1 1 | 0 bar 4 1 1"):
             text = certificate(CROSS, "theorem 99").removesuffix("end\n") + f"split {split}\n" * 10**6
             self.ends(text, (2,), "line 1000005: expected more", seconds=5)
             self.ends(text + "leaf\n", (1, 2), seconds=5)
         self.ends(compressed(text.encode()), (2,), "line 1000005: expected more", seconds=5)
 
-    def test_long_lines_and_large_files(self):
+    def test_long_lines_and_large_files_are_refused(self):
         self.ends("leaf " * 10**6 + "\n", (2,))
         self.ends(certificate(CROSS, "lemma 5 0 1", "leaf " + "0 " * 10**6, "theorem 5", "leaf"))
         self.ends(compressed(b"x" * 10**8), (2,))
         self.ends(compressed(b"\n" * 10**8), (2,))
         self.ends(certificate(HALL, "lemma 0 0", *["demand 0 pass 9 10 1 2"] * 10**5, "leaf"), instance=HALL)
 
-    def test_limits(self):
-        crowd = Instance(World(["." * 8] * 8), [Agent((n,), 63 - n) for n in range(10)])
-        text = certificate(crowd, "theorem inf", "joint")
-        self.ends(text, (1,), "^refused: line 5: the time limit is reached\n", crowd, ["--time-limit", "0.3"])
-        self.ends(text, (1,), "^refused: line 5: the memory limit is reached\n", crowd, ["--memory-limit", "0.02"])
+    def test_limits_are_reported(self):
+        dense = Instance(World(["." * 8] * 8), [Agent((n,), 63 - n) for n in range(10)])
+        text = certificate(dense, "theorem inf", "joint")
+        self.ends(text, (1,), "^refused: line 5: the time limit is reached\n", dense, ["--time-limit", "0.3"])
+        self.ends(text, (1,), "^refused: line 5: the memory limit is reached\n", dense, ["--memory-limit", "0.02"])
 
-    def test_usage(self):
+    def test_usage_errors_are_reported(self):
         for arguments in ([], ["one"], ["one", "two", "three"], ["one", "two", "--what"], ["one", "two", "--time-limit"],
                           ["one", "two", "--time-limit", "0"], ["one", "two", "--memory-limit", "nan"]):
             found = checkers.Verdict([checkers.VERIFY, *arguments])
@@ -150,7 +153,7 @@ class Reader(unittest.TestCase):
         found = checkers.Verdict([checkers.VERIFY, "no/such", "no/such"])
         self.assertEqual((found.code, found.text), (2, "unreadable: no/such: No such file or directory (os error 2)\n"))
 
-    def test_scenarios(self):
+    def test_scenarios_are_read(self):
         good = certificate(CROSS, "theorem 5", "joint")
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
@@ -173,16 +176,16 @@ class Reader(unittest.TestCase):
             (folder / "other.map").write_text((folder / "tiny.map").read_text())
             self.ends(good, (2,), "line 2: expected the name and size of the map\n", path, ["--agents", "2", "--map", str(folder / "other.map")])
             text = path.read_text()
-            for old, new, says in (("version 1", "version 2", "line 1: expected version 1"), ("\t3\t3\t", "\t3\t4\t", "expected the name and size"),
+            for old, new, message in (("version 1", "version 2", "line 1: expected version 1"), ("\t3\t3\t", "\t3\t4\t", "expected the name and size"),
                                    ("tiny.map\t3", "tiny.map\t-3", "line 2: expected bucket"), ("\t2.5\n", "\n", "line 2: expected bucket"),
                                    (rows[1], rows[1].replace("tiny", "other"), "line 3: expected the map of the rows before"),
                                    (rows[0], rows[0].replace("\t2.5", "\tx"), "line 2: expected bucket"), (rows[1], rows[1].replace("\t3\t3\t1\t", "\t3\t3\t9\t"), "agents 1: expected a passable cell")):
                 path.write_text(text.replace("\n" + old, "\n" + new) if old in rows else text.replace(old, new))
-                self.ends(good, (2,), says, path, ["--agents", "2"])
+                self.ends(good, (2,), message, path, ["--agents", "2"])
             path.write_text("\n".join(["version 1", rows[0]]))
             self.ends(good, (2,), "its end: expected a row for each agent\n", path, ["--agents", "2"])
 
-    def test_instances_that_are_none(self):
+    def test_broken_instances_are_reported(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             path = CROSS.write(folder)
@@ -204,14 +207,14 @@ class Reader(unittest.TestCase):
                 (folder / "tiny.map").write_text(text)
                 self.ends(GOOD, (2,), instance=path)
 
-    def test_instances_that_grove_refuses(self):
+    def test_instances_that_grove_refuses_are_unreadable(self):
         turning = World(["...", "...", "..."])
         on_map = Instance(turning, [Agent((0,), 8), Agent((2, "N"), 6, turn=2, goal_heading="S"), Agent((4,))],
                           [(4, 3, [2]), (1, 0, [0, 1])])
         on_roads = Instance(World(vertices=3, roads=[(0, 1, 3, False), (1, 2, 1, True), (1, 2, 2, False)]),
                             [Agent((0,), 1), Agent((2,))], [(1, 0, [0])])
 
-        def refused(instance, change, says, file="tiny.cts.json"):
+        def refused(instance, change, message, file="tiny.cts.json"):
             with tempfile.TemporaryDirectory() as name:
                 folder = Path(name)
                 path = instance.write(folder)
@@ -222,7 +225,7 @@ class Reader(unittest.TestCase):
                 found = checkers.verify(path, "x")
                 self.assertEqual(found.code, 2, found.text)
                 self.assertIn(str(folder / file), found.text)
-                self.assertRegex(found.text, says)
+                self.assertRegex(found.text, message)
 
         def put(*path, value):
             def change(json_of):
@@ -268,7 +271,7 @@ class Reader(unittest.TestCase):
             with self.subTest(path=path, value=value):
                 refused(on_roads, put(*path, value=value), "expected|unknown key", "tiny.roadmap.json")
 
-    def test_remarks_in_instances(self):
+    def test_annotations_in_instances_are_ignored(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             path = CROSS.write(folder)
@@ -278,7 +281,7 @@ class Reader(unittest.TestCase):
             path.write_text(json.dumps(found))
             self.ends(GOOD, (0,), "^verified: no plan costs less than 5\n", path)
 
-    def test_instances_that_the_small_checker_refuses(self):
+    def test_small_checker_refuses_unsupported_instances(self):
         plain = Instance(World(["...", "..."]), [Agent((0,), 2), Agent((5,), 3)])
         proof = certificate(plain, "theorem 4", "leaf")
         with tempfile.TemporaryDirectory() as name:
@@ -297,7 +300,7 @@ class Reader(unittest.TestCase):
                 path.write_text(text.replace('"start": [0, 0]', '"start": ' + cell))
                 self.assertRegex(checkers.small_checker(path, proof).text, "^refused: ")
 
-    def test_numbers_of_json(self):
+    def test_numbers_follow_the_json_grammar(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             path = CROSS.write(folder)
@@ -309,20 +312,20 @@ class Reader(unittest.TestCase):
                 path.write_text(text.replace("{", '{"_": ' + number + ", ", 1))
                 self.ends(GOOD, (0,), "^verified: ", path)
 
-    def test_a_byte_order_mark_changes_nothing(self):
+    def test_byte_order_mark_changes_nothing(self):
         with tempfile.TemporaryDirectory() as name:
             path = CROSS.write(Path(name))
             for file in Path(name).iterdir():
                 file.write_bytes(b"\xef\xbb\xbf" + file.read_bytes())
             self.ends(GOOD, (0,), "^verified: ", path)
 
-    def test_a_key_that_is_there_twice_is_named(self):
+    def test_duplicate_key_is_named(self):
         with tempfile.TemporaryDirectory() as name:
             path = CROSS.write(Path(name))
             path.write_text(path.read_text().replace("{", '{"map": "x", ', 1))
             self.ends(GOOD, (2,), "line 1: key 'map' is there twice", path)
 
-    def test_maps_that_are_none(self):
+    def test_broken_maps_are_refused(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             path = CROSS.write(folder)

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Each rule of docs/proof.md by hand: what it proves is verified; each condition of it, broken once, is refused with its line.
+"""Tests each rule of docs/proof.md by hand-made certificates: what it proves is verified, and each violated condition is
+refused with its line.
 
     rules_test.py GROVE_VERIFY
+
 """
 import unittest
 
@@ -14,19 +16,19 @@ def grid(*rows):
     return World(list(rows))
 
 
-# Two cross in the middle of a room, at time 1; one must wait.
+# Two agents cross in the middle of a room at time 1; one must wait.
 CROSS = Instance(grid("...", "...", "..."), [Agent((3,), 5), Agent((1,), 7)])
 CROSSED = ["split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf", "leaf"]
-# Three straight ways of four steps over one cell, each in the way of each other.
+# Three straight paths of four steps through one cell; each pair is in conflict.
 STAR = Instance(grid(*["....."] * 5), [Agent((10,), 14), Agent((2,), 22), Agent((14,), 10)])
-# One follows the other.
+# One agent follows the other.
 ROW = Instance(grid("...."), [Agent((1,), 3), Agent((0,), 2)])
-# Two change places; round about it takes three steps.
+# Two agents exchange places; a detour takes three steps.
 SWAP = Instance(grid("..", ".."), [Agent((0,), 1), Agent((1,), 0)])
 STUCK = Instance(grid(".."), [Agent((0,), 1), Agent((1,), 0)])
-# Agent 1 must pass where agent 0 ends.
+# Agent 1 must pass the goal of agent 0.
 PASSER = Instance(grid("....."), [Agent((1,), 2), Agent((0,), 4)])
-# Two rooms, and a corridor of two cells, 8 and 9, between 7 and 10.
+# Two rooms and a corridor of two cells, 8 and 9, between 7 and 10.
 HALL = Instance(grid("..@@..", "......"), [Agent((6,), 11), Agent((11,), 6)])
 ERRANDS = Instance(grid("....."), [Agent((2,), 2), Agent((3,), 3)], [(0, 0, [0]), (4, 0, [0]), (4, 0, [0]), (1, 2, [0])])
 
@@ -38,13 +40,13 @@ def certificate(instance, *lines, following="yes"):
 class Rules(unittest.TestCase):
     def verified(self, instance, *lines, following="yes"):
         bound = next(line.split(" ")[1] for line in lines if line.startswith("theorem"))
-        said = "there is no plan" if bound == "inf" else f"no plan costs less than {bound}"
-        said += checkers.of(following == "yes")
+        claim = "there is no plan" if bound == "inf" else f"no plan costs less than {bound}"
+        claim += checkers.following_note(following == "yes")
         found = checkers.verify(instance, certificate(instance, *lines, following=following))
-        self.assertEqual((found.code, found.text), (0, f"verified: {said}\n"), lines)
+        self.assertEqual((found.code, found.text), (0, f"verified: {claim}\n"), lines)
 
     def refused(self, line, reason, instance, *lines, following="yes"):
-        """`line` is counted from the first of `lines`."""
+        """Asserts that the certificate is refused at `line`, counted from the first of `lines`."""
         found = checkers.verify(instance, certificate(instance, *lines, following=following))
         self.assertEqual(found.code, 1, (lines, found.text))
         self.assertRegex(found.text, f"^refused: line {line + 3}: .*{reason}", lines)
@@ -53,12 +55,12 @@ class Rules(unittest.TestCase):
         for one in splits:
             self.refused(2, "may satisfy neither", instance, "theorem 1", f"split {one}", "leaf", "leaf", following=following)
 
-    def test_leaf(self):
+    def test_leaf_proves_the_sum_of_costs(self):
         self.verified(CROSS, "theorem 4", "leaf")
         self.refused(2, "costs 4 and 0 by lemmas; expected 5", CROSS, "theorem 5", "leaf")
         self.refused(2, "expected inf", CROSS, "theorem inf", "leaf")
 
-    def test_bars(self):
+    def test_bar_split_needs_one_place_and_time(self):
         self.verified(CROSS, "theorem 5", *CROSSED)
         self.refused(3, "costs 5", CROSS, "theorem 6", *CROSSED)
         self.refused_splits(CROSS, "0 bar 4 1 1 | 1 bar 5 1 1", "0 bar 4 1 1 | 1 bar 4 2 2", "0 bar 4 1 2 | 1 bar 4 1 2",
@@ -67,12 +69,12 @@ class Rules(unittest.TestCase):
         self.refused(2, "agent 2 is not among", CROSS, "theorem 1", "split 0 bar 4 1 1 | 2 bar 4 1 1", "leaf", "leaf")
         self.refused(2, "no place 9", CROSS, "theorem 1", "split 0 bar 9 1 1 | 1 bar 9 1 1", "leaf", "leaf")
 
-    def test_both_sides_are_asked_for_their_own_demand(self):
-        # Agent 0 barred at its start: no path. Agent 1 is not.
+    def test_each_side_of_a_split_has_its_own_constraint(self):
+        # Agent 0 is barred at its start and has no path. Agent 1 is not barred.
         self.refused(4, "costs 4 ", CROSS, "theorem 9", "split 0 bar 3 0 0 | 1 bar 3 0 0", "leaf", "leaf")
         self.refused(3, "costs 4 ", CROSS, "theorem 9", "split 1 bar 3 0 0 | 0 bar 3 0 0", "leaf", "leaf")
 
-    def test_following(self):
+    def test_following_split_needs_forbidden_following(self):
         split = "split 0 bar 1 0 0 | 1 bar 1 1 1"
         self.verified(ROW, "theorem 5", split, "leaf", "leaf", following="no")
         self.verified(ROW, "theorem 5", "split 1 bar 1 1 1 | 0 bar 1 0 0", "leaf", "leaf", following="no")
@@ -82,7 +84,7 @@ class Rules(unittest.TestCase):
         self.verified(ROW, "theorem 5", "joint", following="no")
         self.refused(2, "joint search finds a plan", ROW, "theorem 6", "joint", following="no")
 
-    def test_moves(self):
+    def test_move_split_needs_opposite_moves(self):
         self.verified(SWAP, "theorem 3", "split 0 move 0 1 1 1 | 1 move 1 0 1 1", "leaf", "leaf")
         self.refused(3, "costs 3", SWAP, "theorem 4", "split 0 move 0 1 1 1 | 1 move 1 0 1 1", "leaf", "leaf")
         self.refused_splits(SWAP, "0 move 0 1 1 1 | 1 move 0 1 1 1", "0 move 0 1 1 1 | 1 move 1 0 2 2",
@@ -90,22 +92,22 @@ class Rules(unittest.TestCase):
                             "0 move 0 1 1 inf | 1 move 1 0 1 inf")
         self.refused(2, "expected two different places", SWAP, "theorem 1", "split 0 move 0 0 1 1 | 1 move 0 0 1 1", "leaf", "leaf")
 
-    def test_rests(self):
+    def test_rest_split_needs_one_agent_place_and_time(self):
         self.verified(PASSER, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf", "leaf")
         self.verified(PASSER, "theorem 7", "split 0 rest 2 2 | 0 norest 2 2", "leaf", "leaf")
         self.refused(3, "costs 7", PASSER, "theorem 8", "split 0 norest 2 2 | 0 rest 2 2", "leaf", "leaf")
         self.refused_splits(PASSER, "0 norest 2 2 | 1 rest 2 2", "0 norest 2 2 | 0 rest 2 3", "0 norest 2 2 | 0 rest 3 2",
                             "0 norest 2 2 | 0 norest 2 2", "0 rest 2 2 | 0 rest 2 2")
 
-    def test_who_rests_bars_others(self):
+    def test_rest_bars_other_agents(self):
         lemma = ["lemma inf 1", "demand 1 bar 2 2 inf", "leaf"]
         self.verified(PASSER, *lemma, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf", "leaf 0")
         self.refused(6, "constraint 0 of lemma 0 is not in force", PASSER, *lemma, "theorem 7", "split 0 norest 2 2 | 0 rest 2 2", "leaf 0")
-        # Not in the demands of a lemma that say so, and not later than that side.
+        # A rest among the constraints of a lemma implies no bars. Neither does the norest side.
         self.refused(3, "costs 5", PASSER, "lemma 7 0 1", "demand 0 rest 2 2", "leaf")
         self.refused(4, "costs 7", PASSER, "theorem 8", "split 0 rest 2 2 | 0 norest 2 2", "leaf", "leaf")
 
-    def test_passes(self):
+    def test_pass_split_needs_a_chain_and_matching_times(self):
         good = "0 pass 9 10 4 7 | 1 pass 8 7 4 7"
         self.verified(HALL, "theorem 14", f"split {good}", "leaf", "leaf")
         self.refused(3, "costs 14", HALL, "theorem 15", f"split {good}", "leaf", "leaf")
@@ -116,15 +118,15 @@ class Rules(unittest.TestCase):
         for wrong in ("8 10", "9 8", "7 8", "9 3", "9 9"):
             self.refused(2, "the last place of a chain", HALL, "theorem 1", f"split 0 pass {wrong} 4 7 | 1 pass 8 7 4 7", "leaf", "leaf")
 
-    def test_who_turns_back_does_not_traverse(self):
-        # Barred from traversing either way it may still go in and out: to task 0 on 8.
+    def test_agent_that_turns_back_does_not_traverse(self):
+        # An agent barred from traversing in both directions may still enter and leave, for task 0 on 8.
         visitor = Instance(HALL.world, [Agent((7,), 7)], [(8, 0, [0])])
-        demands = ["demand 0 pass 8 7 0 inf", "demand 0 pass 9 10 0 inf"]
-        self.refused(4, "costs 2 ", visitor, "lemma 3 0", *demands, "leaf")
-        self.verified(visitor, "lemma 2 0", *demands, "leaf", "theorem 2", "leaf")
+        constraints = ["demand 0 pass 8 7 0 inf", "demand 0 pass 9 10 0 inf"]
+        self.refused(4, "costs 2 ", visitor, "lemma 3 0", *constraints, "leaf")
+        self.verified(visitor, "lemma 2 0", *constraints, "leaf", "theorem 2", "leaf")
 
-    def test_stops(self):
-        # 1 is worked on for two steps, on the way to 0; 4 is one stop, though two tasks.
+    def test_stop_split_needs_an_existing_stop(self):
+        # Cell 1, on the way to 0, has a task of two steps; cell 4 is one stop with two tasks.
         self.verified(ERRANDS, "theorem 10", "leaf")
         self.verified(ERRANDS, "theorem 10", "split 0 stop 0 0 | 0 nostop 0 0", "leaf", "leaf")
         self.verified(ERRANDS, "theorem 10", "split 0 nostop 2 1 | 0 stop 2 1", "leaf", "leaf")
@@ -136,7 +138,7 @@ class Rules(unittest.TestCase):
         for wrong in ("0 stop 3 0 | 0 nostop 3 0", "0 stop 0 2 | 0 nostop 0 2", "0 stop 0 4 | 0 nostop 0 4", "1 stop 0 0 | 1 nostop 0 0"):
             self.refused(2, "no such stop", ERRANDS, "theorem 1", f"split {wrong}", "leaf", "leaf")
 
-    def test_lemmas(self):
+    def test_leaf_needs_earlier_lemmas_of_its_agents(self):
         lemma = ["lemma 5 0 1", *CROSSED]
         self.verified(CROSS, *lemma, "theorem 5", "leaf 0")
         self.verified(CROSS, *lemma, "lemma 5 0 1", "leaf 0", "theorem 5", "leaf 1 0")
@@ -150,7 +152,7 @@ class Rules(unittest.TestCase):
         self.refused(2, "agent 1 is not among", CROSS, "lemma 2 0", "demand 1 bar 4 1 1", "leaf")
         self.refused(2, "agent 1 is not among", CROSS, "lemma 2 0", "split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf", "leaf")
 
-    def test_demands_of_lemmas_are_literal(self):
+    def test_constraints_of_lemmas_match_literally(self):
         lemma = ["lemma 5 0 1", "demand 0 bar 4 1 1", "leaf"]
         self.verified(CROSS, *lemma, "theorem 5", "split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf 0", "leaf")
         self.refused(6, "not in force", CROSS, *lemma, "theorem 5", "split 1 bar 4 1 1 | 0 bar 4 1 1", "leaf 0")
@@ -158,19 +160,19 @@ class Rules(unittest.TestCase):
         for other in ("0 bar 4 0 1", "0 bar 4 1 2", "0 bar 4 1 inf", "1 bar 4 1 1", "0 bar 1 1 1"):
             self.refused(6, "not in force", CROSS, "lemma 4 0 1", f"demand {other}", "leaf", "theorem 4",
                          "split 0 bar 4 1 1 | 1 bar 4 1 1", "leaf 0")
-        # What a lemma demands is gone when it is proven.
+        # The constraints of a lemma end with its proof.
         self.refused(5, "costs 4", CROSS, "lemma 5 0 1", "demand 0 bar 4 1 1", "leaf", "theorem 5", "leaf")
 
-    def test_covering(self):
+    def test_lemmas_are_combined_by_an_integer_cover(self):
         lemmas = [line for pair in ("0 1", "0 2", "1 2") for line in (f"lemma 9 {pair}", "joint")]
-        self.verified(STAR, *lemmas, "theorem 14", "leaf 0 1 2")  # by halves it would be 13.5
+        self.verified(STAR, *lemmas, "theorem 14", "leaf 0 1 2")  # a fractional cover would give 13.5
         self.refused(8, "costs 12 and 2 by lemmas; expected 15", STAR, *lemmas, "theorem 15", "leaf 0 1 2")
         self.refused(8, "costs 12 and 1 by lemmas", STAR, *lemmas, "theorem 14", "leaf 0 1")
         self.refused(8, "costs 12 and 1 by lemmas", STAR, *lemmas, "theorem 14", "leaf 0 0 0 1")
         self.verified(STAR, "lemma 10 0 2", "joint", "theorem 14", "leaf 0")
         self.refused(4, "costs 12 and 2 by", STAR, "lemma 10 0 2", "joint", "theorem 15", "leaf 0")
 
-    def test_later(self):
+    def test_later_needs_a_lemma_of_both_agents(self):
         lemma = ["lemma 5 0 1", *CROSSED]
         self.verified(CROSS, *lemma, "theorem 5", "later 0 2 1 2 0", "leaf", "leaf")
         self.verified(CROSS, *lemma, "theorem 5", "later 1 2 0 2 0", "leaf", "leaf")
@@ -182,7 +184,7 @@ class Rules(unittest.TestCase):
         self.refused(5, "not in force", CROSS, "lemma 5 0 1", "demand 0 bar 4 1 1", "leaf", "theorem 5", "later 0 2 1 2 0")
         self.refused(4, "lemma 0 is also about agent 2", STAR, "lemma 12 0 1 2", "leaf", "lemma 8 0 1", "later 0 3 1 3 0")
 
-    def test_later_is_for_plain_goals(self):
+    def test_later_needs_plain_goals(self):
         ends = {"without a goal": ([Agent((3,)), Agent((1,), 7)], [(5, 0, [0])]), "who works there": ([Agent((3,), 5), Agent((1,), 7)], [(5, 1, [0])]),
                 "with a heading": ([Agent((3, "E"), 5, 1, "E"), Agent((1,), 7)], [])}
         for name, (agents, tasks) in ends.items():
@@ -193,7 +195,7 @@ class Rules(unittest.TestCase):
         turner = Instance(CROSS.world, [Agent((3, "E"), 5, 1), Agent((1,), 7)])
         self.verified(turner, "lemma 5 0 1", "joint", "theorem 5", "later 0 2 1 2 0", "leaf", "leaf")
 
-    def test_joint(self):
+    def test_joint_search_proves_the_optimum(self):
         self.verified(CROSS, "theorem 5", "joint")
         self.refused(2, "finds a plan that costs less", CROSS, "theorem 6", "joint")
         self.verified(STUCK, "theorem inf", "joint")
@@ -201,7 +203,7 @@ class Rules(unittest.TestCase):
         self.verified(CROSS, "lemma 6 0 1", "demand 0 bar 4 1 2", "joint", "theorem 4", "leaf")
         self.refused(3, "finds a plan", CROSS, "lemma 7 0 1", "demand 0 bar 4 1 2", "joint")
 
-    def test_prices(self):
+    def test_prices_prove_the_sum_of_priced_costs(self):
         place = ["prices", "place 4 1 1024", "end"]
         self.verified(CROSS, "theorem 5", *place)
         self.refused(4, "prices prove 5; expected 6", CROSS, "theorem 6", *place)
@@ -219,15 +221,15 @@ class Rules(unittest.TestCase):
         self.refused(3, "without constraints", CROSS, "lemma 4 0 1", "demand 0 bar 4 1 1", *place)
         self.refused(3, "without constraints", CROSS, "theorem 5", CROSSED[0], *place, "leaf")
 
-    def test_who_stays_on_the_lesser_place_uses_an_edge(self):
-        # To 1 and back, and somebody far away, for seven steps.
+    def test_agent_that_stays_on_the_lower_place_uses_the_edge(self):
+        # Agent 0 goes to 1 and back. Agent 1, far away, takes seven steps.
         instance = Instance(grid("............"), [Agent((0,), 0), Agent((4,), 11)], [(1, 0, [0])])
         self.verified(instance, "theorem 9", "prices", "end")
-        # Back on 0 at 2 it would use the row at 3; so it comes back at 4.
+        # If agent 0 came back at 2 it would use the row at 3; so it comes back at 4.
         self.verified(instance, "theorem 9", "prices", "edge 0 1 3 2048", "end")
         self.refused(4, "prices prove 8", instance, "theorem 9", "prices", "edge 0 1 3 3072", "end")
 
-    def test_other_instances(self):
+    def test_certificate_of_another_instance_is_refused(self):
         text = certificate(CROSS, "theorem 4", "leaf")
         others = [STAR, Instance(CROSS.world, CROSS.agents, [(0, 0, [0])]), Instance(CROSS.world, [Agent((3,), 5), Agent((1,), 8)]),
                   Instance(grid("..@", "...", "..."), CROSS.agents), Instance(CROSS.world, [Agent((3, "E"), 5, 1), Agent((1,), 7)])]

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""grove proof trim: what was verified is verified, what is not needed goes, and what is no certificate stays as it is.
+"""Tests grove proof trim: trimmed certificates are verified as before, unneeded parts are removed, and invalid files stay
+unchanged.
 
     trim_test.py GROVE_VERIFY GROVE
-    GROVE_FUZZ_FACTOR=20: so many times as many
+    GROVE_FUZZ_FACTOR=20: 20 times as many instances
+
 """
 import random
 import resource
@@ -25,71 +27,73 @@ OLD = Path(__file__).resolve().parent / "old"
 
 
 def trim(certificate, *options):
-    """Exit code, what was said, and the file then; the certificate is text or bytes."""
+    """Returns the exit code, the output, the file afterwards and the names in its folder. certificate: text or
+    bytes."""
     with tempfile.TemporaryDirectory() as name:
         file = Path(name) / "c.proof"
         file.write_bytes(certificate if isinstance(certificate, bytes) else certificate.encode())
         done = subprocess.run([GROVE, "proof", "trim", file, *options], capture_output=True, text=True, timeout=60, check=False)
-        said = (done.stdout + done.stderr).replace(f"{name}/", "")
-        return done.returncode, said, file.read_bytes(), sorted(path.name for path in Path(name).iterdir())
+        output = (done.stdout + done.stderr).replace(f"{name}/", "")
+        return done.returncode, output, file.read_bytes(), sorted(path.name for path in Path(name).iterdir())
 
 
 def trimmed(certificate):
-    code, said, after, files = trim(certificate)
-    assert (code, files) == (0, ["c.proof"]), said
+    code, output, after, files = trim(certificate)
+    assert (code, files) == (0, ["c.proof"]), output
     return after if isinstance(certificate, bytes) else after.decode()
 
 
 class Padder(Prover):
-    """Says more than it takes: lemmas of all agents, splits that nothing is the worse for, leaves that name all they can."""
+    """Writes proofs with unneeded parts: lemmas of all agents, harmless splits, and leaves that name every usable
+    lemma."""
 
     def __init__(self, instance, rng, following):
         super().__init__(instance, rng, following, [rule for rule in ("rest", "pass", "stop", "lemma", "later", "joint") if rng.random() < 0.6], 60)
-        self.pool, self.pads, self.everybody = [], 0, list(range(len(instance.agents)))
+        self.pool, self.pads, self.all_agents = [], 0, list(range(len(instance.agents)))
 
-    def drawn(self):
-        """Two sides of a split, perhaps by what a lemma demands."""
+    def random_sides(self):
+        """Returns the two sides of a random split, often by a constraint of a lemma."""
         rng, places = self.rng, range(self.instance.world.count)
-        a, b = rng.sample(self.everybody, 2)
-        demand = rng.choice(self.pool) if self.pool and rng.random() < 0.7 else (a, rng.choice(["bar", "rest", "norest"]), rng.choice(places), rng.randint(0, 3))
-        a, kind, place, time = demand[:4]
+        a, b = rng.sample(self.all_agents, 2)
+        constraint = rng.choice(self.pool) if self.pool and rng.random() < 0.7 else (a, rng.choice(["bar", "rest", "norest"]), rng.choice(places), rng.randint(0, 3))
+        a, kind, place, time = constraint[:4]
         if kind in ("rest", "norest"):
             return rng.sample([(a, "norest", place, time), (a, "rest", place, time)], 2)
-        if demand[-1] == INF:  # what a rest brings for others
-            b = rng.choice([agent for agent in self.everybody if agent != a])
+        if constraint[-1] == INF:  # a bar that a rest implies for other agents
+            b = rng.choice([agent for agent in self.all_agents if agent != a])
             return rng.sample([(b, "norest", place, time), (b, "rest", place, time)], 2)
-        b = b if b != a else next(agent for agent in self.everybody if agent != a)
+        b = b if b != a else next(agent for agent in self.all_agents if agent != a)
         return rng.sample([(a, "bar", place, time, time), (b, "bar", place, time, time)], 2)
 
     def certificate(self, bound):
         self.bound = bound
-        for _ in range(self.rng.randint(0, 3) if len(self.everybody) > 1 else 0):
-            demands = []
+        for _ in range(self.rng.randint(0, 3) if len(self.all_agents) > 1 else 0):
+            constraints = []
             for _ in range(self.rng.choice([0, 1, 1, 2])):
-                side = self.drawn()[0]
-                extra = [(b, "bar", side[2], side[3], INF) for b in self.everybody if b != side[0]]
-                demands.append(self.rng.choice(extra) if side[1] == "rest" and self.rng.random() < 0.5 else side)
+                side = self.random_sides()[0]
+                extra = [(b, "bar", side[2], side[3], INF) for b in self.all_agents if b != side[0]]
+                constraints.append(self.rng.choice(extra) if side[1] == "rest" and self.rng.random() < 0.5 else side)
             self.pads = self.rng.choice([0, 2])
-            if self.lemma(self.everybody, demands, self.rng.choice([bound, bound, bound, max(0, bound - 1)])) is not None:
-                self.pool += demands
+            if self.lemma(self.all_agents, constraints, self.rng.choice([bound, bound, bound, max(0, bound - 1)])) is not None:
+                self.pool += constraints
         self.pads = 5
         return super().certificate(bound)
 
-    def step(self, agents, bound, demands):
-        strong = [n for n, (own, least, needed) in enumerate(self.lemmas) if set(own) <= set(agents) and least >= bound and set(needed) <= set(demands)]
-        names = [n for n, (own, _, needed) in enumerate(self.lemmas) if set(own) <= set(agents) and set(needed) <= set(demands)]
+    def step(self, agents, bound, constraints):
+        strong = [n for n, (own, least, needed) in enumerate(self.lemmas) if set(own) <= set(agents) and least >= bound and set(needed) <= set(constraints)]
+        names = [n for n, (own, _, needed) in enumerate(self.lemmas) if set(own) <= set(agents) and set(needed) <= set(constraints)]
         if strong and self.rng.random() < 0.6:
             return [" ".join(["leaf", *map(str, names), str(self.rng.choice(names))])], []
-        if agents == self.everybody and len(agents) > 1 and self.pads > 0 and self.rng.random() < 0.6:
+        if agents == self.all_agents and len(agents) > 1 and self.pads > 0 and self.rng.random() < 0.6:
             self.pads -= 1
-            one, two = self.drawn()
+            one, two = self.random_sides()
             if one[1] in ("rest", "norest") or self.rng.random() < 0.8:
-                return self.split(agents, demands, one, two)
-        return super().step(agents, bound, demands)
+                return self.split(agents, constraints, one, two)
+        return super().step(agents, bound, constraints)
 
 
 class Trimmed(unittest.TestCase):
-    def test_what_was_verified_is_verified(self):
+    def test_trimmed_certificates_are_verified(self):
         seen = Counter()
         for rng, kind, instance, following, least in instances(60, first=3 * 10**6):
             if least == INF:
@@ -100,17 +104,17 @@ class Trimmed(unittest.TestCase):
                 seen["too long"] += 1
                 continue
             before = checkers.verify(instance, certificate)
-            self.assertEqual(before.text, f"verified: no plan costs less than {least}{checkers.of(following)}\n", f"{kind}\n{certificate}")
+            self.assertEqual(before.text, f"verified: no plan costs less than {least}{checkers.following_note(following)}\n", f"{kind}\n{certificate}")
             short = trimmed(certificate)
             after = checkers.verify(instance, short)
             self.assertEqual(after.text, before.text, f"{kind}\n{certificate}\n--- trimmed:\n{short}")
             self.assertEqual(trimmed(short), short, certificate)
             for word in ("lemma", "demand", "split", "later", "leaf"):
                 seen[word] += sum(line.startswith(word) for line in certificate.split("\n")) - sum(line.startswith(word) for line in short.split("\n"))
-            # What is false stays so.
+            # Trimming does not make a false claim verifiable.
             for mutant in mutants(rng, certificate, 2):
-                code, said, file, _ = trim(mutant)
-                self.assertIn(code, (0, 2), said)
+                code, output, file, _ = trim(mutant)
+                self.assertIn(code, (0, 2), output)
                 if code == 0 and checkers.verify(instance, file).code == 0:
                     self.assertLessEqual(claim(file.decode()), least, mutant)
                     seen["true"] += 1
@@ -133,77 +137,78 @@ class Trimmed(unittest.TestCase):
         self.assertEqual(trimmed(self.HEAD + before + "end\n"), self.HEAD + after + "end\n")
         self.assertEqual(trimmed(self.HEAD + after + "end\n"), self.HEAD + after + "end\n")
 
-    def test_lemmas_that_nothing_names_go(self):
+    def test_unused_lemmas_are_removed(self):
         self.expect("lemma 3 0\nleaf\nlemma 4 1\nleaf\nlemma 5 0 1\nleaf 1\nlemma 9 2\nleaf 0\ntheorem 8\nleaf 2\n",
                     "lemma 4 1\nleaf\nlemma 5 0 1\nleaf 0\ntheorem 8\nleaf 1\n")
         self.expect("lemma 3 0\nleaf\nlemma 9 0 1\njoint\ntheorem 8\nlater 0 3 1 5 1\nleaf\njoint\n",
                     "lemma 9 0 1\njoint\ntheorem 8\nlater 0 3 1 5 0\nleaf\njoint\n")
 
-    def test_lemmas_said_twice_go(self):
+    def test_duplicate_lemmas_are_removed(self):
         self.expect("lemma 5 0 1\ndemand 0 bar 1 2 2\njoint\nlemma 5 0 1\ndemand 0 bar 1 2 2\ndemand 0 bar 1 2 2\njoint\ntheorem 8\n"
                     "split 0 bar 1 2 2 | 1 bar 1 2 2\nleaf 1\nleaf\n",
                     "lemma 5 0 1\ndemand 0 bar 1 2 2\njoint\ntheorem 8\nsplit 0 bar 1 2 2 | 1 bar 1 2 2\nleaf 0\nleaf\n")
-        # The second one says more.
+        # The second lemma has the higher bound.
         self.expect("lemma 5 0 1\njoint\nlemma 6 0 1\njoint\ntheorem 8\nleaf 1\n", "lemma 6 0 1\njoint\ntheorem 8\nleaf 0\n")
 
-    def test_names_that_others_imply_go(self):
+    def test_implied_lemma_names_are_removed(self):
         self.expect("lemma 5 0 1\njoint\nlemma 4 0 1 2\njoint\nlemma 7 0 2\njoint\nlemma 0 1\nleaf\ntheorem 20\nleaf 0 1 2 2 3\n",
                     "lemma 5 0 1\njoint\nlemma 7 0 2\njoint\ntheorem 20\nleaf 0 1\n")
-        # Without a common agent they are enough, whatever agents cost.
+        # Lemmas without a common agent suffice, whatever the agents cost.
         self.expect("lemma 5 0 1\njoint\nlemma 6 0 2\njoint\nlemma 7 2 3\njoint\ntheorem 12\nleaf 0 1 2\n",
                     "lemma 5 0 1\njoint\nlemma 7 2 3\njoint\ntheorem 12\nleaf 0 1\n")
 
-    def test_splits_that_nothing_needs_go(self):
+    def test_unneeded_splits_are_removed(self):
         inf = "lemma inf 0\ndemand 0 bar 1 2 2\nleaf\n"
         split, other = "split 0 bar 1 2 2 | 1 bar 1 2 2\n", "split 2 move 1 4 6 6 | 3 move 4 1 6 6\n"
         self.expect(f"{inf}theorem 8\n{split}{other}leaf 0\nleaf\njoint\n", f"{inf}theorem 8\n{split}leaf 0\njoint\n")
         self.expect(f"{inf}theorem 8\n{split}{other}joint\nleaf 0\njoint\n", f"{inf}theorem 8\n{split}leaf 0\njoint\n")
-        # What is demanded may be needed by what agents cost.
+        # The costs of the agents may depend on the constraints.
         for kept in (f"{inf}theorem 8\n{split}leaf 0\n{other}leaf\nleaf\n", f"{inf}theorem 8\n{other}{split}leaf 0\nleaf\njoint\n"):
             self.expect(kept, kept)
-        # All of it is a lemma.
+        # A lemma proves the whole theorem.
         self.expect(f"lemma 8 0 1 2 3\njoint\ntheorem 8\n{split}{other}leaf 0\nleaf\nleaf\n", "lemma 8 0 1 2 3\njoint\ntheorem 8\nleaf 0\n")
 
-    def test_a_need_stays_with_what_it_is_met_by(self):
-        """Both the outer and the inner split demand it: the outer one, or the inner one, but not none."""
+    def test_one_of_two_splits_with_a_needed_constraint_stays(self):
+        """Checks a constraint that both the outer and the inner split impose: one of them stays, either the outer
+        or the inner one."""
         inf = "lemma inf 0\ndemand 0 bar 1 2 2\nleaf\n"
         outer, inner = "split 0 bar 1 2 2 | 1 bar 1 2 2\n", "split 0 bar 1 2 2 | 3 bar 1 2 2\n"
         self.expect(f"{inf}theorem 8\n{outer}{inner}leaf 0\njoint\njoint\n", f"{inf}theorem 8\n{outer}leaf 0\njoint\n")
         self.expect(f"{inf}theorem 8\n{inner}{outer}leaf 0\njoint\nsplit 2 bar 9 1 1 | 1 bar 9 1 1\njoint\njoint\n",
                     f"{inf}theorem 8\n{inner}leaf 0\nsplit 2 bar 9 1 1 | 1 bar 9 1 1\njoint\njoint\n")
 
-    def test_splits_by_what_is_in_force_go(self):
+    def test_splits_by_constraints_in_force_are_removed(self):
         split = "split 0 bar 1 2 2 | 1 bar 1 2 2\n"
         self.expect(f"theorem 8\n{split}{split}leaf\njoint\njoint\n", f"theorem 8\n{split}leaf\njoint\n")
         self.expect(f"theorem 8\n{split}leaf\n{split}leaf\njoint\n", f"theorem 8\n{split}leaf\njoint\n")
         later = "lemma 9 0 1\njoint\ntheorem 8\nlater 0 3 1 5 0\n"
         self.expect(f"{later}later 0 3 1 5 0\nleaf\njoint\nleaf\n", f"{later}leaf\nleaf\n")
 
-    def test_a_rest_brings_bars_for_others(self):
+    def test_rest_implies_bars_for_other_agents(self):
         inf = "lemma inf 1\ndemand 1 bar 4 2 inf\nleaf\n"
         rest = "split 0 norest 4 2 | 0 rest 4 2\n"
         kept = f"{inf}theorem 8\n{rest}joint\nleaf 0\n"
         self.expect(kept, kept)
         self.expect(f"{inf}theorem 8\n{rest}joint\nsplit 2 norest 4 2 | 2 rest 4 2\njoint\nleaf 0\n", f"{inf}theorem 8\n{rest}joint\nleaf 0\n")
-        # A lemma that demands a rest has not brought them.
+        # A rest among the constraints of a lemma implies no bars.
         kept = f"{inf}lemma 8 0 1\ndemand 0 rest 4 2\n{rest}joint\nleaf 0\ntheorem 9\nsplit 0 norest 4 2 | 0 rest 4 2\njoint\nleaf 1\n"
         self.expect(kept, kept)
 
-    def test_later_demands_a_goal_that_is_not_known(self):
+    def test_later_imposes_norest_at_an_unknown_goal(self):
         inf = "lemma inf 0 1\ndemand 0 norest 7 3\njoint\n"
         kept = f"{inf}lemma 9 0 1\njoint\ntheorem 8\nlater 0 3 1 5 1\nleaf 0\njoint\n"
         self.expect(kept, kept)
         self.expect(f"{inf}lemma 9 0 1\njoint\ntheorem 8\nlater 1 3 0 5 1\nsplit 0 norest 7 3 | 0 rest 7 3\nleaf 0\njoint\nleaf\n",
                     f"{inf}lemma 9 0 1\njoint\ntheorem 8\nlater 1 3 0 5 1\nsplit 0 norest 7 3 | 0 rest 7 3\nleaf 0\njoint\nleaf\n")
 
-    def test_demands_that_a_lemma_does_without_go(self):
+    def test_unneeded_constraints_of_lemmas_are_removed(self):
         self.expect("lemma 5 0 1\njoint\nlemma 5 0 1 2\ndemand 2 bar 1 1 1\nleaf 0\ntheorem 9\nsplit 2 bar 1 1 1 | 0 bar 1 1 1\nleaf 1\nleaf\n",
                     "lemma 5 0 1\njoint\nlemma 5 0 1 2\nleaf 0\ntheorem 9\nsplit 2 bar 1 1 1 | 0 bar 1 1 1\nleaf 1\nleaf\n")
 
-    def test_rows_that_charge_nothing_go(self):
+    def test_rows_of_price_zero_are_removed(self):
         self.expect("theorem 8\nprices\nplace 1 2 0\nedge 1 2 3 7\nfinish 0 1 1 2 0\nend\n", "theorem 8\nprices\nedge 1 2 3 7\nend\n")
 
-    def test_may_be_deep(self):
+    def test_deep_certificates_are_trimmed(self):
         deep = 100000
         split = "".join(f"split 0 bar 1 {t} {t} | 1 bar 1 {t} {t}\nleaf\n" for t in range(deep))
         self.expect(f"lemma 9 0 1\njoint\ntheorem 10\n{split}leaf 0\n", f"lemma 9 0 1\njoint\ntheorem 10\n{split}leaf 0\n")
@@ -213,45 +218,46 @@ class Trimmed(unittest.TestCase):
 class Files(unittest.TestCase):
     TEXT = Trimmed.HEAD + "lemma 3 0\nleaf\ntheorem 4\nsplit 0 bar 1 2 2 | 1 bar 1 2 2\nleaf\nleaf\nend\n"
 
-    def test_the_line_tells_sizes(self):
-        code, said, after, _ = trim(self.TEXT)
-        self.assertEqual((code, said), (0, f"wrote c.proof: 8 lines, {len(after)} bytes; before: 10 lines, {len(self.TEXT)} bytes\n"))
+    def test_output_reports_sizes(self):
+        code, output, after, _ = trim(self.TEXT)
+        self.assertEqual((code, output), (0, f"wrote c.proof: 8 lines, {len(after)} bytes; before: 10 lines, {len(self.TEXT)} bytes\n"))
 
     @unittest.skipUnless(shutil.which("zstd"), "no zstd")
-    def test_what_is_compressed_stays_so(self):
+    def test_compressed_certificates_stay_compressed(self):
         packed = subprocess.run(["zstd", "-c"], input=self.TEXT.encode(), capture_output=True, check=True).stdout
         after = trimmed(packed)
         self.assertEqual(subprocess.run(["zstd", "-dc"], input=after, capture_output=True, check=True).stdout.decode(), trimmed(self.TEXT))
         for size in range(5, len(packed), 7):
-            code, said, after, files = trim(packed[:size])
+            code, output, after, files = trim(packed[:size])
             if code != 0:
-                self.assertRegex(said, "^grove: error: c.proof: .*expected")
+                self.assertRegex(output, "^grove: error: c.proof: .*expected")
                 self.assertEqual((code, after, files), (2, packed[:size], ["c.proof"]))
 
     @unittest.skipUnless(shutil.which("zstd"), "no zstd")
-    def test_little_that_becomes_much_keeps_to_the_memory_limit(self):
-        """Splits as deep as they are many: some ten thousand bytes, hundreds of megabytes of lines."""
+    def test_decompression_bomb_keeps_the_memory_limit(self):
+        """Trims some ten thousand bytes that decompress to hundreds of megabytes of lemmas."""
         def pack(text):
             return subprocess.run(["zstd", "-19", "-c"], input=text, capture_output=True, check=True).stdout
         lemma = b"lemma 3 0\ndemand 0 bar 1 2 2\ndemand 0 bar 1 3 3\nleaf\n"
-        packed = pack(Trimmed.HEAD.encode()) + 100 * pack(50_000 * lemma)  # a child's peak begins with its parent's
+        # Packed in parts: the memory peak of a child starts from that of its parent.
+        packed = pack(Trimmed.HEAD.encode()) + 100 * pack(50_000 * lemma)
         self.assertLess(len(packed), 60_000)
-        code, said, after, files = trim(packed, "--memory-limit", "0.2")
+        code, output, after, files = trim(packed, "--memory-limit", "0.2")
         self.assertEqual((code, after, files), (2, packed, ["c.proof"]))
-        self.assertRegex(said, "^grove: error: c.proof: needs more memory than 0.2 GB to be trimmed; ")
+        self.assertRegex(output, "^grove: error: c.proof: needs more memory than 0.2 GB to be trimmed; ")
         self.assertLess(1024 * resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, 0.2e9 + 150e6)
 
-    def test_another_file(self):
+    def test_output_option_leaves_the_input_unchanged(self):
         with tempfile.TemporaryDirectory() as name:
             to = Path(name) / "to"
-            code, said, after, _ = trim(self.TEXT, "-o", to)
+            code, output, after, _ = trim(self.TEXT, "-o", to)
             self.assertEqual((code, after.decode()), (0, self.TEXT))
-            self.assertTrue(said.startswith("wrote "), said)
+            self.assertTrue(output.startswith("wrote "), output)
             self.assertEqual(to.read_text(), trimmed(self.TEXT))
-            code, said, after, _ = trim(self.TEXT, "-o", to / "none")
+            code, output, after, _ = trim(self.TEXT, "-o", to / "none")
             self.assertEqual((code, after.decode()), (2, self.TEXT))
 
-    def test_what_is_no_certificate_stays_as_it_is(self):
+    def test_invalid_certificates_stay_unchanged(self):
         for text_there, expected in [("", "line 1: the file ends; expected a line, ended by LF"),
                                      ("grove-proof 2\n", "line 1: found '2'; expected '1'"),
                                      (self.TEXT.replace("0123", "012"), "line 2: found '012456789abcdef'; expected a checksum, 16 digits of 0 to f"),
@@ -259,11 +265,11 @@ class Files(unittest.TestCase):
                                      (self.TEXT[:-1], "line 10: the file ends within it; expected a line, ended by LF"),
                                      (self.TEXT + "\n", "line 10: found more after it; expected nothing after 'end'"),
                                      ("x" * 5000000, "line 1: it is too long; expected at most 4194304 bytes")]:
-            code, said, after, files = trim(text_there)
-            self.assertEqual((code, said), (2, f"grove: error: c.proof: {expected}\n"))
+            code, output, after, files = trim(text_there)
+            self.assertEqual((code, output), (2, f"grove: error: c.proof: {expected}\n"))
             self.assertEqual((after.decode(), files), (text_there, ["c.proof"]))
 
-    def test_what_is_not_there(self):
+    def test_missing_and_irregular_files_are_refused(self):
         for path, reason in (("none", "cannot be read: No such file or directory"), ("/dev/null", "expected a file, which can be read more than once")):
             done = subprocess.run([GROVE, "proof", "trim", path], capture_output=True, text=True, timeout=60, check=False)
             self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", f"grove: error: {path}: {reason}\n"))

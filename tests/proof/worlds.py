@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Tiny instances, what their agents can do, and the least cost of a plan: all of docs/proof.md, 1 and 2, in plain Python, so that
-two readings of it meet. Slow, and short enough to be believed."""
+"""Models tiny instances, the motions of their agents and the least cost of a plan: sections 1 and 2 of docs/proof.md in
+plain Python, as a second implementation to compare with. It is slow, but short enough to review."""
 import functools
 import heapq
 import itertools
@@ -13,7 +13,8 @@ AHEAD = {"N": (0, -1), "E": (1, 0), "S": (0, 1), "W": (-1, 0)}
 
 
 class World:
-    """Places, links, neighbours; of a grid given by its rows, or of roads (from, to, steps, one way) between vertices."""
+    """Places, links and neighbours of a grid given by its rows, or of roads (from, to, steps, one way) between
+    vertices."""
 
     def __init__(self, rows=None, vertices=0, roads=()):
         self.rows, self.vertices, self.roads = rows, vertices, list(roads)
@@ -45,7 +46,8 @@ class World:
         return y * self.width + x if inside and self.passable(y * self.width + x) else None
 
     def chain(self, place):
-        """The row of inner places that this one is in, with the ends; None: it is in none."""
+        """Returns the chain of interior places that contains `place`, with both ends. Returns None if there is
+        none."""
         if len(self.near[place]) != 2:
             return None
         row = [place]
@@ -61,14 +63,14 @@ class World:
 
 
 class Agent:
-    """start: a pose: (place,), (place, heading) or (place, heading, to, steps done)."""
+    """An agent. Its start is a pose: (place,), (place, heading) or (place, heading, to, steps done)."""
 
     def __init__(self, start, goal=None, turn=0, goal_heading=None, working=None):
         self.start, self.goal, self.turn, self.goal_heading, self.working = start, goal, turn, goal_heading, working
 
 
 class Instance:
-    """tasks: (place, duration, agents)."""
+    """An instance. Each task is (place, duration, agents)."""
 
     def __init__(self, world, agents, tasks=()):
         self.world, self.agents, self.tasks = world, agents, list(tasks)
@@ -92,7 +94,7 @@ class Instance:
         return goal if goal is not None and self.agents[agent].goal_heading is None and not timed else None
 
     def steps(self, agent, pose):
-        """Poses of the next time, but for staying."""
+        """Returns the poses that one step leads to, except waiting."""
         place, turn = pose[0], self.agents[agent].turn
         if not turn:
             return [(q,) for q in self.world.after[place]]
@@ -105,7 +107,8 @@ class Instance:
         return turns + ([(ahead, pose[1])] if ahead is not None else [])
 
     def ends(self, agent, pose, last):
-        """Whether it may end in this pose, all done; `last`: the stop done last, if that is known to matter."""
+        """Returns whether the agent may end in this pose after all its stops. last: the stop done last; None if the
+        order is not tracked."""
         one, own = self.agents[agent], self.own(agent)
         if one.goal is not None:
             return pose[0] == one.goal and (one.goal_heading is None or pose[1:] == (one.goal_heading,))
@@ -135,7 +138,7 @@ class Instance:
         return f"{value:016x}"
 
     def write(self, folder, name="tiny"):
-        """The instance's file."""
+        """Writes the files of the instance and returns the path of the instance file."""
         world = self.world
         if world.rows is not None:
             (folder / f"{name}.map").write_text(f"type octile\nheight {world.height}\nwidth {world.width}\nmap\n" + "\n".join(world.rows) + "\n")
@@ -172,14 +175,15 @@ class Instance:
 
 
 def initial(instance, agent, ordered):
-    """(pose, done, (task, steps left) or None) at time 0."""
+    """Returns the states (pose, done, (task, steps left) or None) at time 0."""
     one = instance.agents[agent]
     work = (one.working[0], instance.tasks[one.working[0]][1] - one.working[1]) if one.working else None
     return [*arrivals(instance, agent, (one.start, (), None), ordered)] if work is None else [(one.start, (), work)]
 
 
 def arrivals(instance, agent, state, ordered):
-    """The states in which it may be at once, when it is in this: stops that take no time are done, work begins."""
+    """Yields the states in which an agent may be at once when it reaches `state`: stops without duration are done,
+    work begins."""
     pose, done, _ = state
     here = [j for j in instance.stops(agent) if instance.tasks[j][0] == pose[0] and j not in done]
     quick = [j for j in here if instance.tasks[j][1] == 0]
@@ -195,7 +199,7 @@ def arrivals(instance, agent, state, ordered):
 
 @functools.lru_cache(1 << 16)
 def onwards(instance, agent, state, ordered):
-    """The states of the next time."""
+    """Returns the states at the next time."""
     pose, done, work = state
     if work:
         task, left = work
@@ -213,28 +217,30 @@ def finished(instance, agent, state, ordered):
         agent, pose, done[-1] if ordered and done else None)
 
 
-def least_cost(instance, agent, demands, latest=400):
-    """(c(A, D), a path as places from time to time); (inf, None). Demands: tuples as in a certificate, without the agent."""
-    ordered = any(d[0] in ("stop", "nostop") for d in demands)
+def least_cost(instance, agent, constraints, latest=400):
+    """Returns (c(A, D), a path as one place per time), or (inf, None). A constraint is a tuple as in a certificate,
+    without the agent."""
+    ordered = any(d[0] in ("stop", "nostop") for d in constraints)
     world = instance.world
-    settled = 1 + max([t for d in demands for t in d[1:] if d[0] not in ("stop", "nostop") and t != INF], default=0)
-    passes = [(world.chain(d[1]), d) for d in demands if d[0] == "pass"]
+    constant_from = 1 + max([t for d in constraints for t in d[1:] if d[0] not in ("stop", "nostop") and t != INF], default=0)
+    passes = [(world.chain(d[1]), d) for d in constraints if d[0] == "pass"]
 
     def allowed(done):
         number = len(done) - 1
-        return all((done[number] == j) == (kind == "stop") for kind, k, j in (d for d in demands if d[0] in ("stop", "nostop"))
+        return all((done[number] == j) == (kind == "stop") for kind, k, j in (d for d in constraints if d[0] in ("stop", "nostop"))
                    if k == number)
 
     def free(place, time):
-        return not any(d[0] == "bar" and d[1] == place and d[2] <= time <= d[3] for d in demands)
+        return not any(d[0] == "bar" and d[1] == place and d[2] <= time <= d[3] for d in constraints)
 
     def after(node, state, time):
-        """The node at `time` after one: with the time of arrival, and where it came into a chain."""
+        """Returns the node at `time` after `node`, with the time of arrival and the entries into chains. Returns
+        None if a constraint forbids the step."""
         (before, _, _), arrived, entries = node
         place = state[0][0]
         if place == before[0]:
             return state, arrived, entries
-        if any(d[0] == "move" and d[1:3] == (before[0], place) and d[3] <= time <= d[4] for d in demands):
+        if any(d[0] == "move" and d[1:3] == (before[0], place) and d[3] <= time <= d[4] for d in constraints):
             return None
         for chain, (_, f, p, start, end) in passes:
             if (before[0], place) == (f, p) and start <= time <= end and (chain, f, p) in {
@@ -244,11 +250,11 @@ def least_cost(instance, agent, demands, latest=400):
         for chain in {chain for chain, _ in passes}:
             if place in chain[1:-1]:
                 now |= {(chain, (before[0], place))} if before[0] not in chain[1:-1] else {e for e in entries if e[0] == chain}
-        return state, min(time, settled), frozenset(now)
+        return state, min(time, constant_from), frozenset(now)
 
     def rests(node, time):
         (pose, _, _), arrived, _ = node
-        for d in demands:
+        for d in constraints:
             if d[0] == "bar" and d[1] == pose[0] and d[3] > time or (
                     d[0] == "norest" and d[1] == pose[0] and arrived <= d[2]) or (
                     d[0] == "rest" and not (d[1] == pose[0] and arrived <= d[2])):
@@ -273,7 +279,7 @@ def least_cost(instance, agent, demands, latest=400):
                 found = after(node, state, time + 1) if legal else None
                 if found:
                     following.setdefault(found, node)
-        if time > settled:
+        if time > constant_from:
             new = following.keys() - seen
             if not new:
                 return INF, None
@@ -283,7 +289,7 @@ def least_cost(instance, agent, demands, latest=400):
 
 
 def through(chain, entry):
-    """By which step one leaves a chain that one has entered by another and traversed."""
+    """Returns the step by which an agent leaves a chain that it entered by `entry` and traversed."""
     start, first = entry
     row = list(chain)
     if len(row) == 3:
@@ -292,7 +298,7 @@ def through(chain, entry):
 
 
 def collide(befores, afters, following):
-    """Whether agents collide in a step between tuples of places."""
+    """Returns whether agents collide in a step between two tuples of places."""
     for one, two in itertools.combinations(range(len(afters)), 2):
         p, q, u, v = befores[one], befores[two], afters[one], afters[two]
         if u == v or (u == q and v == p) or (not following and ((u == q and v != q) or (v == p and u != p))):
@@ -301,7 +307,8 @@ def collide(befores, afters, following):
 
 
 def optimum(instance, following=True, most=4000):
-    """The least cost of a valid plan; inf. By Dijkstra's algorithm over states of all; None: there are more than so many."""
+    """Returns the least cost of a valid plan, or inf, by Dijkstra's algorithm over joint states. Returns None after
+    `most` states."""
     agents = range(len(instance.agents))
     starts = list(itertools.product(*(initial(instance, agent, False) for agent in agents)))
     waiting, known, tie = [(0, number, start) for number, start in enumerate(starts)], {start: 0 for start in starts}, itertools.count(len(starts))
@@ -335,7 +342,8 @@ def optimum(instance, following=True, most=4000):
 
 
 def random_instance(rng, kind):
-    """kind: plain, cts, mg, turning, work or roads. Each agent has a path, and none a long one."""
+    """Returns a random instance of a kind: plain, cts, mg, turning, work or roads. Each agent has a path; their
+    least costs sum to at most 16."""
     while True:
         if kind == "roads":
             vertices = rng.randint(3, 4)

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The Python module, as its users use it.
+"""Tests the public Python module.
 
     python_test.py SOURCE_DIR PACKAGE_DIR [GROVE]
 
-Exit code 77: a package that only tests need is not there.
+Exit code 77: skipped because numpy or pandas, which only tests need, is not installed.
 """
 import contextlib
 import doctest
@@ -37,30 +37,30 @@ def small():
          {"id": "look", "cell": (2, 0), "agents": ["red"]}])
 
 
-def crowd(robots=14):
-    """Robots that want to pass one another in a corridor: hours of search."""
+def hard_instance(robots=14):
+    """Returns robots that have to pass one another in a corridor: hours of search."""
     return grove.instance_from_arrays(grove.World(["." * robots] * 2), [(i, 0) for i in range(robots)],
                                       [(robots - 1 - i, 1) for i in range(robots)])
 
 
 class Documents(unittest.TestCase):
-    def test_docstrings(self):
+    def test_examples_in_docstrings_are_correct(self):
         self.assertEqual(doctest.testmod(grove).failed, 0)
 
-    def test_the_guide(self):
+    def test_examples_in_the_guide_are_correct(self):
         done = doctest.testfile(str(SOURCE / "docs/python.md"), module_relative=False,
                                 optionflags=doctest.NORMALIZE_WHITESPACE)
         self.assertGreater(done.attempted, 15)
         self.assertEqual(done.failed, 0)
 
-    def test_the_page_of_every_name_is_what_it_is_made_of(self):
+    def test_api_page_is_up_to_date(self):
         done = subprocess.run([sys.executable, SOURCE / "python/api_page.py", PACKAGE], capture_output=True, text=True,
                               timeout=60)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         if done.stdout != (SOURCE / "docs/python-api.md").read_text():
-            self.fail(f"docs/python-api.md is old: python/api_page.py {PACKAGE} > docs/python-api.md")
+            self.fail(f"docs/python-api.md is out of date; run python/api_page.py {PACKAGE} > docs/python-api.md")
 
-    def test_the_example_is_short_and_runs(self):
+    def test_example_is_short_and_runs(self):
         example = SOURCE / "examples/python/warehouse.py"
         self.assertLessEqual(len(example.read_text().splitlines()), 25)
         with tempfile.TemporaryDirectory() as folder:
@@ -72,9 +72,9 @@ class Documents(unittest.TestCase):
             self.assertIn("<html", (Path(folder) / "warehouse.html").read_text())
 
     @unittest.skipUnless(importlib.util.find_spec("mypy"), "no mypy")
-    def test_stubs_are_what_is_there(self):
+    def test_stubs_agree_with_the_module(self):
         with tempfile.TemporaryDirectory() as folder:
-            # What is compiled has another metaclass than stubs can say.
+            # Compiled classes have a metaclass that stubs cannot express.
             allowed = Path(folder) / "allowed"
             allowed.write_text("grove\\.(AgentPlan|Instance|Plan|Progress|Solution|World)(\\.__init__)?\n")
             done = subprocess.run(
@@ -86,7 +86,7 @@ class Documents(unittest.TestCase):
 
 class Packaging(unittest.TestCase):
     @unittest.skipUnless(importlib.util.find_spec("tomllib"), "no tomllib")
-    def test_pyproject_names_what_is_there(self):
+    def test_pyproject_agrees_with_cmake(self):
         import tomllib
         project = tomllib.loads((SOURCE / "pyproject.toml").read_text())
         ours = project["tool"]["scikit-build"]
@@ -105,14 +105,14 @@ class Packaging(unittest.TestCase):
 
 
 class Instances(unittest.TestCase):
-    def test_come_back_as_they_were_made(self):
+    def test_instance_keeps_its_agents_and_tasks(self):
         instance = small()
         again = grove.Instance(instance.world, instance.agents, instance.tasks)
         self.assertEqual(again.agents, instance.agents)
         self.assertEqual(again.tasks[0], {"id": "press", "cell": [2, 1], "agents": ["red", "blue"],
                                           "duration": 3})
 
-    def test_files(self):
+    def test_files_are_read_back_unchanged(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "x.cts.json"
             small().write(path)
@@ -124,7 +124,7 @@ class Instances(unittest.TestCase):
             back = grove.read_plan(str(path) + ".plan", small())
             self.assertEqual((back.status, back.plan.cost), ("optimal", solution.plan.cost))
 
-    def test_arrays(self):
+    def test_instances_and_plans_convert_to_arrays(self):
         import numpy
         passable = numpy.array([[c == "." for c in row] for row in ROWS])
         world = grove.World.grid(passable)
@@ -144,7 +144,7 @@ class Instances(unittest.TestCase):
         self.assertEqual(grove.check(again), [])
         self.assertNotEqual(grove.check(grove.Plan(instance, positions[:, ::-1])), [])
 
-    def test_roadmaps(self):
+    def test_roadmap_instance_is_solved(self):
         world = grove.World.roadmap({"A": (0, 0), "B": (6, 0), "C": (6, 3)},
                                     [("A", "B", 3), ("B", "C", 1, True)])
         instance = grove.Instance(world, [{"id": "r", "start": "A", "goal": "C"}])
@@ -154,14 +154,14 @@ class Instances(unittest.TestCase):
         self.assertEqual(world.roads[1], ("B", "C", 1, True))
         self.assertEqual(grove.check(grove.Plan(instance, [plan.agents[0].path])), [])
 
-    def test_turning(self):
+    def test_turning_robot_has_headings(self):
         instance = grove.Instance(grove.World(["...", "..."]), [
             {"id": "r", "start": (0, 0), "goal": (0, 1), "motion": "turning", "heading": "E"}])
         plan = grove.solve(instance).plan
         self.assertEqual(plan.headings().tolist(), [[1, 2, 2]])
         self.assertEqual(list(grove.data_frame(plan)["heading"]), ["east", "south", "south"])
 
-    def test_following(self):
+    def test_following_decides_whether_a_ring_can_rotate(self):
         ring = [(0, 0), (1, 0), (1, 1), (0, 1)]
         for following, expected in ((True, ["optimal"]), (False, ["unknown", "infeasible"])):
             instance = grove.instance_from_arrays(grove.World(["..", ".."]), ring, ring[1:] + ring[:1],
@@ -171,23 +171,23 @@ class Instances(unittest.TestCase):
 
 
 class Solving(unittest.TestCase):
-    def test_tells_how_it_goes(self):
+    def test_progress_and_incumbents_are_reported(self):
         seen, plans = [], []
         solution = grove.solve(small(), progress=seen.append, progress_interval=0,
                                incumbent=lambda plan, at: plans.append((plan.cost, at.cost)))
         self.assertEqual(seen[-1].lower_bound, solution.lower_bound)
         self.assertEqual(plans[-1], (solution.plan.cost, solution.plan.cost))
 
-    def test_a_limit_is_no_answer(self):
-        solution = grove.solve(crowd(), time_limit=0.1)
+    def test_time_limit_is_reported(self):
+        solution = grove.solve(hard_instance(), time_limit=0.1)
         self.assertIn(solution.status, ("feasible", "unknown"))
         self.assertEqual(solution.texts["stopped_by"], "time limit")
 
-    def test_what_functions_raise_comes_out(self):
+    def test_exception_of_a_callback_propagates(self):
         with self.assertRaises(ZeroDivisionError):
-            grove.solve(crowd(), time_limit=60, progress=lambda progress: 1 / 0)
+            grove.solve(hard_instance(), time_limit=60, progress=lambda progress: 1 / 0)
 
-    def test_ctrl_c(self):
+    def test_ctrl_c_raises_keyboard_interrupt(self):
         begun = threading.Event()
 
         def interrupt():
@@ -197,24 +197,25 @@ class Solving(unittest.TestCase):
         interrupter = threading.Thread(target=interrupt)
         interrupter.start()
         with self.assertRaises(KeyboardInterrupt):
-            grove.solve(crowd(), time_limit=300, progress=lambda _: begun.set(), progress_interval=1e6)
+            grove.solve(hard_instance(), time_limit=300, progress=lambda _: begun.set(), progress_interval=1e6)
         interrupter.join()
 
-    def test_stops_when_asked_and_other_threads_go_on(self):
+    def test_stop_event_ends_a_solve_and_other_threads_run(self):
         begun, stop = threading.Event(), threading.Event()
 
-        def ask():
+        def request_stop():
             begun.wait()
-            sum(range(1_000_000))  # other threads go on
+            sum(range(1_000_000))  # this thread runs during the solve
             stop.set()
 
-        asker = threading.Thread(target=ask)
-        asker.start()
-        solution = grove.solve(crowd(), time_limit=300, stop=stop, progress=lambda _: begun.set(), progress_interval=1e6)
-        asker.join()
+        requester = threading.Thread(target=request_stop)
+        requester.start()
+        solution = grove.solve(hard_instance(), time_limit=300, stop=stop, progress=lambda _: begun.set(),
+                               progress_interval=1e6)
+        requester.join()
         self.assertEqual(solution.texts["stopped_by"], "interrupt")
 
-    def test_several_at_once(self):
+    def test_concurrent_solves_give_the_same_cost(self):
         expected = grove.solve(small()).plan.cost
         costs = []
         threads = [threading.Thread(target=lambda: costs.append(grove.solve(small()).plan.cost))
@@ -225,7 +226,7 @@ class Solving(unittest.TestCase):
             thread.join()
         self.assertEqual(costs, [expected] * 6)
 
-    def test_infeasible_and_start(self):
+    def test_infeasible_status_and_start_plan(self):
         walled = grove.instance_from_arrays(grove.World([".@."]), [(0, 0)], [(2, 0)])
         self.assertEqual(grove.solve(walled).status, "infeasible")
         plan = grove.solve(small()).plan
@@ -233,7 +234,7 @@ class Solving(unittest.TestCase):
         grove.solve(small(), start=plan, incumbent=lambda p, at: first.append(p.cost))
         self.assertEqual(first[:1], [plan.cost])
 
-    def test_sessions(self):
+    def test_session_replans_after_delays_and_changes(self):
         session = grove.Session(small())
         self.assertIsNone(session.plan)
         first = session.replan()
@@ -250,7 +251,7 @@ class Solving(unittest.TestCase):
 
 
 class Errors(unittest.TestCase):
-    def test_say_what_is_wrong(self):
+    def test_errors_name_the_invalid_argument(self):
         world = grove.World(ROWS)
         robot = {"id": "r", "start": (0, 0), "goal": (4, 2)}
         cases = [
@@ -285,12 +286,12 @@ class Errors(unittest.TestCase):
                 act()
             self.assertIn(part, str(caught.exception))
 
-    def test_remarks_are_free(self):
+    def test_keys_for_remarks_are_accepted(self):
         data = {"map": ROWS, "_by": "me", "$schema": "instance.schema.json",
                 "agents": [{"id": "r", "start": (0, 0), "goal": (4, 2), "_battery": {"full": True}}]}
         self.assertEqual(len(grove.instance_from_dict(data).agents), 1)
 
-    def test_wrong_arrays(self):
+    def test_wrong_arrays_are_refused(self):
         import numpy as np
 
         world = grove.World(ROWS)
@@ -331,14 +332,14 @@ class Errors(unittest.TestCase):
                     self.assertIn(part, str(caught.exception))
                 self.assertNotIn("incompatible", str(caught.exception))
 
-    def test_fields(self):
+    def test_error_has_the_field(self):
         with self.assertRaises(grove.InvalidArgument) as caught:
             grove.solve(small(), time_limit=-1)
         self.assertEqual(caught.exception.field, "/time_limit")
 
 
 class Defaults(unittest.TestCase):
-    """Those of the library are those of Python and of the programs."""
+    """Compares the default options of the library, the Python module and the programs."""
 
     @staticmethod
     def of_python(function):
@@ -351,7 +352,7 @@ class Defaults(unittest.TestCase):
         text = subprocess.run([GROVE, command, "--help"], capture_output=True, text=True, check=True, timeout=60).stdout
         return re.search(rf"{option} [A-Z]\S*=(\S+)", text)[1]
 
-    def test_solve(self):
+    def test_defaults_of_solve(self):
         found = self.of_python(grove.solve)
         self.assertEqual((found["omega"], found["time_limit"]), (0.01, 180))
         self.assertEqual(found["threads"], len(os.sched_getaffinity(0)))
@@ -361,18 +362,18 @@ class Defaults(unittest.TestCase):
         self.assertEqual(solution.omega, found["omega"])
 
     @unittest.skipUnless(GROVE, "grove is not built")
-    def test_programs(self):
+    def test_defaults_agree_with_the_programs(self):
         for command, function in (("solve", grove.solve), ("replan", grove.Session.replan)):
             found = self.of_python(function)
             for name in ("omega", "time_limit", "threads", "seed", "method"):
-                told = self.of_program(command, "--" + name.replace("_", "-"))
-                self.assertEqual(told if name == "method" else float(told), found[name], (command, name))
+                default = self.of_program(command, "--" + name.replace("_", "-"))
+                self.assertEqual(default if name == "method" else float(default), found[name], (command, name))
             gigabytes = float(self.of_program(command, "--memory-limit"))
             self.assertAlmostEqual(gigabytes, found["memory_limit"] / 1e9, places=6)
 
 
-class Looking(unittest.TestCase):
-    def test_views_and_pictures(self):
+class Views(unittest.TestCase):
+    def test_views_and_pictures_are_written(self):
         solution = grove.solve(small())
         for plans in ([small()], [solution], [solution.plan], [solution, solution.plan]):
             view = grove.view(*plans)
@@ -389,7 +390,7 @@ class Memory(unittest.TestCase):
     def resident():
         return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
-    def test_a_thousand_solves_do_not_grow_it(self):
+    def test_thousand_solves_do_not_leak_memory(self):
         instance = small()
         for _ in range(200):
             grove.solve(instance, incumbent=lambda plan, at: plan.positions())
@@ -401,6 +402,6 @@ class Memory(unittest.TestCase):
 
 if __name__ == "__main__":
     if not importlib.util.find_spec("numpy") or not importlib.util.find_spec("pandas"):
-        print("skipped: numpy or pandas is not there")
+        print("skipped: numpy or pandas is not installed")
         sys.exit(77)
     unittest.main(argv=sys.argv[:1])

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Every public entity of include/grove/*.hpp is documented, by the doxygen that makes its pages.
+"""Checks that doxygen, which makes the API pages, finds every public entity of include/grove/*.hpp documented.
 
     api_pages_test.py SOURCE_DIR DOXYFILE DOXYGEN
 
-Exit code 77: there is no doxygen.
+Exit code 77: doxygen is not installed.
+
 """
 import subprocess
 import sys
@@ -14,13 +15,13 @@ import xml.etree.ElementTree
 from pathlib import Path
 
 SOURCE, DOXYFILE, DOXYGEN = (None,) * 3
-UNTOLD = {"a function": "void nothing();", "a member": "/// A.\nstruct A { int x = 0; };",
+UNDOCUMENTED = {"a function": "void nothing();", "a member": "/// A.\nstruct A { int x = 0; };",
           "a class": "class GROVE_API C {\n public:\n  /// A.\n  int x = 0;\n};",
           "a macro": "#define GROVE_D 1"}
 
 
 def make(*lines, pages="*.html"):
-    """(exit code, complaints, pages: name -> text)"""
+    """Runs doxygen with the Doxyfile and `lines`. Returns (exit code, warnings, {name of a page: text})."""
     with tempfile.TemporaryDirectory() as folder:
         configuration = "\n".join([DOXYFILE.read_text(), f"OUTPUT_DIRECTORY = {folder}", *lines])
         done = subprocess.run([DOXYGEN, "-"], input=configuration, capture_output=True, text=True, check=False)
@@ -28,8 +29,8 @@ def make(*lines, pages="*.html"):
                                               for path in Path(folder).rglob(pages)}
 
 
-def untold_values(text):
-    """Of enumerations, in doxygen's XML: it does not miss their comments."""
+def undocumented_values(text):
+    """Returns the enumerators without a comment in doxygen's XML, because doxygen does not warn about them."""
     values = xml.etree.ElementTree.fromstring(text).iter("enumvalue")
     return [value.findtext("name") for value in values
             if not any("".join(value.find(kind).itertext()).strip()
@@ -37,7 +38,7 @@ def untold_values(text):
 
 
 class Pages(unittest.TestCase):
-    def test_are_made_of_all_public_headers_without_a_warning(self):
+    def test_pages_of_all_public_headers_are_made_without_warnings(self):
         code, complaints, pages = make()
         self.assertEqual((code, complaints), (0, ""))
         self.assertIn("Grove from C++", pages["index.html"])
@@ -46,16 +47,16 @@ class Pages(unittest.TestCase):
         self.assertIn("from_rows", pages["classgrove_1_1World.html"])
         self.assertFalse([name for name in pages if "detail" in name or "Access" in name])
 
-    def test_every_value_of_an_enumeration_is_documented(self):
+    def test_every_enumerator_is_documented(self):
         _, _, pages = make("GENERATE_XML = YES", pages="namespacegrove.xml")
         text = pages["namespacegrove.xml"]
         self.assertIn("<name>infeasible</name>", text)
-        self.assertEqual(untold_values(text), [])
+        self.assertEqual(undocumented_values(text), [])
         value = "<enumvalue><name>{}</name><briefdescription>{}</briefdescription><detaileddescription/></enumvalue>"
-        self.assertEqual(untold_values(f"<x>{value.format('a', '<para>A.</para>')}{value.format('b', '')}</x>"), ["b"])
+        self.assertEqual(undocumented_values(f"<x>{value.format('a', '<para>A.</para>')}{value.format('b', '')}</x>"), ["b"])
 
-    def test_what_is_not_documented_is_refused(self):
-        for what, text in UNTOLD.items():
+    def test_undocumented_entities_are_refused(self):
+        for what, text in UNDOCUMENTED.items():
             with tempfile.TemporaryDirectory() as folder:
                 header = Path(folder) / "x.hpp"
                 header.write_text(f"/// \\file\n/// X.\n/// Y.\nnamespace grove {{\n{text}\n}}\n")
@@ -68,6 +69,6 @@ if __name__ == "__main__":
     SOURCE, DOXYFILE, DOXYGEN = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
     del sys.argv[1:]
     if not DOXYGEN:
-        print("skipped: there is no doxygen")
+        print("skipped: doxygen is not installed")
         sys.exit(77)
     unittest.main()

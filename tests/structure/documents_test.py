@@ -1,26 +1,28 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs the commands that documents show.
+"""Runs the commands in documents.
 
-    documents_test.py ROOT BIN_DIR DOCUMENT...           what is quick
-    documents_test.py --slow ROOT BIN_DIR DOCUMENT...    also what is not
+    documents_test.py ROOT BIN_DIR DOCUMENT...           the quick blocks
+    documents_test.py --slow ROOT BIN_DIR DOCUMENT...    also the slow ones
 
-Commands are all lines of ```sh blocks and, of ```console blocks, those after "$ " (and "> ", where they go on).
-They run as if one typed the document into one shell, whose folder is a copy of the tree at ROOT, with BIN_DIR as
-build/release/bin; a block ends at the first command that fails.
+Commands are all lines of ```sh blocks and, in ```console blocks, the lines after "$ " (and after "> " on continuation
+lines).
+They run as if a user typed the document into one shell, whose folder is a copy of the tree at ROOT, with BIN_DIR as
+build/release/bin. A block ends at the first command that fails.
 
-What a ```console block shows below a command must be what the block prints, but for numbers and spaces; a line
-"..." stands for lines, "..." at the end of one for the rest of it.
+The output that a ```console block shows below a command must be printed by the block, except for numbers and white
+space. A line "..." stands for any lines, "..." at the end of a line for the rest of the line.
 
-A comment of its own line before a block says that it is left out, and why:
+A comment on a line of its own before a block leaves the block out and gives the reason:
 
-    <!-- slow: some ten minutes -->      only with --slow
-    <!-- not run: needs a cluster -->    never
+    <!-- slow: some ten minutes -->      runs only with --slow
+    <!-- not run: needs a cluster -->    never runs
 
-Without one a block may only name programs that do no harm to who runs the tests (HARMLESS). Commands of ours
-nowhere else: lines set in by blanks, and blocks of no language, may not begin with one.
+A block without such a comment may only call harmless programs (HARMLESS). Commands of Grove may not be in other
+places: no indented line, and no block without a language, may begin with one.
 
-Exit codes: 0 all ran, 1 one did not, 77 no program yet.
+Exit codes: 0 all blocks ran, 1 a block failed, 77 the programs are not built.
+
 """
 import argparse
 import os
@@ -33,7 +35,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 SKIPPED = 77
-SECONDS = {False: 120, True: 4 * 3600}  # of a block, by whether it may be slow
+SECONDS = {False: 120, True: 4 * 3600}  # time limit of a block, by whether it may be slow
 BLOCK = re.compile(r"(?:^<!-- (?P<mark>slow|not run): (?P<why>[^\n]+) -->\n\s*)?"
                    r"^```(?P<language>console|sh)[ ]*\n(?P<body>.*?)^```", re.M | re.S)
 HARMLESS = re.compile(r"(?:\w+=\S* )*(?:build/release/bin/)?(?:grove(?:-[\w-]+)?|mpirun|benchmarks/\w+\.py|"
@@ -42,13 +44,13 @@ SOURCES = {"cmake", "include", "mpi", "python", "src", "tests", "tools"}
 HIDDEN = re.compile(r"^ {4,}(?:\$ )?(?:build/release/bin/|benchmarks/\w+\.py|grove(?:-\w+)? |mpirun )[^\n]*|"
                     r"^```\n\s*\$ [^\n]*", re.M)
 HERE = re.compile(r"<<-?\s*'?(\w+)'?")
-# What mpirun minds: root, and fewer cores than ranks.
+# Permits mpirun to run as root, and with fewer cores than ranks.
 MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
 
 
 class Block(NamedTuple):
     script: str
-    shown: list  # lines of output
+    shown: list  # expected lines of output
     mark: str  # "", "slow" or "not run"
     line: int
 
@@ -56,11 +58,11 @@ class Block(NamedTuple):
 def script_and_output(language, body):
     if language == "sh":
         return body, []
-    script, shown, goes_on = [], [], False
+    script, shown, is_continued = [], [], False
     for line in body.splitlines():
-        if line.startswith("$ ") or (script and line.startswith("> ")) or goes_on:
-            script.append(line if goes_on else line[2:])
-            goes_on = line.endswith("\\")
+        if line.startswith("$ ") or (script and line.startswith("> ")) or is_continued:
+            script.append(line if is_continued else line[2:])
+            is_continued = line.endswith("\\")
         else:
             shown.append(line)
     return "".join(f"{line}\n" for line in script), shown
@@ -72,56 +74,57 @@ def blocks(document):
 
 
 def commands(script):
-    """The lines at which commands begin, without comments and the text of here-documents."""
-    found, goes_on, end = [], False, None
+    """Returns the lines at which commands begin, without comments and the text of here-documents."""
+    found, is_continued, end = [], False, None
     for line in script.splitlines():
         if end:
             end = None if line == end else end
         elif line.strip() and not line.lstrip().startswith("#"):
-            if not goes_on:
+            if not is_continued:
                 found.append(line.strip())
-            goes_on = line.endswith("\\")
+            is_continued = line.endswith("\\")
             if here := HERE.search(line):
                 end = here.group(1)
     return found
 
 
 def harmful(block):
-    """Of a block without a mark, a program that is not known to do no harm."""
+    """Returns a program of the block that is not in HARMLESS. Returns None if there is none."""
     parts = [part for command in commands(block.script) for part in re.split(r" (?:&&|\|\|?|;) ", command)]
     return next((part for part in parts if not HARMLESS.match(part)), None)
 
 
 def hidden(document):
-    """Commands that no test would run."""
+    """Returns commands that no test would run."""
     fenced = re.sub(r"^```\w+[ ]*\n.*?^```", "", document, flags=re.M | re.S)
     return [found.group().strip() for found in HIDDEN.finditer(fenced)]
 
 
-def bare(line):
-    """A line without what differs from run to run."""
+def normalised(line):
+    """Returns the line with numbers replaced by # and white space reduced, because these differ from run to run."""
     return re.sub(r"\d[\w.,]*", "#", " ".join(line.split()))
 
 
-def unsaid(shown, output):
-    """The first line shown that is none of the output."""
-    said = [bare(line) for line in output.splitlines()]
+def missing_line(shown, output):
+    """Returns the first line of `shown` that is not in the output. Returns None if all are."""
+    printed = [normalised(line) for line in output.splitlines()]
     for line in shown:
-        start = bare(line.removesuffix("..."))
-        if not any(each == start or (line.endswith("...") and each.startswith(start)) for each in said):
+        start = normalised(line.removesuffix("..."))
+        if not any(each == start or (line.endswith("...") and each.startswith(start)) for each in printed):
             return line
     return None
 
 
 def start_shell(folder):
-    """What the shell of a document knows: its folder and, after the first block, its variables."""
+    """Writes the state of a document's shell: its folder and, after the first block, its variables. Returns the
+    path."""
     state = folder / ".shell"
     state.write_text(f'export PATH="{folder}/build/release/bin:$PATH"\ncd "{folder}"\n', encoding="utf-8")
     return state
 
 
 def run(block, state):
-    """What went wrong, or nothing."""
+    """Returns what failed, or None."""
     seconds = SECONDS[block.mark == "slow"]
     script = f". {state}\nset -ev -o pipefail\n{block.script}\nset +v\n" \
         f"{{ export -p; printf 'cd %q\\n' \"$PWD\"; }} >{state}\n"
@@ -132,13 +135,14 @@ def run(block, state):
         return f"no end after {seconds} s:\n{block.script}"
     if done.returncode != 0:
         return f"exit {done.returncode}:\n{done.stdout}"
-    if line := unsaid([line for line in block.shown if line.strip()], done.stdout):
-        return f"shows '{line}', but what is printed is:\n{done.stdout}"
+    if line := missing_line([line for line in block.shown if line.strip()], done.stdout):
+        return f"shows '{line}', but the output is:\n{done.stdout}"
     return None
 
 
 def tree(root, programs, folder, may_build):
-    """A copy of the tree. Where nothing is built, programs and sources are only linked: no command writes there."""
+    """Makes a copy of the tree. If nothing is built, programs and sources are linked, because no command writes
+    there."""
     linked = set() if may_build else SOURCES
     left_out = {"build", ".git", "results"} | linked
     shutil.copytree(root, folder, symlinks=True,
@@ -190,8 +194,8 @@ def self_test():
     assert harmful(found[0]) is None and harmful(found[3]) == "rm x" and found[3].line == 21, found[3]
     assert harmful(Block("A=1 grove x | head -1 && cd y\ncat <<'END'\nrm\nEND\n# rm\n", [], "", 1)) is None
     assert harmful(Block("grove x && rm y\n", [], "", 1)) == "rm y"
-    assert unsaid(["some 3.5 s of output", "...", "so..."], "some 12 s of output\nso it is") is None
-    assert unsaid(["other 3.5 s"], "some 12 s") == "other 3.5 s"
+    assert missing_line(["some 3.5 s of output", "...", "so..."], "some 12 s of output\nso it is") is None
+    assert missing_line(["other 3.5 s"], "some 12 s") == "other 3.5 s"
     assert hidden("a\n    grove solve x\n    ls\n```sh\n    grove y\n```\n```\n$ z\n```\n") == ["grove solve x", "```\n$ z"]
     with tempfile.TemporaryDirectory() as name:
         state = start_shell(Path(name))
@@ -211,7 +215,7 @@ def main():
     self_test()
     root, programs = arguments.root.resolve(), arguments.programs.resolve()
     if not (programs / "grove").exists():
-        print(f"skipped: there is no {programs / 'grove'}")
+        print(f"skipped: {programs / 'grove'} is not built")
         return SKIPPED
     return 1 if sum(run_document(path.resolve(), root, programs, arguments.slow) for path in arguments.documents) else 0
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""A search for MPI that fails says why, and does not make the next one fail.
+"""Checks that a failed search for MPI reports the cause and does not make the next search fail.
 
     find_mpi_test.py SOURCES COMPILER MPICXX      MPICXX: the compiler wrapper of an MPI
+
 """
 import subprocess
 import sys
@@ -17,7 +18,7 @@ list(APPEND CMAKE_MODULE_PATH {sources}/cmake)
 include(GroveFindMpi)
 grove_find_mpi()
 """
-# What Open MPI says where no network interface is up.
+# Error of Open MPI on a machine without an active network interface.
 COMPLAINT = "opal_ifinit: unable to find network interfaces."
 
 
@@ -35,29 +36,29 @@ class FindMpi(unittest.TestCase):
         return path
 
     def configure(self, *options):
-        """The exit code, and what was said, on one line (CMake wraps messages)."""
+        """Returns the exit code and the error output, joined to one line (CMake wraps messages)."""
         done = subprocess.run(["cmake", "-S", self.folder, "-B", self.folder / "build", *options],
                               capture_output=True, text=True)
         return done.returncode, " ".join(done.stderr.split())
 
-    def test_complaint_is_quoted_and_the_next_search_succeeds(self):
+    def test_error_of_mpi_is_quoted_and_the_next_search_succeeds(self):
         wrapper = self.wrapper(f"echo '{COMPLAINT}' >&2")
-        code, said = self.configure("-D", f"CMAKE_CXX_COMPILER={COMPILER}", "-D", f"MPI_CXX_COMPILER={wrapper}")
+        code, errors = self.configure("-D", f"CMAKE_CXX_COMPILER={COMPILER}", "-D", f"MPI_CXX_COMPILER={wrapper}")
         self.assertNotEqual(code, 0)
         for words in (COMPLAINT, "ip link set lo up", "GROVE_WITH_MPI=OFF"):
-            self.assertIn(words, said)
+            self.assertIn(words, errors)
         self.wrapper("")
-        code, said = self.configure()
-        self.assertEqual(code, 0, said)
+        code, errors = self.configure()
+        self.assertEqual(code, 0, errors)
         used = (self.folder / "build/CMakeCache.txt").read_text()
-        self.assertIn(f"={wrapper}\n", used, "what the user gave is kept")
+        self.assertIn(f"={wrapper}\n", used, "the value of the user is kept")
 
-    def test_wrapper_that_fails_is_quoted(self):
+    def test_error_of_the_wrapper_is_quoted(self):
         wrapper = self.wrapper("echo 'no such thing' >&2; exit 1")
-        code, said = self.configure("-D", f"CMAKE_CXX_COMPILER={COMPILER}", "-D", f"MPI_CXX_COMPILER={wrapper}",
+        code, errors = self.configure("-D", f"CMAKE_CXX_COMPILER={COMPILER}", "-D", f"MPI_CXX_COMPILER={wrapper}",
                                     "-D", "MPI_ASSUME_NO_BUILTIN_MPI=ON", "-D", "MPI_SKIP_GUESSING=ON")
         self.assertNotEqual(code, 0)
-        self.assertIn(f"{wrapper} complains: no such thing", said)
+        self.assertIn(f"{wrapper} complains: no such thing", errors)
 
 
 if __name__ == "__main__":

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Every file includes what it names, itself or by headers of ours, so that it compiles alone and in
-any company. The compiler does not tell: it takes some sources as one, after headers that it has
-compiled before.
+"""Checks that every file includes what it names, itself or by headers of Grove, so that it compiles alone and after any
+other file. The compiler does not detect a missing include, because it compiles several sources as one and after
+precompiled headers.
 
     includes_test.py [ROOT]   checks the tree at ROOT, by default this one
+
 """
 import re
 import sys
@@ -14,7 +15,7 @@ from pathlib import Path
 from structure_test import CPP, ROOT, named_types, without_comments_and_strings
 
 FOLDERS = ["include", "src", "mpi", "tools", "python", "tests", "benchmarks"]
-# What is named as std::<name>, by header. (Not what every other header brings, as std::move.)
+# Names of std:: by header, without those that almost every header includes, such as std::move.
 STANDARD = {
     "algorithm": "any_of all_of binary_search clamp copy count count_if equal_range fill find find_if "
                  "lower_bound make_heap max max_element min min_element minmax none_of nth_element "
@@ -63,7 +64,7 @@ def standard_names(code):
 
 
 def other_names(code):
-    """Identifiers, but for those of members, other namespaces and tests."""
+    """Returns the identifiers, except those of members, other namespaces and tests."""
     code = re.sub(r"\b\w*TEST\w*\(\s*\w+,\s*\w+", "", code)
     return set(re.findall(r"(?:(?<![.>\w:])|\bgrove::(?:detail::)?)(\w+)", code))
 
@@ -86,13 +87,13 @@ class Tree:
                 self.defined_in.setdefault(name.split("::")[-1], set()).add(path)
 
     def included(self, path):
-        """The sources that `path` includes."""
+        """Yields the sources that `path` includes."""
         for name in re.findall(r'^\s*#\s*include\s*"([^"]+)"', self.texts[path], re.M):
             candidates = [folder / name for folder in (path.parent, self.root, self.root / "include", self.root / "src")]
             yield from (found for found in candidates if found in self.texts)
 
     def seen_by(self, path):
-        """`path`, and the sources that it includes, and those that they include."""
+        """Returns `path` and all sources that it includes, directly or indirectly."""
         seen, new = set(), {path}
         while new:
             seen |= new
@@ -100,7 +101,7 @@ class Tree:
         return seen
 
     def missing(self, path):
-        """What `path` names without an include: {name: headers that have it}."""
+        """Returns what `path` names without an include: {name: headers that define it}."""
         seen = self.seen_by(path)
         standard = {header for each in seen
                     for header in re.findall(r"^\s*#\s*include\s*<([^>]+)>", self.texts[each], re.M)}
@@ -121,7 +122,7 @@ class TheTree(unittest.TestCase):
 
 
 class TheCheck(unittest.TestCase):
-    def test_finds_what_is_missing(self):
+    def test_missing_includes_are_found(self):
         files = {"include/grove/a.h": "#include <vector>\nstruct A { std::vector<int> v; };",
                  "include/grove/b.h": '#include "grove/a.h"\nstruct B { A a; };',
                  "src/good.cpp": '#include "grove/b.h"\nA f(std::vector<B> b, C* c);  struct C;',

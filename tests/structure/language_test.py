@@ -25,7 +25,6 @@ WORDS = {
     r"anew": "again, re-plan",
     r"(?:give|gives|giving|gave|given) up": "evict, abort, stop",
     r"but for": "except",
-    r"aside": "except for, not counting",
     r"meanwhile": "in the meantime, concurrently",
     r"for want of": "because there is no",
     r"in hand": "in progress",
@@ -40,7 +39,7 @@ WORDS = {
     r"as a rule": "usually",
     r"likewise|and the like|by the same token": "also",
     r"essays?": "proof",
-    r"demands?": "constraint",
+    r"(?<!on )demands?": "constraint",
     r"obeys?|obeyed": "satisfies",
     r"crowd(?:s|ed|ing)?": "dense instance, congested",
 }

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Links between documents lead somewhere, and the README is one that people read.
+"""Checks that links between documents have a target, and that the README is short.
 
     links_test.py [ROOT]   checks the documents of the tree at ROOT, by default this one
+
 """
 import re
 import sys
@@ -17,7 +18,7 @@ LINK = re.compile(r"\]\(<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\)|^\[[^\]]+\]:\s*(\S+)|
 
 
 def prose(document):
-    """Without blocks of code, of which the lines stay, and without code in lines."""
+    """Returns the document without code in lines and with blocks of code replaced by empty lines."""
     without_blocks = FENCE.sub(lambda block: "\n" * block.group().count("\n"), document)
     return re.sub(r"(`+)(?!`).*?(?<!`)\1(?!`)", "", without_blocks)
 
@@ -27,7 +28,7 @@ def links(document):
 
 
 def anchor(heading):
-    """What GitHub calls a heading: lower case, blanks as '-', of signs only '-' and '_'."""
+    """Returns GitHub's anchor of a heading: lower case, spaces as '-', of other signs only '-' and '_'."""
     text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).replace("`", "").replace("*", "")
     return re.sub(r"[^\w\- ]", "", text.strip().lower()).replace(" ", "-")
 
@@ -42,7 +43,7 @@ def anchors(document):
 
 
 def dead(link, page, root):
-    """Why a link of `page` leads nowhere, or nothing. Those to other hosts are not looked at."""
+    """Returns why a link of `page` has no target, or None. Links to other hosts are not checked."""
     if re.match(r"[a-z][a-z0-9+.-]*:", link):
         return None
     target, _, name = link.partition("#")
@@ -60,39 +61,39 @@ def documents():
 
 
 class TheTree(unittest.TestCase):
-    def test_links_lead_somewhere(self):
+    def test_links_have_targets(self):
         for page in documents():
             for link in links(page.read_text(encoding="utf-8")):
                 with self.subTest(page=str(page.relative_to(ROOT)), link=link):
                     self.assertIsNone(dead(link, page, ROOT))
 
-    def test_the_index_knows_every_page(self):
+    def test_index_lists_every_page(self):
         index = ROOT / "docs/README.md"
         listed = {(index.parent / link.partition("#")[0]).resolve()
                   for link in links(index.read_text(encoding="utf-8")) if ":" not in link}
         for page in (ROOT / "docs").glob("*.md"):
             self.assertIn(page, listed | {index})
 
-    def test_the_readme_is_short(self):
+    def test_readme_is_short(self):
         self.assertLess(len((ROOT / "README.md").read_bytes()), README_BYTES)
 
-    def test_the_readme_fits_a_terminal(self):
+    def test_readme_fits_a_terminal(self):
         wide = [line for line in (ROOT / "README.md").read_text(encoding="utf-8").splitlines() if len(line) > COLUMNS]
         self.assertEqual(wide, [])
 
 
 class TheChecks(unittest.TestCase):
-    """They find what they are there to find."""
+    """Tests of the checks."""
 
-    def test_links(self):
+    def test_links_are_found(self):
         text = "[a](b.md#c) ![d](e.svg) `[f](g)` ``[h](`i`)``\n```sh\n[j](k)\n```\n<img src=\"l.png\"> [m](<n> \"o\")\n[p]: q\n"
         self.assertEqual(links(text), ["b.md#c", "e.svg", "l.png", "n", "q"])
 
-    def test_anchors(self):
+    def test_anchors_are_found(self):
         text = "# One `--two`, three!\n```\n# not this\n```\n## [Four](x.md) & *five*\n## One\n## One\n### One\n<a id=\"six\"></a>\n"
         self.assertEqual(anchors(text), {"one---two-three", "four--five", "one", "one-1", "one-2", "six"})
 
-    def test_dead_links(self):
+    def test_dead_links_are_found(self):
         page = ROOT / "README.md"
         for link in ("https://nowhere.example", "docs/README.md", "docs"):
             self.assertIsNone(dead(link, page, ROOT))

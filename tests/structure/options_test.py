@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The option table of docs/command-line.md is the program's.
+"""Checks that the option table of docs/command-line.md has the options of the program.
 
     options_test.py PAGE GROVE
 
-Every option of `grove solve --help` must stand in the table below "## Options of grove solve", and
-every option of that table in the help; so must every
-technique that `--without` knows. Exit codes: 0 the same, 1 not, 77 no program to ask.
+Every option of `grove solve --help` must be in the table below "## Options of grove solve", and every option of that
+table in the help. The same holds for the techniques of `--without`. Exit codes: 0 they agree, 1 they differ, 77 the
+program is not built.
+
 """
 import re
 import subprocess
@@ -42,7 +43,7 @@ def offered_techniques(program):
 def main():
     page, program = (Path(argument) for argument in sys.argv[1:])
     if not program.exists():
-        print(f"skipped: there is no {program}")
+        print(f"skipped: {program} is not built")
         return 77
     help_text = subprocess.run([program, "solve", "--help"], capture_output=True, text=True,
                                check=True).stdout

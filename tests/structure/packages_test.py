@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Everything that CMake looks for belongs to a Debian package of the right list.
+"""Checks that everything that CMake searches for belongs to a Debian package of the right list.
 
     packages_test.py [ROOT]   checks the tree at ROOT, by default this one
 
-The build looks only for packages of tools/packages, required or not: otherwise a package that is installed
-by chance changes what is built. Tests and benchmarks may also need packages of tools/packages.test, by which `tools/test` runs, and of
-tools/packages.test-all.
+The build searches only for packages of tools/packages, required or not: otherwise a package that happens to be
+installed would change what is built. Tests and benchmarks may also need packages of tools/packages.test, with which
+`tools/test` runs, and of tools/packages.test-all.
+
 """
 import re
 import sys
@@ -15,7 +16,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 
-# What CMake looks for, and the Debian packages that it is found with.
+# Debian packages by the name that CMake searches for.
 PACKAGES = {
     "fmt": ["libfmt-dev"],
     "nlohmann_json": ["nlohmann-json3-dev"],
@@ -46,13 +47,13 @@ PACKAGES = {
     "ccache": ["ccache"],
     "Doxygen": ["doxygen"],
 }
-# These make building faster or add a target of their own; what is built by default is the same without.
+# These speed up the build or add a separate target. The default build is the same without them.
 HARMLESS = {"ccache", "Doxygen"}
 FOR_TESTS = ("tests", "benchmarks")
 
 
-def looked_for(cmake):
-    """[(name, required)] of the calls in CMake's text that look for something."""
+def searched_names(cmake):
+    """Returns [(name, required)] of the calls in CMake's text that search for something."""
     code = re.sub(r"#[^\n]*", "", cmake)
     found = []
     for call, text in re.findall(r"\b(find_package|pkg_check_modules|pkg_search_module|find_program|find_library"
@@ -70,7 +71,7 @@ def looked_for(cmake):
 
 
 def packages_of(text):
-    """The packages of a list as tools/setup.sh reads it."""
+    """Returns the packages of a list as tools/setup.sh reads it."""
     return {line.split()[0] for line in text.splitlines() if line.strip() and not line.startswith("#")}
 
 
@@ -81,11 +82,11 @@ def default_of(cmake, option):
 
 class ThePackages(unittest.TestCase):
     def searches(self):
-        """(file, name, required) of the build; examples/ros2 is a project of its own."""
+        """Yields (file, name, required) of the build, without examples/ros2, which is a separate project."""
         files = [path for path in [*ROOT.rglob("CMakeLists.txt"), *ROOT.rglob("*.cmake")]
                  if not {"build", "ros2"} & set(path.relative_to(ROOT).parts)]
         for path in sorted(files):
-            for name, required in looked_for(path.read_text(encoding="utf-8")):
+            for name, required in searched_names(path.read_text(encoding="utf-8")):
                 yield path.relative_to(ROOT), name, required
 
     def listed(self, name):
@@ -96,20 +97,20 @@ class ThePackages(unittest.TestCase):
         self.assertGreater(len(names), 20)
         self.assertEqual(names ^ PACKAGES.keys(), set())
 
-    def test_the_build_looks_only_for_packages_of_its_list(self):
+    def test_build_searches_only_for_packages_of_its_list(self):
         build = self.listed("packages")
         for path, name, required in self.searches():
             if path.parts[0] not in FOR_TESTS and (required or name not in HARMLESS):
                 self.assertLessEqual(set(PACKAGES[name]), build, f"{path}: {name}")
 
-    def test_tests_look_only_for_packages_of_the_lists(self):
+    def test_tests_search_only_for_packages_of_the_lists(self):
         base = self.listed("packages") | self.listed("packages.test")
         for path, name, required in self.searches():
             needed = required and path.parts[0] == "tests"
             allowed = base if needed else base | self.listed("packages.test-all")
             self.assertLessEqual(set(PACKAGES[name]), allowed, f"{path}: {name}")
 
-    def test_tests_and_benchmarks_are_built_on_demand(self):
+    def test_tests_and_benchmarks_are_not_built_by_default(self):
         top = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
         self.assertEqual(default_of(top, "GROVE_BUILD_TESTS"), "OFF")
         self.assertEqual(default_of(top, "GROVE_BUILD_BENCHMARKS"), "OFF")
@@ -120,18 +121,18 @@ class ThePackages(unittest.TestCase):
 
 
 class TheChecks(unittest.TestCase):
-    """They find what they are there to find."""
+    """Tests of the checks."""
 
-    def test_searches(self):
+    def test_searches_are_found(self):
         text = """find_package(A 3.1 REQUIRED COMPONENTS X)  # find_package(No)
             pkg_check_modules(B REQUIRED IMPORTED_TARGET GLOBAL b-lib>=2 c)
             find_program(D_PROGRAM d HINTS /usr/bin)\nfind_library(E NAMES e REQUIRED)"""
-        self.assertEqual(looked_for(text), [("A", True), ("b-lib", True), ("c", True), ("d", False), ("e", True)])
+        self.assertEqual(searched_names(text), [("A", True), ("b-lib", True), ("c", True), ("d", False), ("e", True)])
 
-    def test_lists(self):
+    def test_lists_are_read(self):
         self.assertEqual(packages_of("# a list\ng++   # a compiler\n\ncmake\n"), {"g++", "cmake"})
 
-    def test_defaults(self):
+    def test_defaults_are_found(self):
         self.assertEqual(default_of('option(X "tests (all)" ${GTest_FOUND})', "X"), "${GTest_FOUND}")
         self.assertIsNone(default_of('option(XY "tests" OFF)', "X"))
 

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The C++ that a document shows compiles and, where it is no program of its own, runs.
+"""Checks that the C++ in a document compiles and, unless it is a complete program, runs.
 
     snippets_test.py DOCUMENT COMPILER LIBRARY INSTANCE INCLUDE_DIR...
 
-A ```cpp block with a main() is a program; the others are, one after the other, the body of one function,
-which is linked with LIBRARY, if that is there, and runs where INSTANCE is depot.cts.json. Programs that
-include mpi.hpp are left out where no INCLUDE_DIR has mpi.h.
+A ```cpp block with a main() is a program. The other blocks form, in order, the body of one function, which is linked
+with LIBRARY, if it exists, and runs in a folder where INSTANCE is depot.cts.json. Programs that include mpi.hpp are
+left out if no INCLUDE_DIR has mpi.h.
+
 """
 import re
 import shutil
@@ -25,7 +26,7 @@ int main() {
 
 
 def programs(document):
-    """Their sources, with the lines that they have in the document."""
+    """Returns the sources of the programs, with their line numbers in the document."""
     found, body = [], ""
     for match in BLOCK.finditer(document):
         line = document.count("\n", 0, match.start()) + 2
@@ -37,7 +38,7 @@ def programs(document):
 
 
 def complaints(compiler, folders, source, *options):
-    """Of the compiler; of headers none."""
+    """Returns the compiler's errors and warnings, without those in headers of Grove."""
     includes = [word for folder in folders for word in ("-isystem", folder)]
     done = subprocess.run([compiler, "-std=c++20", "-Wall", "-Wextra", "-Werror", "-Wno-unused-variable",
                            "-Wno-unused-but-set-variable", *includes, "-x", "c++", "-", *(options or ["-fsyntax-only"])],

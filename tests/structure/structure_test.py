@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The shape of the source tree: which layer may know which, and what no source may contain.
+"""Checks the structure of the source tree: which layer may include which, and what no source may contain.
 
     structure_test.py [ROOT]   checks the tree at ROOT, by default this one
+
 """
 import re
 import sys
@@ -10,7 +11,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-# Lowest first; each may use only those before it.
+# Lowest layer first. Each layer may use only those before it.
 LAYERS = ["model", "execution", "io", "sequencing", "planning", "joint", "lagrangian", "conflicts", "search", "proof", "primal", "baselines",
           "engine", "batch", "api", "mpi", "tools"]
 CODE_FOLDERS = ["include", "src", "mpi", "cluster", "examples", "python", "tools", "tests", "benchmarks"]
@@ -24,7 +25,7 @@ FORBIDDEN_IN_LIBRARIES = {
 
 
 def without_comments_and_strings(text):
-    """Keeps the lines and empties what is not code, but leaves the quotes of strings."""
+    """Returns the code with comments and the contents of strings removed; lines and quotes stay."""
     token = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"'
                        r"|(?<!\w)'(?:\\.|[^'\\\n])+'", re.S)
 
@@ -36,7 +37,7 @@ def without_comments_and_strings(text):
 
 
 def includes(text):
-    """The headers of layers that `text` includes: "search/global_bounds.h"."""
+    """Returns the headers of layers that `text` includes: "search/global_bounds.h"."""
     named = re.findall(r'^\s*#\s*include\s*"([\w./]+)"', text, re.M)
     return {name for name in named if name.split("/")[0] in LAYERS}
 
@@ -46,7 +47,7 @@ def layers_of(headers):
 
 
 def points_back(layer, included):
-    """Layers among `included` that `layer` must not know."""
+    """Returns the layers among `included` that `layer` must not include."""
     return {other for other in included if LAYERS.index(other) > LAYERS.index(layer)}
 
 
@@ -68,14 +69,14 @@ def has_license(text):
 
 
 def named_files(document):
-    """The sources that a document names, but for those of no real name: `mine.cpp`, `x_test.cpp`."""
+    """Returns the sources that a document names, except placeholders: `mine.cpp`, `x_test.cpp`."""
     named = re.findall(r"`(?:\./)?([\w./-]+\.(?:cpp|h|py|def|cmake))`", document)
     return [name for name in named if not re.match(r"(?:.*/)?(?:mine|my_\w*|x_\w+)\.", name)]
 
 
 def named_types(text, is_header):
-    """The types that `text` defines in a namespace with a name, or in none: "grove::Grid". Of
-    aliases those in headers."""
+    """Returns the types that `text` defines in a named namespace or in none: "grove::Grid". Aliases count only in
+    headers."""
     code = re.sub(r"^\s*#(?:[^\n\\]|\\\n)*", "", without_comments_and_strings(text), flags=re.M)
     found, scopes, start = [], [], 0
     for token in re.finditer(r"[{};]", code):
@@ -98,7 +99,7 @@ def named_types(text, is_header):
 
 
 def declared_depends(cmake):
-    """{layer: [layers it declares]} of the grove_layer() calls in a CMakeLists.txt."""
+    """Returns {layer: [layers it declares]} of the grove_layer() calls in a CMakeLists.txt."""
     code = re.sub(r"#[^\n]*", "", cmake)
     result = {}
     for name, body in re.findall(r"grove_layer\(\s*(\w+)(.*?)\)", code, re.S):
@@ -109,13 +110,13 @@ def declared_depends(cmake):
 
 
 def private_headers(cmake):
-    """The headers of all grove_private_headers() calls in a CMakeLists.txt."""
+    """Returns the headers of all grove_private_headers() calls in a CMakeLists.txt."""
     calls = re.findall(r"grove_private_headers\(([^)]*)\)", re.sub(r"#[^\n]*", "", cmake))
     return [header for call in calls for header in call.split()[1:]]
 
 
 def as_included(path):
-    """How sources include the header at `path`: "search/frontier.h"."""
+    """Returns how sources include the header at `path`: "search/frontier.h"."""
     return path.relative_to(ROOT / "src" if (ROOT / "src") in path.parents else ROOT).as_posix()
 
 
@@ -143,7 +144,7 @@ class TheTree(unittest.TestCase):
                 result |= declared_depends(path.read_text())
         return result
 
-    def test_there_is_something_to_check(self):
+    def test_sources_are_found(self):
         self.assertTrue(list(self.layer_sources("model")))
         self.assertIn("model", self.declared())
 
@@ -165,7 +166,7 @@ class TheTree(unittest.TestCase):
                 self.assertEqual(path.parent, ROOT / "include/grove", path)
                 self.assertTrue(path.name.endswith((".hpp", ".hpp.in")), path)
 
-    def test_the_public_interface_includes_nothing_else(self):
+    def test_public_interface_includes_no_other_header(self):
         for path, text in self.sources("include"):
             self.assertEqual(includes(text), set(), path)
 
@@ -218,7 +219,7 @@ class TheTree(unittest.TestCase):
         for path, text in self.sources("include", "src"):
             self.assertFalse(forbidden(text), path)
 
-    def test_documents_name_files_that_are_there(self):
+    def test_documents_name_existing_files(self):
         documents = [path for path in [*ROOT.glob("*.md"), *ROOT.glob("*/**/*.md")]
                      if not {"build", "results"} & set(path.relative_to(ROOT).parts)]
         there = ["/" + str(path.relative_to(ROOT)) for folder in (*CODE_FOLDERS, "cmake", "docs", "cluster")
@@ -238,14 +239,14 @@ class TheTree(unittest.TestCase):
 
 
 class TheChecks(unittest.TestCase):
-    """They find what they are there to find."""
+    """Tests of the checks."""
 
-    def test_includes(self):
+    def test_includes_are_found(self):
         self.assertEqual(includes('#include "io/x.h"\n#include <vector>\n#include "tests/y.h"\n'), {"io/x.h"})
         self.assertEqual(layers_of({"io/x.h", "mpi/batch/y.h"}), {"io", "mpi"})
         self.assertEqual(points_back("io", {"model", "io", "search"}), {"search"})
 
-    def test_forbidden(self):
+    def test_forbidden_calls_are_found(self):
         for text in ["exit(1);", "std::abort();", "std::cout << 1;", "std::fprintf(stderr, \"\");",
                      "printf(\"\");", "fmt::print(\"x\");", "int a;  // TODO: b"]:
             self.assertTrue(forbidden(text), text)
@@ -253,15 +254,15 @@ class TheChecks(unittest.TestCase):
                      "fmt::print(file, \"x\");", 'f("std::cout");', "1'000; exit_code(2);"]:
             self.assertFalse(forbidden(text), text)
 
-    def test_mpi(self):
+    def test_mpi_calls_are_found(self):
         self.assertTrue(names_mpi("MPI_Send(x);"))
         self.assertFalse(names_mpi("int x;  // unlike MPI_Send"))
 
-    def test_comments_and_strings(self):
+    def test_comments_and_strings_are_removed(self):
         self.assertEqual(without_comments_and_strings('a "b\\"c" d /* e\n */ f // g\n1\'0\'h'),
                          'a "" d \n f \n1\'0\'h')
 
-    def test_types(self):
+    def test_type_definitions_are_found(self):
         text = """#define X {
             namespace grove { class A; class B final : public A { struct Inner {}; };
             template <class T> requires std::is_trivial_v<T> struct C { int x{}; };
@@ -273,21 +274,21 @@ class TheChecks(unittest.TestCase):
         self.assertEqual(named_types(text, False), types)
         self.assertEqual(named_types(text, True), types[:2] + ["grove::D"] + types[2:])
 
-    def test_depends(self):
+    def test_dependencies_are_found(self):
         cmake = "grove_layer(b SOURCES x.cpp DEPENDS a model\n LINK_PUBLIC y)\n# grove_layer(c)\n"
         self.assertEqual(declared_depends(cmake), {"b": ["a", "model"]})
         self.assertEqual(declared_depends("grove_layer(a SOURCES x)"), {"a": []})
         self.assertEqual(closure("c", {"c": ["b"], "b": ["a"]}), {"a", "b", "c"})
 
-    def test_private_headers(self):
+    def test_private_headers_are_found(self):
         cmake = "grove_private_headers(io\n  a.h b.h)  # c.h\ngrove_layer(io)\ngrove_private_headers(x s/d.h)"
         self.assertEqual(private_headers(cmake), ["a.h", "b.h", "s/d.h"])
 
-    def test_named_files(self):
+    def test_named_files_are_found(self):
         text = "`search/global_bounds.cpp`, `./a.py`; `conflicts/mine.cpp`, `x_test.cpp`, `FILE.map`, a.cpp"
         self.assertEqual(named_files(text), ["search/global_bounds.cpp", "a.py"])
 
-    def test_license(self):
+    def test_license_line_is_found(self):
         self.assertTrue(has_license("#!/bin/sh\n# SPDX-License-Identifier: MIT\n"))
         self.assertFalse(has_license("int a;\n"))
 

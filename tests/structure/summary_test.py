@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""tests/summary.py: what it prints of CTest's results.   summary_test.py SOURCES"""
+"""Tests what tests/summary.py prints for results of CTest.   summary_test.py SOURCES"""
 import subprocess
 import sys
 import tempfile
@@ -49,11 +49,11 @@ PASSED = case("io.reads", "run", "fine")
 
 
 class Summary(unittest.TestCase):
-    def test_counts_and_exits_with_0_if_none_failed(self):
+    def test_exit_code_is_0_if_no_test_failed(self):
         run = summarise(PASSED, PASSED)
         self.assertEqual((run.returncode, run.stdout.split("\n")[-2]), (0, "2 passed, 0 failed, 0 skipped"))
 
-    def test_shows_the_last_lines_of_a_failed_test(self):
+    def test_last_lines_of_a_failed_test_are_shown(self):
         lines = "\n".join(f"line {number}" for number in range(100))
         run = summarise(PASSED, case("io.writes", "fail", lines))
         self.assertEqual((run.returncode, run.stdout.split("\n")[-2]), (1, "1 passed, 1 failed, 0 skipped"))
@@ -61,7 +61,7 @@ class Summary(unittest.TestCase):
         self.assertIn("line 99\n", run.stdout)
         self.assertNotIn("line 9\n", run.stdout)
 
-    def test_says_why_tests_were_skipped(self):
+    def test_reasons_of_skipped_tests_are_shown(self):
         run = summarise(PASSED, case("view.types", "notrun", "no tsc", "SKIP_RETURN_CODE=77"),
                         case("io.maps", "notrun", "[ RUN ] x\na_test.cpp:3: Skipped\nno maps\n\n[  SKIPPED ] x",
                              "SKIP_REGULAR_EXPRESSION_MATCHED"))
@@ -69,13 +69,13 @@ class Summary(unittest.TestCase):
         self.assertIn("view.types: no tsc\n", run.stdout)
         self.assertIn("io.maps: no maps\n", run.stdout)
 
-    def test_counts_the_cases_of_a_googletest_program(self):
+    def test_cases_of_a_googletest_program_are_counted(self):
         run = summarise(PASSED, case("io_test", "fail", GTEST))
         self.assertEqual((run.returncode, run.stdout.split("\n")[-2]), (1, "3 passed, 1 failed, 1 skipped"))
         self.assertIn("FAILED release: io_test.Maps.Writes\n    a_test.cpp:3: Failure\n    Expected: 1\n", run.stdout)
         self.assertIn("skipped release: io_test.Kinds/Maps.Real/0: no maps\n", run.stdout)
 
-    def test_a_googletest_program_that_ends_early_has_failed(self):
+    def test_googletest_program_that_ends_early_has_failed(self):
         for kept, passed, name in (("[ RUN      ] Maps.Writes\n", 1, "io_test.Maps.Writes"),
                                    ("[----------] 5 tests from Maps\n", 0, "io_test")):
             run = summarise(case("io_test", "fail", GTEST[:GTEST.index(kept) + len(kept)] + "Segmentation fault"))
@@ -83,16 +83,16 @@ class Summary(unittest.TestCase):
             self.assertIn(f"FAILED release: {name}\n", run.stdout)
             self.assertIn("    Segmentation fault\n", run.stdout)
 
-    def test_a_googletest_program_that_fails_after_its_cases_has_failed(self):
+    def test_googletest_program_that_fails_after_its_cases_has_failed(self):
         run = summarise(case("io_test", "fail", GTEST[:GTEST.index("[ RUN      ] Maps.Writes")] + "ERROR: LeakSanitizer"))
         self.assertEqual((run.returncode, run.stdout.split("\n")[-2]), (1, "1 passed, 1 failed, 0 skipped"))
         self.assertIn("FAILED release: io_test\n", run.stdout)
 
-    def test_a_program_that_could_not_be_started_has_failed(self):
+    def test_program_that_could_not_be_started_has_failed(self):
         run = summarise(PASSED, case("io.gone", "notrun", "", "Unable to find executable"))
         self.assertEqual((run.returncode, run.stdout.split("\n")[-2]), (1, "1 passed, 1 failed, 0 skipped"))
 
-    def test_no_test_at_all_is_a_failure(self):
+    def test_run_without_tests_is_a_failure(self):
         self.assertEqual(summarise().returncode, 1)
 
 

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""The test case of programs that run under mpirun."""
+"""Provides the test case of programs that run under mpirun."""
 import functools
 import unittest
 
-# Open MPI 4 sometimes prints this for a job whose ranks all ended well (open-mpi/ompi, issue 7833), and
+# Open MPI 4 sometimes prints this for a job whose ranks all succeeded (open-mpi/ompi, issue 7833), and
 # always when a rank ends without MPI_Finalize.
 LOST_BY_MPIRUN = "mpirun has exited due to process rank"
 
 
 class MpiTest(unittest.TestCase):
-    """A test that fails because mpirun took a rank for lost is set up and run once more."""
+    """Test case whose tests run a second time if they failed because mpirun reported a lost rank."""
 
     def __init_subclass__(cls, **more):
         super().__init_subclass__(**more)

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""How tests of programs wait: for an event, never for a time."""
+"""Waits in tests of programs: for an event, never for a fixed time."""
 import time
 from pathlib import Path
 
-HANG_S = 300  # ends a test that hangs; on the busiest machine no event takes so long
+HANG_S = 300  # ends a test that hangs; no event takes as long, even on a busy machine
 LOOK_S = 0.02
 
 
 def wait_until(what, condition, process=None):
-    """Returns what condition() returned as soon as that is true. Fails if `process` ends before, or nothing
-    happens."""
+    """Returns the result of condition() as soon as it is true. Fails if `process` ends before, or after HANG_S
+    seconds."""
     end = time.monotonic() + HANG_S
     while not (found := condition()):
         if process is not None and process.poll() is not None and not (found := condition()):
@@ -23,7 +23,7 @@ def wait_until(what, condition, process=None):
 
 
 def text_of(path):
-    """The content of a file as far as it is written; empty before it is there."""
+    """Returns the content of a file as far as it is written; empty if it does not exist yet."""
     try:
         return Path(path).read_text(encoding="utf-8")
     except FileNotFoundError:
@@ -31,7 +31,7 @@ def text_of(path):
 
 
 def state_of(pid):
-    """The state of a process, a letter: R, S, T (stopped), Z; None when it is gone."""
+    """Returns the state letter of a process: R, S, T (stopped), Z and others. Returns None if it has ended."""
     try:
         return Path(f"/proc/{pid}/stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()[0]
     except OSError:
@@ -39,8 +39,8 @@ def state_of(pid):
 
 
 def progress_of(pid):
-    """Grows as long as a process goes on: how often its first thread has slept, and its hundredths of a second on
-    a processor."""
+    """Returns a number that grows while a process runs: the voluntary context switches of its first thread plus its
+    processor time in hundredths of a second."""
     status, stat = text_of(f"/proc/{pid}/status"), text_of(f"/proc/{pid}/stat")
     if not stat:
         raise AssertionError(f"process {pid} is gone")

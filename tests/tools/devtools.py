@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""A headless Chromium that does what it is told: pages are opened, played with, measured and seen.
+"""Drives a headless Chromium: opens pages, sends input, evaluates scripts and takes screenshots.
 
-Chromium speaks the DevTools protocol over a pair of pipes, in JSON, each message ended by a zero.
+Uses the DevTools protocol over a pair of pipes: JSON messages, each ended by a zero byte.
 """
 
 import base64
@@ -25,13 +25,13 @@ CHROMIUM = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chro
 
 
 class Visit(NamedTuple):
-    console: list     # what the browser said of the page
-    requests: list    # URLs that went to the network, or would have
-    picture: object   # what is seen
+    console: list     # console messages, exceptions and log entries
+    requests: list    # URLs of network requests, sent or blocked
+    picture: object   # screenshot as an RGB image
 
 
 def shares(picture):
-    """{colour: share of the picture}"""
+    """Returns {colour: share of the pixels of that colour}."""
     return {colour: count / (picture.width * picture.height)
             for count, colour in picture.getcolors(1 << 24)}
 
@@ -40,16 +40,16 @@ def is_blank(picture):
     return max(shares(picture).values()) > 0.999
 
 
-# A page paints in its own frames, which were asked for before this one.
-SETTLED = "new Promise((done) => requestAnimationFrame(() => setTimeout(done)))"
+# Resolves after the next frame; a page requests its own frames before this one.
+PAINTED = "new Promise((done) => requestAnimationFrame(() => setTimeout(done)))"
 
 
 class NoAnswer(AssertionError):
-    """For as long as the test has patience."""
+    """Reports that Chromium did not answer within HANG_S seconds."""
 
 
 class Chromium:
-    """A browser with one page. Use as a context manager."""
+    """Runs a browser with one page. Use as a context manager."""
 
     def __init__(self, *options):
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
@@ -62,8 +62,8 @@ class Chromium:
         command = [CHROMIUM, "--headless", "--no-first-run", "--remote-debugging-pipe", "--hide-scrollbars",
                    f"--user-data-dir={self.folder.name}", "--host-resolver-rules=MAP * ~NOTFOUND",
                    *(["--no-sandbox"] if os.getuid() == 0 else []), *(options or ["--disable-gpu"]), "about:blank"]
-        # Both ends keep clear of 3 and 4, which connect() puts in their place.
-        # A session of its own: with it end the browser's own children, who would keep our output open.
+        # close_fds=False keeps descriptors 3 and 4, which connect() sets.
+        # A new session: killing its process group also ends the children of the browser, which keep our output open.
         self.process = subprocess.Popen(command, preexec_fn=connect, close_fds=False, start_new_session=True,
                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(to_it[0])
@@ -89,7 +89,7 @@ class Chromium:
         self.folder.cleanup()
 
     def message(self, seconds=HANG_S):
-        """The next one from the browser; None: there is none for so long."""
+        """Returns the next message of the browser, or None if none arrives within `seconds` seconds."""
         end = time.monotonic() + seconds
         while b"\0" not in self.buffer:
             if not select.select([self.read], [], [], max(0, end - time.monotonic()))[0]:
@@ -104,7 +104,7 @@ class Chromium:
         return found
 
     def note(self, found):
-        """What a page says and asks for."""
+        """Records console output and network requests of the page."""
         method, what = found.get("method"), found.get("params", {})
         if method == "Runtime.consoleAPICalled":
             self.console.append(" ".join(str(a.get("value", a.get("description"))) for a in what["args"]))
@@ -134,8 +134,8 @@ class Chromium:
             return found["result"]
 
     def open(self, page, fragment="", size=(1280, 800)):
-        """Opens a file and waits until it is loaded and at work; seconds that took."""
-        self.call("Page.navigate", url="about:blank")  # or another fragment would not load it anew
+        """Opens a file, waits until it is loaded and returns the seconds that this took."""
+        self.call("Page.navigate", url="about:blank")  # because a change of the fragment alone does not reload a page
         self.console.clear()
         self.requests.clear()
         self.resize(*size)
@@ -148,17 +148,17 @@ class Chromium:
         return time.monotonic() - before
 
     def settle(self):
-        """Until what has changed is painted."""
-        self.evaluate(SETTLED)
+        """Waits until all changes are painted."""
+        self.evaluate(PAINTED)
 
     def visit(self, page, fragment="", size=(1280, 800)):
-        """What is said, asked of the network and seen when a page is opened."""
+        """Opens a page and returns its console output, its network requests and a screenshot."""
         self.open(page, fragment, size)
         self.settle()
         return Visit(list(self.console), list(self.requests), self.look())
 
     def prefer(self, **features):
-        """Media features: prefers_color_scheme="dark"."""
+        """Sets media features, such as prefers_color_scheme="dark"."""
         self.call("Emulation.setEmulatedMedia", features=[{"name": name.replace("_", "-"), "value": value}
                                                           for name, value in features.items()])
 
@@ -172,11 +172,11 @@ class Chromium:
         return found["result"].get("value")
 
     def wait_until(self, what, condition):
-        """Lets the page go on until condition(); hears what it says."""
+        """Waits until condition() holds and processes messages of the page in the meantime."""
         end = time.monotonic() + HANG_S
         while not condition():
             if time.monotonic() > end:
-                raise AssertionError(f"after {HANG_S} s still not: {what}")
+                raise AssertionError(f"after {HANG_S} s the condition does not hold: {what}")
             self.message(LOOK_S)
 
     def key(self, key):
@@ -202,6 +202,6 @@ class Chromium:
         return base64.b64decode(self.call("Page.captureScreenshot")["data"])
 
     def look(self):
-        """What is seen, as an image."""
-        from PIL import Image  # Debian's Python has it
+        """Returns a screenshot as an RGB image."""
+        from PIL import Image  # Debian package python3-pil
         return Image.open(io.BytesIO(self.shot())).convert("RGB")

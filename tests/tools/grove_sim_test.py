@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The command line of grove-sim: its table, and what it refuses.
+"""Tests the command line of grove-sim: its tables and the inputs that it refuses.
 
     grove_sim_test.py GROVE_SIM
 """
@@ -17,7 +17,7 @@ DATA = Path(__file__).resolve().parents[2] / "benchmarks/data"
 EASY = DATA / "rooms-32x32_n5_m10.cts.json"
 LONG = DATA / "rooms-32x32_n10_m30.cts.json"
 ONE_WAY = DATA / "yard.cts.json"
-OPTIMAL = ["--omega", 0, "--cost-per-work", 1e-7]
+OPTIMAL = ["--omega", 0, "--seconds-per-work", 1e-7]
 
 
 class GroveSim(unittest.TestCase):
@@ -40,7 +40,7 @@ class GroveSim(unittest.TestCase):
         for text in because:
             self.assertIn(text, done.stderr)
 
-    def test_a_row_for_each_number_of_ranks(self):
+    def test_table_has_a_row_for_each_number_of_ranks(self):
         rows = self.rows(LONG, *OPTIMAL, "--ranks", "1,2,5", "--output", "table.csv", "--profile", "profile.csv")
         self.assertEqual([row["ranks"] for row in rows], ["1", "2", "5"])
         self.assertGreater(int(rows[0]["nodes"]), 0)
@@ -56,38 +56,43 @@ class GroveSim(unittest.TestCase):
         with (self.folder / "profile.csv").open(newline="") as file:
             self.assertEqual({row["ranks"] for row in csv.DictReader(file)}, {"1", "2", "5"})
 
-    def test_one_rank_to_compare_with_has_no_row_unless_asked_for(self):
+    def test_single_rank_has_no_row_unless_requested(self):
         row, = self.rows(EASY, *OPTIMAL, "--ranks", 3)
         self.assertEqual(row["ranks"], "3")
 
-    def test_given_what_work_costs_it_repeats_itself(self):
+    def test_runs_with_seconds_per_work_are_repeatable(self):
         first, second = (self.rows(LONG, *OPTIMAL, "--ranks", "2,4") for _ in range(2))
         self.assertEqual(first, second)
 
-    def test_what_a_limit_strikes_is_unfinished(self):
+    def test_runs_that_reach_the_time_limit_are_unfinished(self):
         rows = self.rows(LONG, *OPTIMAL, "--ranks", "1,2", "--primal-steps", 0, "--time-limit", 0)
         self.assertEqual([row["status"] for row in rows], ["unfinished"] * 2)
 
-    def test_work_costs_what_it_takes_here(self):
-        done = self.run_it(LONG, "--omega", 0, "--ranks", 1)
-        self.assertRegex(done.stderr, r"grove-sim: --cost-per-work \d")
+    def test_old_name_of_seconds_per_work_is_accepted(self):
+        old, new = (self.rows(EASY, "--omega", 0, name, 1e-7, "--ranks", 2)
+                    for name in ("--cost-per-work", "--seconds-per-work"))
+        self.assertEqual(old, new)
 
-    def test_where_nothing_is_expanded_there_is_a_table_too(self):
+    def test_seconds_per_work_are_measured_by_default(self):
+        done = self.run_it(LONG, "--omega", 0, "--ranks", 1)
+        self.assertRegex(done.stderr, r"grove-sim: --seconds-per-work \d")
+
+    def test_table_is_written_without_expanded_nodes(self):
         rows = self.rows(EASY, "--omega", 1, "--ranks", "1,2", "--output", "table.csv")
         self.assertEqual([(row["nodes"], float(row["nodes_overhead"])) for row in rows], [("0", 0)] * 2)
         self.assertTrue((self.folder / "table.csv").exists())
 
-    def test_instances_that_name_files_elsewhere_are_refused_if_asked(self):
+    def test_confine_refuses_absolute_paths(self):
         elsewhere = self.folder / "i.cts.json"
         elsewhere.write_text(json.dumps(json.loads(EASY.read_text()) | {"map": str(DATA / "rooms-32x32.map")}))
         self.refuses(elsewhere, "--confine", because=["/map", "is an absolute path"])
 
-    def test_refusals(self):
+    def test_wrong_arguments_are_refused(self):
         self.refuses("missing.cts.json", because=["missing.cts.json"])
         self.refuses(EASY, "--ranks", "0", because=["--ranks"])
         self.refuses(EASY, "--ranks", "2;3", because=["--ranks"])
         self.refuses(EASY, "--latency", "-1", because=["--latency"])
-        self.refuses(ONE_WAY, "--method", "hcbs", because=[ONE_WAY.name, "method hcbs", "one way"])
+        self.refuses(ONE_WAY, "--method", "hcbs", because=[ONE_WAY.name, "method hcbs", "two-way roads"])
         self.refuses(EASY, "--method", "cts-cbs-a", because=["cts-cbs-a"])
         self.refuses(EASY, "--output", "no/such/table.csv", because=["no/such"])
 

@@ -200,7 +200,7 @@ void run(const CLI::App& app, BenchArguments& a) {
   stop_on_signals();
   batch::ProgressDisplay display(stderr_style());
   bench::BenchOptions options;
-  options.program = "/proc/self/exe";  // this program, even if the file was replaced meanwhile
+  options.program = "/proc/self/exe";  // this program, even if the file has been replaced
   options.folder = a.output_dir;
   options.jobs = jobs;
   options.keep_plans = a.keep_plans;

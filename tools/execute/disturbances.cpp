@@ -58,11 +58,11 @@ void Disturbances::read_stops(const DisturbanceArguments& arguments, const Insta
              parse_integer("--stop", text.substr(at + 1, split - at - 1), kPlanSteps)),
          static_cast<Time>(parse_integer("--stop", text.substr(split + 1), kPlanSteps))});
   }
-  for (const std::string& text : arguments.dies) {
+  for (const std::string& text : arguments.failures) {
     const auto at = text.rfind('@');
-    if (at == std::string::npos) refuse("--dies", text, "ROBOT@TIME");
-    stops_.push_back({robot_of("--dies", text, text.substr(0, at), instance),
-                      static_cast<Time>(parse_integer("--dies", text.substr(at + 1), kPlanSteps)),
+    if (at == std::string::npos) refuse("--fail", text, "ROBOT@TIME");
+    stops_.push_back({robot_of("--fail", text, text.substr(0, at), instance),
+                      static_cast<Time>(parse_integer("--fail", text.substr(at + 1), kPlanSteps)),
                       kNever});
   }
 }

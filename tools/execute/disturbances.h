@@ -17,7 +17,7 @@ struct DisturbanceArguments {
   std::int64_t delay_steps = 3;   // maximum delay of such an action
   std::vector<std::string> slow;  // ROBOT=FACTOR
   std::vector<std::string> stop;  // ROBOT@TIME=STEPS
-  std::vector<std::string> dies;  // ROBOT@TIME
+  std::vector<std::string> failures;  // ROBOT@TIME
 };
 
 // The same as numbers, for the robots of an instance.

@@ -44,19 +44,19 @@ With --switch a robot that has waited for another one for some steps goes first 
 next, if that reduces the expected sum of finish times. The order stays free of cycles. The table
 then has both executions, with the same delays.
 
-Every execution is checked like a plan, from its paths. If robots fail (--dies), the others continue
+Every execution is checked like a plan, from its paths. If robots fail (--fail), the others continue
 as far as they can, and the output lists which robot waits for which. With --runs, each execution
 has other delays; the table has the median and the worst value of each column, over the executions
 that end.
 
---stop and --dies are independent of other delays; several stops of a robot add up. In the plan that
+--stop and --fail are independent of other delays; several stops of a robot add up. In the plan that
 --output writes, a robot whose action took longer waits before that action.
 
 Examples:
   grove execute my.cts.json my.plan.json --delays 0.1 --runs 1000
   grove execute my.cts.json my.plan.json --slow r3=1.5 --stop r5@20=60 --view driven.html
   grove execute my.cts.json my.plan.json --delays 0.1 --stop r5@20=60 --runs 100 --switch
-  grove execute my.cts.json my.plan.json --dies r3@12
+  grove execute my.cts.json my.plan.json --fail r3@12
   grove execute my.cts.json my.plan.json --order order.json)";
 
 struct ExecuteArguments {
@@ -261,7 +261,9 @@ void add_execute_command(CLI::App& app) {
                "robot whose actions take FACTOR times as long (repeatable)");
   add_repeated(*command, "--stop", t.stop, "ROBOT@TIME=STEPS",
                "robot that stops at TIME for STEPS steps (repeatable)");
-  add_repeated(*command, "--dies", t.dies, "ROBOT@TIME",
+  add_repeated(*command, "--dies", t.failures, "ROBOT@TIME", "deprecated name of --fail")
+      ->group("");
+  add_repeated(*command, "--fail", t.failures, "ROBOT@TIME",
                "robot that fails at TIME and does not move again (repeatable)");
   command->add_flag("--switch", arguments->switches,
                     "let a robot that waits for a late one go first if that saves time");

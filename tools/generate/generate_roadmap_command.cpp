@@ -25,9 +25,10 @@ that do not cross (the Gabriel graph). Roads that are the only connection betwee
 two-way, whatever --one-way is.
 
 warehouse: one-way aisles of alternating direction, with slots a0s0, a0s1, ... for tasks. A cross
-aisle has two lanes, one for each direction, which meet the aisles at c0e0, ... (eastbound) and c0w0,
-... (westbound). Parking bays p0, p1, ... are beside the outermost lanes, joined to them at g0, g1,
-...; a robot at rest there does not block other robots. The defaults make 400 slots and 114 bays.
+aisle has two lanes, one for each direction, which meet the aisles at c0e0, ... (eastbound) and
+c0w0, ... (westbound). Parking bays p0, p1, ... are beside the outermost lanes, joined to them at
+g0, g1, ...; a robot at rest there does not block other robots. The defaults make 400 slots and 114
+bays.
 
 Examples:
   grove generate roadmap --kind planar --vertices 200 --one-way 30 --seed 1 -o town.roadmap.json

@@ -44,7 +44,7 @@ class GrowingFile {
     std::ifstream file(path_, std::ios::binary);
     file.seekg(0, std::ios::end);
     const std::streamoff size = file ? std::streamoff(file.tellg()) : 0;
-    look_whether_it_began_anew(file, size);
+    check_for_restart(file, size);
     Part part{std::to_string(number_), "", 0, size};
     if (name == part.name) part.end = std::min(from, size);
     part.text.resize(static_cast<std::size_t>(std::min(size - part.end, kMostAtOnce)));
@@ -56,7 +56,7 @@ class GrowingFile {
   }
 
  private:
-  void look_whether_it_began_anew(std::ifstream& file, std::streamoff size) {
+  void check_for_restart(std::ifstream& file, std::streamoff size) {
     std::string beginning(static_cast<std::size_t>(std::min<std::streamoff>(size, kBeginning)),
                           ' ');
     file.seekg(0);

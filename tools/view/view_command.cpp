@@ -51,9 +51,9 @@ execution.
 splits, memory, ranks and, with --log-tree, the trees. With --follow it is shown during the run, to
 browsers on this machine.
 
---proof shows a certificate of a lower bound (docs/proof.md), as 'grove solve --proof' writes it: its
-splits, why no plan is lost, and what each part relies on, with places on the map; with PLAN, also
-the distance of its cost to the bound. The page does not check the certificate; grove-verify does.
+--proof shows a certificate of a lower bound (docs/proof.md), as 'grove solve --proof' writes it:
+its splits, why no plan is lost, and what each part relies on, with places on the map; with PLAN,
+also the distance of its cost to the bound. The page does not check the certificate; grove-verify does.
 
 --svg, --png and --gif write pictures of the first plan instead, without a browser: SVG and PNG show
 the moments --at side by side, GIF plays the whole plan.

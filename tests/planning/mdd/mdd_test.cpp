@@ -41,12 +41,12 @@ class Walks {
         members_(members_of(problem.work, static_cast<int>(problem.stops.size()))),
         cost_(cost) {
     walk_.push_back(problem.start);
-    if (!rules_.barred(problem.start, 0)) go_on();
+    if (!rules_.barred(problem.start, 0)) extend();
   }
   const Paths& found() const { return found_; }
 
  private:
-  void go_on() {
+  void extend() {
     const auto time = static_cast<Time>(walk_.size());
     if (time > cost_) {
       if (is_path()) found_.insert(walk_);
@@ -59,7 +59,7 @@ class Walks {
   void step(Cell to, Time time) {
     if (rules_.barred(to, time)) return;
     walk_.push_back(to);
-    go_on();
+    extend();
     walk_.pop_back();
   }
 

@@ -65,7 +65,7 @@ TEST_F(ScarceFrontier, KeepsItsNodesWhenPushFails) {
 TEST_F(ScarceFrontier, KeepsItsNodesWhenTakeFails) {
   const int failures = fail_everywhere(
       [](Frontier& frontier, const NodePtr& taken) {
-        frontier.settle(taken);
+        frontier.complete(taken);
         frontier.take();
       },
       [](const Frontier& frontier) { return frontier.bound() == 5 && frontier.open() == 1; });
@@ -83,7 +83,7 @@ TEST_F(ScarceFrontier, KeepsItsBoundWhenRestartFails) {
   const std::vector<NodePtr> roots{node(1), node(2), node(6)};
   const int failures = fail_everywhere(
       [&](Frontier& frontier, const NodePtr& taken) {
-        frontier.settle(taken);
+        frontier.complete(taken);
         frontier.evict(1);
         frontier.restart(roots, frontier.evicted_bound());
       },

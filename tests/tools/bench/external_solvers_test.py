@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""grove bench --solver, beside solvers that are honest, boastful and broken (fake_solver.py); and sweeps."""
+"""Tests `grove bench --solver` with correct, wrong and failing solvers (fake_solver.py), and sweeps over scenarios."""
 import json
 import os
 import re
@@ -36,7 +36,7 @@ class ExternalSolverTests(Program):
         path.write_text(f"type octile\nheight {WIDTH}\nwidth {WIDTH}\nmap\n" + f"{letter * WIDTH}\n" * WIDTH)
 
     def add_scenario(self, name, agents, map_name="open.map"):
-        """One agent in each row, from the left to the right."""
+        """Writes a scenario with one agent in each row, from the left to the right."""
         path = self.folder / "maps" / f"{name}.scen"
         path.write_text("version 1\n" + "".join(
             f"0\t{map_name}\t{WIDTH}\t{WIDTH}\t0\t{y}\t{WIDTH - 1}\t{y}\t7\n" for y in range(agents)))
@@ -52,9 +52,9 @@ class ExternalSolverTests(Program):
                 "--quiet", *more]
 
     def row_of(self, kind, *more, limit=5, adapter="fake.json"):
-        """Grove's row and its own, of two agents; what was said stands in self.said."""
+        """Checks the row of Grove and returns that of the solver, for two agents; keeps the output in self.output."""
         self.add_scenario("open-random-1", 3)
-        self.said = self.run_well(*self.sweep(*more, solvers=[self.solver(kind, adapter)], limit=limit))
+        self.output = self.run_well(*self.sweep(*more, solvers=[self.solver(kind, adapter)], limit=limit))
         rows = self.rows()
         self.assertEqual(len(rows), 2)
         grove = rows["open-random-1-2", "grove"]
@@ -62,18 +62,18 @@ class ExternalSolverTests(Program):
         return rows["open-random-1-2", kind]
 
     def summary(self):
-        """{method: {column: cell}} of what was said."""
-        lines = self.said.splitlines()
+        """Returns {method: {column: cell}} of the output."""
+        lines = self.output.splitlines()
         header = ["method", *lines[0].replace("median s", "median").split()[1:]]
         cells = [line.split() for line in lines[1:] if len(line.split()) == len(header) and ":" not in line]
         return {row[0]: dict(zip(header, row)) for row in cells}
 
 
 class Solvers(ExternalSolverTests):
-    def test_an_honest_one(self):
+    def test_correct_solver_is_feasible_with_checked_cost(self):
         row = self.row_of("honest", "--keep-plans")
         self.assertEqual((row["status"], row["solved"], row["cost"], row["error"]), ("feasible", True, 14, None))
-        self.assertIsNone(row["lower_bound"])  # nobody has re-checked that
+        self.assertIsNone(row["lower_bound"])  # a claimed bound is not re-checked
         self.assertEqual((row["claimed_cost"], row["claimed_lower_bound"], row["solver"]), (14, 14, "fake"))
         self.assertEqual(row["options"], "fake honest")
         seconds, *found = row["trace"].split(":")
@@ -84,71 +84,71 @@ class Solvers(ExternalSolverTests):
         self.run_well("check", self.folder / "maps/open-random-1.scen", "--map", self.folder / "maps/open.map",
                       "--agents", 2, self.folder / "out" / row["plan_file"])
         self.assertEqual(self.summary()["honest"]["solved/run"], "1/1")
-        self.assertNotIn("refuted", self.said)
-        self.assertNotIn("wrong", self.said)
+        self.assertNotIn("refuted", self.output)
+        self.assertNotIn("wrong", self.output)
         self.assertFalse((self.folder / "out/.running").exists())
 
-    def test_one_whose_paths_collide(self):
+    def test_colliding_paths_are_invalid(self):
         row = self.row_of("collides", "--keep-plans")
         self.assertEqual((row["status"], row["solved"], row["cost"], row["trace"]), ("invalid", False, None, None))
         self.assertRegex(row["error"], r"\Athe plan is wrong: output: .*both on")
         self.assertEqual(row["claimed_cost"], 14)
         self.assertEqual(self.summary()["collides"]["invalid"], "1")
         self.assertEqual(self.summary()["grove"]["invalid"], "0")
-        self.assertIn("invalid: invalid plans", self.said)
+        self.assertIn("invalid: invalid plans", self.output)
         self.assertIn("Agent 0:", (self.folder / "out" / row["plan_file"]).read_text())
 
-    def test_one_that_claims_without_a_plan(self):
-        row = self.row_of("boasts")
+    def test_claimed_cost_without_a_plan_is_claimed(self):
+        row = self.row_of("claims")
         self.assertEqual((row["status"], row["solved"], row["cost"], row["claimed_cost"]),
                          ("claimed", False, None, 13))
         self.assertEqual(row["runtime_s"], 5)
-        counts = self.summary()["boasts"]
+        counts = self.summary()["claims"]
         self.assertEqual((counts["solved/run"], counts["claimed"], counts["refuted"]), ("0/1", "1", "1"))
-        self.assertIn("refuted: boasts on open-random-1-2 claims a cost of 13, but grove has proven that no plan "
-                      "costs less than 14\n", self.said)
+        self.assertIn("refuted: claims on open-random-1-2 claims a cost of 13, but grove has proven that no plan "
+                      "costs less than 14\n", self.output)
 
-    def test_one_that_only_says_that_it_solved_it(self):
-        row = self.row_of("speaks")
+    def test_solved_claim_without_a_cost_is_claimed(self):
+        row = self.row_of("asserts")
         self.assertEqual((row["status"], row["claimed_cost"]), ("claimed", None))
-        self.assertEqual(self.summary()["speaks"]["claimed"], "1")
+        self.assertEqual(self.summary()["asserts"]["claimed"], "1")
 
-    def test_one_that_claims_less_than_its_paths_cost(self):
+    def test_claim_below_the_cost_of_the_paths_is_refuted(self):
         row = self.row_of("understates")
         self.assertEqual((row["status"], row["solved"], row["cost"], row["claimed_cost"]),
                          ("feasible", True, 18, 14))
         self.assertEqual(self.summary()["understates"]["refuted"], "1")
-        self.assertIn("claims a cost of 14, but its own paths cost 18\n", self.said)
+        self.assertIn("claims a cost of 14, but its own paths cost 18\n", self.output)
 
-    def test_one_that_claims_a_bound_above_a_plan(self):
+    def test_claimed_bound_above_a_plan_is_refuted(self):
         row = self.row_of("overbounds")
         self.assertEqual((row["cost"], row["claimed_lower_bound"], row["lower_bound"]), (14, 19, None))
-        self.assertRegex(self.said, r"overbounds on \S+ claims a lower bound of 19, but \w+ has a plan that costs 14")
+        self.assertRegex(self.output, r"overbounds on \S+ claims a lower bound of 19, but \w+ has a plan that costs 14")
 
-    def test_one_that_writes_something_else(self):
+    def test_unreadable_output_is_invalid(self):
         row = self.row_of("garbage")
         self.assertEqual(row["status"], "invalid")
         self.assertIn("expected a plan file", row["error"])
 
-    def test_one_that_is_killed_as_it_writes(self):
-        row = self.row_of("torn", limit=0.5)
+    def test_partial_output_at_the_time_limit_is_unknown(self):
+        row = self.row_of("partial", limit=0.5)
         self.assertEqual((row["status"], row["error"]), ("unknown", "time limit"))
 
-    def test_one_that_finds_nothing(self):
-        row = self.row_of("silent")
+    def test_solver_without_a_plan_is_unknown(self):
+        row = self.row_of("planless")
         self.assertEqual((row["status"], row["solved"], row["error"]),
                          ("unknown", False, "ended without a plan: nothing found"))
-        self.assertEqual(self.summary()["silent"]["errors"], "0")
+        self.assertEqual(self.summary()["planless"]["errors"], "0")
 
-    def test_one_that_hangs(self):
-        """It knows no time limit, and so is given no grace; what it started dies with it."""
-        row = self.row_of("hangs", limit=4)  # it is to have started a process by then
+    def test_hanging_solver_is_killed_at_the_time_limit(self):
+        """Checks that a solver without a time limit option is killed at the limit, with its child processes."""
+        row = self.row_of("hangs", limit=4)  # enough time to start a child process
         self.assertEqual((row["status"], row["solved"], row["error"], row["runtime_s"]),
                          ("unknown", False, "time limit", 4))
         child = (self.folder / "pids").read_text()
-        wait_until("it is gone", lambda: not self.lives(child))
+        wait_until("the child process has ended", lambda: not self.lives(child))
 
-    def test_ctrl_c_ends_it_without_a_row(self):
+    def test_ctrl_c_ends_a_solver_without_a_row(self):
         self.add_scenario("open-random-1", 2)
         running = self.start(*self.sweep(solvers=[self.solver("hangs")], runs=(), limit=60))
         pids = self.folder / "pids"
@@ -158,23 +158,23 @@ class Solvers(ExternalSolverTests):
         self.assertEqual((running.returncode, err),
                          (130, "grove: stopped with 1 run left; repeat the command to resume\n"))
         self.assertEqual(self.lines(), [])
-        wait_until("it is gone", lambda: not self.lives(child))
+        wait_until("the child process has ended", lambda: not self.lives(child))
 
-    def test_ones_that_crash(self):
+    def test_crashing_solver_is_an_error(self):
         row = self.row_of("crashes")
         self.assertEqual((row["status"], row["error"]), ("error", "ended by signal 6 (Aborted)"))
         self.assertEqual(self.summary()["crashes"]["errors"], "1")
-        self.said = self.run_well(*self.sweep(solvers=[self.solver("fails")]))
+        self.output = self.run_well(*self.sweep(solvers=[self.solver("fails")]))
         row = self.rows()["open-random-1-2", "fails"]
         self.assertEqual((row["status"], row["error"]), ("error", "ended with exit code 255: out of luck"))
 
-    def test_memory_is_limited(self):
-        row = self.row_of("eats", "--memory-limit", 1)
+    def test_memory_limit_ends_a_solver(self):
+        row = self.row_of("allocates", "--memory-limit", 1)
         self.assertEqual((row["status"], row["memory_limit_gb"]), ("error", 1))
         self.assertIn("MemoryError", row["error"])
         self.assertLess(row["peak_memory_mb"], 1000)
 
-    def test_an_anytime_one(self):
+    def test_anytime_solver_has_a_trace(self):
         row = self.row_of("anytime", limit=4, adapter="fake-anytime.json")
         self.assertEqual((row["status"], row["solved"], row["cost"], row["error"], row["anytime"]),
                          ("feasible", True, 14, None, True))
@@ -184,14 +184,14 @@ class Solvers(ExternalSolverTests):
         self.assertEqual(row["runtime_s"], row["first_plan_s"])
         self.assertGreater(row["wall_s"], 4)
 
-    def test_an_anytime_one_that_ends_long_after_its_limit(self):
+    def test_anytime_plan_after_the_time_limit_is_not_solved(self):
         adapter = {**ANYTIME, "name": "fake-late", "command": ADAPTER["command"] + " {time_limit}"}
         (self.folder / "fake-late.json").write_text(json.dumps(adapter))
         row = self.row_of("late", limit=1, adapter="fake-late.json")
         self.assertEqual((row["solved"], row["cost"]), (False, 14), row)
         self.assertRegex(row["error"], r"after the time limit; only its own claim says when it had a plan")
 
-    def test_groves_own_trace_ends_with_its_plan(self):
+    def test_trace_of_grove_ends_with_its_plan(self):
         self.row_of("honest")
         row = self.rows()["open-random-1-2", "grove"]
         self.assertTrue(row["trace"].split()[-1].split(":")[1] == "14", row["trace"])
@@ -199,8 +199,8 @@ class Solvers(ExternalSolverTests):
 
 
 class Commands(ExternalSolverTests):
-    def test_a_command_with_places(self):
-        """Grove as a program of someone else: it is given instances, and its proofs are claims."""
+    def test_command_with_placeholders(self):
+        """Runs Grove as an external solver: it receives instances, and its bounds are claims."""
         self.add_scenario("open-random-1", 3)
         command = f"self={GROVE} solve {{instance}} --output {{output}} --time-limit {{time_limit}} --quiet"
         self.run_well(*self.sweep(solvers=[command], agents="1:3:2"))
@@ -213,8 +213,8 @@ class Commands(ExternalSolverTests):
         row = json.loads((self.folder / "more/results.jsonl").read_text())
         self.assertEqual((row["problem"], row["solved"], row["status"]), ("cts", True, "feasible"))
 
-    def test_instances_in_other_forms(self):
-        """A program that reads YAML: grove convert, then grove solve."""
+    def test_instances_are_converted_to_other_formats(self):
+        """Runs a solver that reads other instance formats: grove convert, then grove solve."""
         (self.folder / "reader.sh").write_text(
             f'#!/bin/sh\n"{GROVE}" convert "$1" "$3/i.cts.json" --from "$4" &&\n'
             f'"{GROVE}" solve "$3/i.cts.json" --output "$2" --omega 0 --quiet --threads 1\n')
@@ -236,26 +236,26 @@ class Commands(ExternalSolverTests):
                 self.run_well("check", self.folder / f"instances/{instance}.cts.json",
                               self.folder / "out" / row["plan_file"])
 
-    def test_a_cost_that_is_printed(self):
+    def test_claimed_cost_is_read_from_the_output(self):
         self.add_scenario("open-random-1", 2)
-        command = f"boaster={FAKE} {{map}} {{scenario}} {{agents}} {{folder}}/nothing boasts"
-        self.run_well(*self.sweep("--claimed-cost", r"boaster=cost (\d+)", solvers=[command]))
-        self.assertEqual(self.rows()["open-random-1-2", "boaster"]["claimed_cost"], 13)
+        command = f"claimer={FAKE} {{map}} {{scenario}} {{agents}} {{folder}}/nothing claims"
+        self.run_well(*self.sweep("--claimed-cost", r"claimer=cost (\d+)", solvers=[command]))
+        self.assertEqual(self.rows()["open-random-1-2", "claimer"]["claimed_cost"], 13)
 
-    def test_programs_are_found_in_path(self):
+    def test_solver_is_found_in_path(self):
         self.add_scenario("open-random-1", 2)
         os.environ["PATH"] = f"{FAKE.parent}:{os.environ['PATH']}"
         self.run_well(*self.sweep(solvers=[f"honest=fake.json:{FAKE.name} honest"]))
         self.assertTrue(self.rows()["open-random-1-2", "honest"]["solved"])
 
-    def test_all_see_the_same_map(self):
-        """Letters that some hold for free and others do not are written as Grove reads them."""
+    def test_all_solvers_receive_the_same_map(self):
+        """Checks that ambiguous terrain letters are rewritten to the way Grove reads them."""
         self.add_map("maps/swamp.map", "S")
         self.add_scenario("swamp-random-1", 2, "swamp.map")
         self.run_well(*self.sweep(solvers=[self.solver("honest")]))
         self.assertTrue(self.rows()["swamp-random-1-2", "honest"]["solved"])
 
-    def test_an_option_given_replaces_that_of_the_adapter(self):
+    def test_given_option_replaces_that_of_the_adapter(self):
         adapter = dict(ADAPTER, name="more", command="{program} -x 1 {map} {scenario} {agents} {output}")
         (self.folder / "more.json").write_text(json.dumps(adapter))
         (self.folder / "echo.sh").write_text('#!/bin/sh\necho "$*"\nexit 3\n')
@@ -265,9 +265,9 @@ class Commands(ExternalSolverTests):
         error = self.rows()["open-random-1-2", "echo"]["error"]
         self.assertRegex(error, r"exit code 3: \S+map \S+scen 2 \S+ -x 2 a b$")
 
-    def test_what_a_solver_is_not_for(self):
+    def test_instance_that_the_format_cannot_hold_is_unsupported(self):
         self.easy(1)
-        self.said = self.run_well("bench", "instances", "--run", "grove:", "--solver", self.solver("honest"),
+        self.output = self.run_well("bench", "instances", "--run", "grove:", "--solver", self.solver("honest"),
                                   "--output-dir", "out", "--quiet")
         row = self.rows()["easy_s1_n3_m4", "honest"]
         self.assertEqual(row["status"], "unsupported")
@@ -275,7 +275,7 @@ class Commands(ExternalSolverTests):
         self.assertEqual(self.summary()["honest"]["unsupported"], "1")
         self.assertEqual(self.summary()["honest"]["solved/run"], "0/0")
 
-    def test_refusals(self):
+    def test_wrong_solver_options_are_refused(self):
         self.add_scenario("open-random-1", 2)
         (self.folder / "broken.json").write_text('{"name": "broken"}')
         (self.folder / "text").write_text("no program")
@@ -294,7 +294,7 @@ class Commands(ExternalSolverTests):
                                (f"x=missing.json:{fake}", "missing.json")):
             self.refuses(self.sweep(solvers=[solver]), *texts)
         good = f"x={fake} {{map}} {{scenario}}"
-        for claim, text in (("y=(1)", "the name of a --solver"), ("x=(1", "no regular expression"),
+        for claim, text in (("y=(1)", "the name of a --solver"), ("x=(1", "which is not a regular expression"),
                             ("x=1", "found 0 groups")):
             self.refuses(self.sweep("--claimed-cost", claim, solvers=[good]), "--claimed-cost", text)
         self.refuses(self.sweep(solvers=[self.solver("honest", name="grove")]), "a second 'grove'")
@@ -303,14 +303,14 @@ class Commands(ExternalSolverTests):
 
 
 class Sweeps(ExternalSolverTests):
-    def test_scenarios_agents_and_seeds(self):
+    def test_sweep_covers_scenarios_agents_and_seeds(self):
         for name in ("open-random-1", "open-random-2", "open-even-1"):
             self.add_scenario(name, 4)
         command = self.sweep("--scenarios", "open-random-*", "--seeds", "1-2,5", "--keep-plans", agents="1,2:4:2",
                              solvers=[self.solver("honest")])
-        said = self.run_well(*command)
-        self.assertRegex(said, r"grove +18/18 ")
-        self.assertRegex(said, r"honest +18/18 ")
+        output = self.run_well(*command)
+        self.assertRegex(output, r"grove +18/18 ")
+        self.assertRegex(output, r"honest +18/18 ")
         rows = [json.loads(line) for line in self.lines()]
         self.assertEqual({(row["instance"], row["method"], row["seed"]) for row in rows},
                          {(f"open-random-{k}-{agents}", method, seed) for k in (1, 2) for agents in (1, 2, 4)
@@ -321,7 +321,7 @@ class Sweeps(ExternalSolverTests):
             self.assertEqual(row["scenario"], int(row["instance"].split("-")[2]))
             self.assertEqual(row["agents"], int(row["instance"].split("-")[3]))
         self.assertEqual(len(self.table()), 36)
-        # And goes on: what there is stays, further seeds come to it.
+        # Resuming keeps the rows and adds those of further seeds.
         self.run_well(*command)
         self.assertEqual([json.loads(line) for line in self.lines()], rows)
         command[command.index("1-2,5")] = "1-3"
@@ -331,12 +331,12 @@ class Sweeps(ExternalSolverTests):
         self.assertEqual({row["seed"] for row in again[36:]}, {3})
         self.assertEqual(len(again), 48)
 
-    def test_errors_are_tried_again(self):
+    def test_rows_with_errors_are_run_again(self):
         self.add_scenario("open-random-1", 2)
         command = self.sweep("--seeds", "1-2", solvers=[self.solver("fails")])
         self.run_well(*command)
         table = self.folder / "out/results.jsonl"
-        table.write_text(re.sub(r'"ended_at":"\d{4}', '"ended_at":"2001', table.read_text()))  # that is long ago
+        table.write_text(re.sub(r'"ended_at":"\d{4}', '"ended_at":"2001', table.read_text()))  # the rows are old
         before = [row for row in map(json.loads, self.lines()) if row["method"] == "grove"]
         self.assertTrue(before[0]["ended_at"].startswith("2001"))
         self.run_well(*command)
@@ -346,7 +346,7 @@ class Sweeps(ExternalSolverTests):
         self.assertGreater(min(row["ended_at"] for row in after if row["method"] == "fails"),
                            max(row["ended_at"] for row in before))
 
-    def test_scenarios_that_are_too_short(self):
+    def test_short_scenarios_are_warned_of(self):
         self.add_scenario("open-random-1", 3)
         self.add_scenario("open-random-2", 2)
         running = self.start(*self.sweep(agents="2,3"))
@@ -355,7 +355,7 @@ class Sweeps(ExternalSolverTests):
                               "instances with more agents than rows are left out\n")
         self.assertEqual(len(self.rows()), 3)
 
-    def test_refusals(self):
+    def test_wrong_sweep_options_are_refused(self):
         self.add_scenario("open-random-1", 3)
         for agents, text in (("3:1", "the smaller number first"), ("0:3", "from 1 to"), ("2,2", "increasing"),
                              ("1:2:3:4", "FIRST:LAST:STEP"), ("1:9:0", "from 1 to"), ("x", "'x'"), ("9", "9 rows")):
@@ -366,7 +366,7 @@ class Sweeps(ExternalSolverTests):
         self.refuses(["bench", "instances", "--run", "grove:", "--output-dir", "out", "--scenarios", "x*"],
                      "--scenarios", "--agents")
         self.refuses(["bench", "instances", "--run", "grove:", "--output-dir", "out", "--agents", 3], "no scenario")
-        self.refuses(self.sweep("--seeds", "1", runs=["x: --seed 3"]), "--seeds", "no --seed")
+        self.refuses(self.sweep("--seeds", "1", runs=["x: --seed 3"]), "--seeds", "found --seed in a run")
         self.refuses(self.sweep("--seeds", "3-1"), "--seeds")
         self.assertFalse((self.folder / "out").exists())
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Solvers of other people, as a bench may meet them: honest, boastful, broken.
+"""Imitates external solvers for tests of grove bench: correct, wrong and failing ones.
 
     fake_solver.py MAP SCENARIO AGENTS OUTPUT KIND
 
 Every agent of the scenario starts in the first column and goes to the last one of the same row, so
-that straight ahead is optimal."""
+that the straight paths are optimal."""
 import os
 import signal
 import subprocess
@@ -15,10 +15,10 @@ from pathlib import Path
 
 
 def rows_of(scenario, agents):
-    """(start, goal) of each agent, both (x, y)."""
+    """Returns (start, goal) of each agent, both (x, y)."""
     lines = Path(scenario).read_text().splitlines()[1:]
     numbers = [[int(word) for word in line.split("\t")[4:8]] for line in lines[:agents]]
-    assert len(numbers) == agents == len(lines), "other rows than asked for"
+    assert len(numbers) == agents == len(lines), "the scenario has a wrong number of rows"
     return [((a, b), (c, d)) for a, b, c, d in numbers]
 
 
@@ -27,7 +27,7 @@ def straight(start, goal, waits=0):
 
 
 def write(output, paths):
-    """As EECBS does: (row,column)."""
+    """Writes paths in the format of EECBS, with cells as (row,column)."""
     text = "".join(f"Agent {k}: " + "".join(f"({y},{x})->" for x, y in path) + "\n"
                    for k, path in enumerate(paths))
     Path(output).write_text(text)
@@ -43,12 +43,12 @@ def main():
         write(output, paths)
         print(f"cost {cost} bound {cost}")
     elif kind == "collides":
-        first = paths[0][:2] + [(1, 1)] + paths[0][1:]  # where the second one is at that time
+        first = paths[0][:2] + [(1, 1)] + paths[0][1:]  # where the second agent is at that time
         write(output, [first, straight(*rows[1], waits=1), *paths[2:]])
         print(f"cost {cost}")
-    elif kind == "boasts":
+    elif kind == "claims":
         print(f"cost {cost - 1}")
-    elif kind == "speaks":
+    elif kind == "asserts":
         print("no number, but a plan, I have")
     elif kind == "understates":
         write(output, [straight(*row, waits=2) for row in rows])
@@ -58,10 +58,10 @@ def main():
         print(f"cost {cost} bound {cost + 5}")
     elif kind == "garbage":
         Path(output).write_text("I am no plan\n")
-    elif kind == "torn":
+    elif kind == "partial":
         write(output, [path[:3] for path in paths])
         signal.pause()
-    elif kind == "silent":
+    elif kind == "planless":
         print("nothing found")
     elif kind == "hangs":
         child = subprocess.Popen(["sleep", "600"])
@@ -74,16 +74,16 @@ def main():
     elif kind == "fails":
         print("out of luck")
         sys.exit(255)
-    elif kind == "eats":
+    elif kind == "allocates":
         bytearray(3_000_000_000)
     elif kind == "anytime":
-        # It says 1 too little of its first plan, and finds the last one 3 times over.
-        for waits, said in ((3, 3 * len(rows) - 1), (1, len(rows)), (0, 0), (0, 0), (0, -1)):
+        # The first claimed cost is 1 too low, and the last plan is reported 3 times.
+        for waits, offset in ((3, 3 * len(rows) - 1), (1, len(rows)), (0, 0), (0, 0), (0, -1)):
             write(output, [straight(*row, waits=waits) for row in rows])
-            print(f"at {time.process_time():.3f} cost {cost + said}", flush=True)
+            print(f"at {time.process_time():.3f} cost {cost + offset}", flush=True)
         signal.pause()
     elif kind == "late":
-        # Its only plan comes long after the limit, and is said to have come at once.
+        # Writes its only plan long after the time limit and claims to have found it at 0.001 s.
         time.sleep(2.5)
         write(output, [straight(*row) for row in rows])
         print(f"at 0.001 cost {cost}", flush=True)

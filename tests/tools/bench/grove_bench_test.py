@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""grove bench as its users run it."""
+"""Tests the command `grove bench`."""
 import csv
 import json
 import os
@@ -38,7 +38,7 @@ class Program(unittest.TestCase):
         return [self.generate(f"easy_s{k}_n3_m4", 3, 4, k) for k in range(1, count + 1)]
 
     def hard(self, count):
-        """They take many seconds to prove optimal."""
+        """Generates instances whose optimality proof takes many seconds."""
         return [self.generate(f"hard_s{k}_n18_m30", 18, 30, k + 7) for k in range(1, count + 1)]
 
     # --- running ---
@@ -59,7 +59,7 @@ class Program(unittest.TestCase):
         return out
 
     def refuses(self, arguments, *texts):
-        """Exit code 2, and one line that holds the texts."""
+        """Checks that the command ends with exit code 2 and one error line that contains the texts."""
         running = self.start(*arguments)
         out, err = running.communicate(timeout=HANG_S)
         self.assertEqual(running.returncode, 2, out + err)
@@ -85,7 +85,7 @@ class Program(unittest.TestCase):
         return file.read_text().splitlines(keepends=True) if file.exists() else []
 
     def rows(self):
-        """{(instance, method): row}; none may be there twice."""
+        """Returns {(instance, method): row}; fails on duplicates."""
         rows = [json.loads(line) for line in self.lines()]
         by_run = {(row["instance"], row["method"]): row for row in rows}
         self.assertEqual(len(by_run), len(rows))
@@ -97,15 +97,15 @@ class Program(unittest.TestCase):
 
 
 def as_cell(value):
-    """A value of results.jsonl as results.csv has it, but for the digits of a number."""
+    """Returns a value of results.jsonl as results.csv writes it, except for the digits of a number."""
     if value is None:
         return ""
     return value if isinstance(value, str) else json.dumps(value)
 
 
 def number_or_text(cell):
-    """What a cell says: 0.78419199999999999 and 0.784192 are the same number, and a text that a spreadsheet
-    would take for a formula is behind an apostrophe."""
+    """Returns the number or text of a cell: 0.78419199999999999 and 0.784192 are the same number, and a text that a
+    spreadsheet would take for a formula has an apostrophe in front."""
     try:
         return float(cell)
     except ValueError:
@@ -113,13 +113,13 @@ def number_or_text(cell):
 
 
 class Results(Program):
-    def test_rows_agree_with_the_plans(self):
+    def test_rows_agree_with_the_plan_files(self):
         self.easy(2)
         self.generate("easy_s1_n3_m4_mg", 3, 4, 1, "--mg")
-        said = self.run_well(*self.bench("--keep-plans", "--seed", 3))
-        self.assertRegex(said, r"exact +3/3 +\d+\.\d\d +0\n")
-        self.assertRegex(said, r"paper +3/3 +\d+\.\d\d +0\n")
-        self.assertTrue(said.endswith("\ntable: out/results.csv\n"), said)
+        output = self.run_well(*self.bench("--keep-plans", "--seed", 3))
+        self.assertRegex(output, r"exact +3/3 +\d+\.\d\d +0\n")
+        self.assertRegex(output, r"paper +3/3 +\d+\.\d\d +0\n")
+        self.assertTrue(output.endswith("\ntable: out/results.csv\n"), output)
         rows = self.rows()
         self.assertEqual(len(rows), 6)
         for (instance, method), row in rows.items():
@@ -149,7 +149,7 @@ class Results(Program):
             self.assertAlmostEqual(row["sqr"], row["root_cost"] / row["cost"], 5)
             self.assertEqual(row["runtime_s"], row["wall_s"])
             self.assertGreaterEqual(row["wall_s"] + 0.01, stats["wall_s"])
-        # All on the first scenario come first, method after method.
+        # Rows are ordered by scenario, then by method.
         self.assertEqual([(row["scenario"], row["method"]) for row in self.table()],
                          [(k, method) for k in "112" for method in ("exact", "paper")])
         for cells in self.table():
@@ -158,18 +158,18 @@ class Results(Program):
             self.assertEqual({name: number_or_text(cell) for name, cell in cells.items()},
                              {name: number_or_text(as_cell(value)) for name, value in row.items()})
 
-    def test_the_first_root_of_the_paper_costs_the_root_cost(self):
+    def test_first_root_of_fixed_policy_costs_the_root_cost(self):
         self.easy(3)
         self.run_well(*self.bench(runs=["first: --policy fixed --omega inf"]))
         for row in self.rows().values():
             self.assertEqual(row["lower_bound"], row["root_cost"])
             self.assertEqual(row["omega"], "inf")
 
-    def test_what_strikes_a_limit_is_not_solved(self):
+    def test_run_that_reaches_its_time_limit_is_not_solved(self):
         self.hard(1)
-        said = self.run_well(*self.bench(runs=["slow: --omega 0", "own: --omega 0 --time-limit 0.2"],
+        output = self.run_well(*self.bench(runs=["slow: --omega 0", "own: --omega 0 --time-limit 0.2"],
                                          limit=0.3))
-        self.assertRegex(said, r"slow +0/1 +0\.30 +0\n")
+        self.assertRegex(output, r"slow +0/1 +0\.30 +0\n")
         for (_, method), row in self.rows().items():
             limit = 0.3 if method == "slow" else 0.2
             self.assertIs(row["solved"], False)
@@ -179,7 +179,7 @@ class Results(Program):
             self.assertGreaterEqual(row["wall_s"], limit)
             self.assertIsNone(row["sqr"])
 
-    def test_scenarios_and_options_of_a_run(self):
+    def test_scenarios_and_run_options_are_recorded(self):
         (self.folder / "list.txt").write_text(
             f"# two\n{DATA}/empty-32x32.scen --map {DATA}/empty-32x32.map --agents 5\n"
             f"{DATA}/first.cts.json\n")
@@ -192,7 +192,7 @@ class Results(Program):
             self.assertEqual(row["options"], "--threads 2 --seed 4 --memory-limit 0.5")
             self.assertIs(row["solved"], True)
 
-    def test_progress_ends_with_what_is_done(self):
+    def test_progress_ends_with_the_number_of_solved_runs(self):
         self.easy(1)
         running = self.start(*self.bench())
         _, err = running.communicate(timeout=HANG_S)
@@ -202,13 +202,13 @@ class Results(Program):
 
 
 class Refusals(Program):
-    def test_slips_in_the_options_of_a_run(self):
+    def test_wrong_run_options_are_refused(self):
         self.easy(1)
         for run, text in (("x: --polcy fixed", "--polcy"), ("x: --omega -1", "--omega: found '-1'"),
                           ("x: --omega 0 first.cts.json", "first.cts.json"), ("nonsense", "--method"),
-                          ("x: --output plan", "--output: which files"),
-                          ("x: --log l", "--log: which files"),
-                          ("x: --checkpoint c", "--checkpoint: which files"),
+                          ("x: --output plan", "--output is not allowed here"),
+                          ("x: --log l", "--log is not allowed here"),
+                          ("x: --checkpoint c", "--checkpoint is not allowed here"),
                           ("x: --policy fixed --without bypass", "--without"),
                           ("x: --with sequence-splits", "was removed"),
                           ("x: --help", "--help"), ("a b: --omega 0", "NAME"), ("", "NAME")):
@@ -218,18 +218,18 @@ class Refusals(Program):
         self.refuses(["bench", "instances", "--output-dir", "out"], "--run or --solver is required")
         self.assertFalse((self.folder / "out").exists())
 
-    def test_bad_lists(self):
+    def test_wrong_instance_lists_are_refused(self):
         self.refuses(self.bench(), "instances")
         path = self.easy(1)[0]
-        for text, complaint in (("", "lists no instance"), ("missing.cts.json\n", "missing.cts.json"),
+        for text, message in (("", "has no instance"), ("missing.cts.json\n", "missing.cts.json"),
                                 (f"{path}\n{path}\n", "line 2"),
                                 (f"{DATA}/rooms-32x32.map\n", "is a map")):
             (self.folder / "list.txt").write_text(text)
             self.refuses(["bench", "list.txt", "--run", "x:", "--output-dir", "out"], "list.txt",
-                         complaint)
+                         message)
         self.assertFalse((self.folder / "out").exists())
 
-    def test_unreadable_instance_is_a_row(self):
+    def test_unreadable_instance_has_an_error_row(self):
         self.easy(1)
         (self.folder / "instances/broken.cts.json").write_text("{")
         running = self.start(*self.bench(runs=["x: --omega 0"]))
@@ -241,27 +241,27 @@ class Refusals(Program):
         self.assertIn("broken.cts.json", row["error"])
         self.assertTrue(self.rows()["easy_s1_n3_m4", "x"]["solved"])
 
-    def test_unsuitable_instances_are_no_errors(self):
-        """Whichever comes first: the method takes classical agents, but none that turn."""
+    def test_unsupported_instances_are_not_errors(self):
+        """Mixes instances with and without turning agents, which the method does not support."""
         for name, motion in (("a_turns", '"motion": "turning", "heading": "N", "turn_steps": 1, '), ("b_plain", ""), ("c_turns", '"motion": "turning", "heading": "N", "turn_steps": 1, ')):
             path = self.folder / f"instances/{name}.cts.json"
             path.parent.mkdir(exist_ok=True)
             path.write_text(f'{{"map": "{DATA}/rooms-32x32.map", "agents": [{{"id": "a", {motion}"start": [1, 1], '
                             '"goal": [3, 1]}], "tasks": []}')
-        said = self.run_well(*self.bench(runs=["x: --method hcbs"]))
-        self.assertRegex(said, r"(?m)^method .* errors +unsuitable$")
-        self.assertRegex(said, r"(?m)^x +1/1 .* 0 +2$")
+        output = self.run_well(*self.bench(runs=["x: --method hcbs"]))
+        self.assertRegex(output, r"(?m)^method .* errors +unsupported$")
+        self.assertRegex(output, r"(?m)^x +1/1 .* 0 +2$")
         self.assertEqual([self.rows()[name, "x"]["status"] for name in ("a_turns", "c_turns")], ["unsupported"] * 2)
 
-    def test_another_bench_in_the_same_folder(self):
+    def test_second_bench_in_the_same_folder_is_refused(self):
         self.hard(2)
         first = self.start(*self.bench(limit=300))
-        wait_until("a run", lambda: self.children(first.pid), first)  # by then the folder is locked
+        wait_until("a run", lambda: self.children(first.pid), first)  # the folder is locked before the first run
         self.refuses(self.bench(limit=300), "in use")
         first.send_signal(signal.SIGTERM)
         first.communicate(timeout=HANG_S)
 
-    def test_other_runs_under_the_same_names(self):
+    def test_changed_runs_under_the_same_names_are_refused(self):
         path = self.easy(1)[0]
         self.run_well(*self.bench())
         before = self.lines()
@@ -269,28 +269,28 @@ class Refusals(Program):
         self.refuses(self.bench(limit=11), "time limit '10' there, '11' here")
         self.refuses(self.bench("--memory-limit", 1), "memory limit")
         text = path.read_text()
-        path.write_text(text + "\n")  # the same instance
+        path.write_text(text + "\n")  # still the same instance
         self.run_well(*self.bench())
         path.write_text(text.replace('"a0"', '"robot"'))
-        self.refuses(self.bench(), "has changed since")
+        self.refuses(self.bench(), "the instance or its map has changed")
         self.assertEqual(self.lines(), before)
 
 
 class Resuming(Program):
-    def test_the_same_command_goes_on(self):
+    def test_same_command_resumes(self):
         self.easy(2)
         self.run_well(*self.bench(runs=["exact: --omega 0"]))
         before = self.lines()
         self.easy(3)
-        said = self.run_well(*self.bench())
-        self.assertRegex(said, r"exact +3/3 ")
+        output = self.run_well(*self.bench())
+        self.assertRegex(output, r"exact +3/3 ")
         self.assertEqual(self.lines()[:2], before)
         self.assertEqual(len(self.rows()), 6)
         after = self.lines()
         self.run_well(*self.bench())
         self.assertEqual(self.lines(), after)
 
-    def test_rows_of_another_version_stay_and_are_told(self):
+    def test_rows_of_another_version_are_kept_with_a_warning(self):
         self.easy(1)
         self.run_well(*self.bench())
         file = self.folder / "out/results.jsonl"
@@ -298,10 +298,10 @@ class Resuming(Program):
         file.write_text(text)
         running = self.start(*self.bench("--quiet"))
         self.assertRegex(running.communicate(timeout=HANG_S)[1],
-                         r"\Agrove: warning: out holds rows of grove -1[^\n]*; they are kept\n\Z")
+                         r"\Agrove: warning: out has rows of grove -1[^\n]*; they are kept\n\Z")
         self.assertEqual(file.read_text(), text)
 
-    def test_killed_again_and_again(self):
+    def test_bench_killed_repeatedly_resumes(self):
         self.hard(3)
         command = self.bench(runs=["a: --omega 0", "b: --omega 0 --seed 1"], limit=0.3)
         kept = []
@@ -322,7 +322,7 @@ class Resuming(Program):
         self.assertEqual(len(self.table()), 6)
         self.assertFalse((self.folder / "out/.running").exists())
 
-    def test_ctrl_c(self):
+    def test_ctrl_c_keeps_complete_rows(self):
         self.hard(2)
         command = self.bench(runs=["a: --omega 0 --time-limit 0.2", "b: --omega 0"], limit=300)
         running = self.start(*command)
@@ -343,13 +343,13 @@ class Resuming(Program):
 
 
 class Crashes(Program):
-    def test_a_run_that_is_killed_is_a_row_and_is_tried_again(self):
+    def test_killed_run_is_an_error_row_and_is_run_again(self):
         self.hard(1)
         self.easy(1)
         command = self.bench(runs=["x: --omega 0.001"], limit=3, jobs=1)
         running = self.start(*command)
-        wait_until("the easy one", lambda: len(self.lines()) == 1, running)
-        victim = wait_until("the hard one", lambda: self.children(running.pid), running).pop()
+        wait_until("the row of the easy instance", lambda: len(self.lines()) == 1, running)
+        victim = wait_until("the run of the hard instance", lambda: self.children(running.pid), running).pop()
         os.kill(victim, signal.SIGKILL)
         out, err = running.communicate(timeout=HANG_S)
         self.assertEqual(running.returncode, 0, err)
@@ -366,7 +366,7 @@ class Crashes(Program):
         self.assertNotEqual(self.rows()["hard_s1_n18_m30", "x"]["status"], "error")
         self.assertEqual(self.rows()["easy_s1_n3_m4", "x"], easy)
 
-    def test_an_instance_that_goes_away(self):
+    def test_instance_deleted_during_the_bench_is_an_error_row(self):
         path = self.hard(2)[1]
         running = self.start(*self.bench(runs=["x: --omega 0"], limit=0.5, jobs=1))
         wait_until("a run", lambda: self.children(running.pid), running)

@@ -65,7 +65,7 @@ TEST(BenchSummary, ShowsOtherOutcomesOnlyIfPresent) {
       << said;
   EXPECT_NE(said.find("\nrefuted: paper on i claims a cost of 60, but its own paths cost 64\n"),
             std::string::npos);
-  EXPECT_TRUE(said.ends_with("\nrefuted: and 2 more; grove report lists all\n"));
+  EXPECT_TRUE(said.ends_with("\nrefuted: 2 more; grove report lists all\n"));
 }
 
 }  // namespace progress_text_test

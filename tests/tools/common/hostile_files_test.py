@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Untrusted instances: what messages tell of files that they name, what --confine refuses, and how much memory small
-files may take.
+"""Tests untrusted instances: which content of named files messages quote, what --confine refuses, and how much memory
+small files may take.
 
     hostile_files_test.py GROVE [GROVE_VERIFY]
 """
@@ -22,7 +22,7 @@ SECRET = "root:hunter2:19000"
 MAP = "type octile\nheight 1\nwidth 3\nmap\n...\n"
 ROBOTS = {"agents": [{"id": "a", "start": [0, 0], "goal": [2, 0]}], "tasks": []}
 MEMORY_GB = 0.2
-KILLED_GB = 4  # of address space: a program that takes as much ends
+KILLED_GB = 4  # limit of the address space of the program
 
 
 class Hostile(unittest.TestCase):
@@ -58,28 +58,28 @@ class Hostile(unittest.TestCase):
 
 
 class Messages(Hostile):
-    def test_a_map_that_is_none_is_not_quoted(self):
+    def test_file_that_is_no_map_is_not_quoted(self):
         for key in ("map", "roadmap"):
             for name in (self.top / "secret", "../secret"):
-                said = self.refused("check", self.instance({key: str(name)}), "none.plan.json")
-                self.assertNotIn("hunter2", said)
-                self.assertIn("secret", said)   # its name is told
-                self.assertIn("expected", said)
-        said = self.refused("solve", self.instance({"map": "/proc/self/environ"}))
-        self.assertNotIn("=", said)
+                message = self.refused("check", self.instance({key: str(name)}), "none.plan.json")
+                self.assertNotIn("hunter2", message)
+                self.assertIn("secret", message)   # only the name of the file
+                self.assertIn("expected", message)
+        message = self.refused("solve", self.instance({"map": "/proc/self/environ"}))
+        self.assertNotIn("=", message)
 
-    def test_what_does_not_begin_as_a_roadmap_is_not_quoted(self):
+    def test_file_that_does_not_begin_as_a_roadmap_is_not_quoted(self):
         for content in (f'"{SECRET}"', "1" * 30, "1e999", f'["{SECRET}"]', "true"):
             self.write("other", content)
-            said = self.refused("check", self.instance({"roadmap": "other"}), "none.plan.json")
+            message = self.refused("check", self.instance({"roadmap": "other"}), "none.plan.json")
             for word in ("hunter2", "111", "1e999"):
-                self.assertNotIn(word, said)
+                self.assertNotIn(word, message)
 
-    def test_a_file_that_begins_as_a_map_is_quoted(self):
+    def test_malformed_map_is_quoted(self):
         self.write("bad.map", MAP.replace("width 3", "width x"))
         self.assertIn("found 'x'", self.refused("check", self.instance({"map": "bad.map"}), "none.plan.json"))
 
-    def test_an_image_that_is_none_is_not_quoted(self):
+    def test_file_that_is_no_image_is_not_quoted(self):
         for suffix in ("pgm", "png"):
             image = self.write(f"other.{suffix}", f"# a comment\n{SECRET}\n")
             self.write("m.yaml", f"image: {image}\nresolution: 0.1\norigin: [0, 0, 0]\n")
@@ -95,7 +95,7 @@ class Messages(Hostile):
 
 
 def commands(instance, plan):
-    """Of every command that reads an instance."""
+    """Yields the arguments of every command that reads an instance."""
     yield "solve", instance, "-o", "out.plan.json", "--quiet"
     yield "check", instance, plan
     yield "view", instance, plan, "-o", "out.html"
@@ -114,21 +114,21 @@ class Confined(Hostile):
     outside = ("../ours.map", "below/../../ours.map", "link.map", "up/ours.map", "up/theirs/../ours.map")
     inside = ("inside.map", "below/map.map", "below/../inside.map", "near.map", "./inside.map")
 
-    def test_every_command_refuses_what_leads_out(self):
+    def test_every_command_refuses_paths_outside_the_folder(self):
         plan = self.folder / "p.plan.json"
         self.run_it("solve", self.instance({"map": "inside.map"}), "-o", plan, "--quiet")
         self.assertTrue(plan.exists())
         for command in commands(self.instance({"map": "../ours.map"}), plan):
             with self.subTest(command=command[0]):
-                self.assertEqual(self.run_it(*command).returncode, 0)  # who does not ask may name any file
-                said = self.refused(*command, "--confine")
-                self.assertRegex(said, "/map: '../ours.map' leads outside the folder.*--confine")
+                self.assertEqual(self.run_it(*command).returncode, 0)  # without --confine any file may be named
+                message = self.refused(*command, "--confine")
+                self.assertRegex(message, "/map: '../ours.map' leads outside the folder.*--confine")
         for command in commands(self.instance({"map": "inside.map"}), plan):
             with self.subTest(command=command[0]):
                 done = self.run_it(*command, "--confine")
                 self.assertEqual(done.returncode, 0, done.stderr)
 
-    def test_names(self):
+    def test_paths_outside_the_folder_are_refused(self):
         for name in (*self.outside, str(self.folder / "inside.map"), str(self.top / "ours.map")):
             with self.subTest(name=name):
                 self.assertIn("with --confine", self.refused("solve", self.instance({"map": name}), "--confine"))
@@ -143,7 +143,7 @@ class Confined(Hostile):
                                   input=json.dumps({**ROBOTS, "map": name}), capture_output=True, timeout=60, check=False)
             self.assertEqual(done.returncode, code, done.stderr)
 
-    def test_scenarios_and_images(self):
+    def test_scenarios_and_images_are_confined(self):
         row = "0\t{}\t3\t1\t0\t0\t2\t0\t2\n"
         for name, code in (("inside.map", 0), ("link.map", 2)):
             self.write("s.scen", "version 1\n" + row.format(name))
@@ -154,14 +154,14 @@ class Confined(Hostile):
         self.assertEqual(self.run_it("convert", "m.yaml", "out.map", "--cell-size", 0.1).returncode, 0)
         self.assertIn("m.yaml: image: '../ours.pgm' leads out", self.refused("convert", "m.yaml", "out.map", "--cell-size", 0.1, "--confine"))
 
-    def test_bench(self):
+    def test_bench_is_confined(self):
         self.instance({"map": "../ours.map"})
         words = ("bench", self.folder / "i.cts.json", "--run", "a: --omega 0", "--time-limit", 20, "--quiet", "--output-dir")
         self.assertEqual(self.run_it(*words, "open").returncode, 0)
         self.assertIn("leads out", self.run_it(*words, "confined", "--confine").stderr)
 
     @unittest.skipUnless(VERIFY, "no grove-verify")
-    def test_grove_verify(self):
+    def test_grove_verify_is_confined(self):
         proof = self.folder / "c.proof"
         self.run_it("solve", self.instance({"map": "inside.map"}), "--omega", 0, "--proof", proof, "--quiet")
         for name, code in [*((name, 2) for name in self.outside), *((name, 0) for name in self.inside),
@@ -172,19 +172,19 @@ class Confined(Hostile):
 
 
 class Memory(Hostile):
-    """Files of some hundred bytes that ask for gigabytes."""
+    """Tests files of some hundred bytes that require gigabytes of memory."""
 
     def refused_for_memory(self, *words, limit=True):
-        said = self.refused(*words, *(["--memory-limit", MEMORY_GB] if limit else []))
-        self.assertIn("memory", said)
+        message = self.refused(*words, *(["--memory-limit", MEMORY_GB] if limit else []))
+        self.assertIn("memory", message)
 
-    def test_long_roads(self):
+    def test_long_roads_are_refused_for_memory(self):
         self.write("r.json", json.dumps({"vertices": [{"id": "A", "at": [0, 0]}, {"id": "B", "at": [1, 0]}],
                                          "edges": [{"from": "A", "to": "B", "steps": 67_000_000}]}))
         path = self.write("i.cts.json", json.dumps({"roadmap": "r.json", "agents": [{"id": "a", "start": "A", "goal": "B"}], "tasks": []}))
         self.refused_for_memory("solve", path)
 
-    def test_long_turns_and_work(self):
+    def test_long_turns_and_durations_are_refused_for_memory(self):
         turning = {"motion": "turning", "heading": "E", "turn_steps": 65536}
         self.write("m.map", "type octile\nheight 1\nwidth 60\nmap\n" + "." * 60 + "\n")
         agents = [{"id": "a", "start": [0, 0], "goal": [2, 0], **turning}]
@@ -192,11 +192,11 @@ class Memory(Hostile):
         tasks = [{"id": f"t{i}", "cell": [1, 0], "agents": ["a"], "duration": 65536} for i in range(60)]
         self.refused_for_memory("solve", self.instance({"map": "m.map", "tasks": tasks}))
 
-    def test_small_ones_are_read_under_any_limit(self):
+    def test_small_instance_is_read_under_any_memory_limit(self):
         done = self.run_it("solve", self.instance({"map": "inside.map"}), "--memory-limit", 0, "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
 
-    def test_images_that_are_larger_than_their_files(self):
+    def test_image_larger_than_its_file_is_refused(self):
         def chunk(kind, data):
             return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
         head = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 32767, 32767, 8, 0, 0, 0, 0))

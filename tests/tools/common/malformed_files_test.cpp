@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(
         instance_with("UnknownAgent", "\"tasks\": []",
                       R"("tasks": [{"id": "t", "cell": [0, 0], "agents": ["a\n\u0007b"]}])",
                       "/tasks/0/agents/0: there is no agent 'a\\n\\x07b'"),
-        instance_with("HeadingOfNobody", "\"goal\": [2, 0]", "\"heading\": \"N\"",
+        instance_with("HeadingOfNoAgent", "\"goal\": [2, 0]", "\"heading\": \"N\"",
                       "/agents/0/heading: "),
         instance_with("NoAgents", R"({"id": "a", "start": [0, 0], "goal": [2, 0]})", "",
                       "/agents: ")),

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Manual pages and the completions of shells.
+"""Tests the manual pages and the shell completions.
 
     manual_test.py GROVE
 
-Of the shells those are tried that are there; bash always.
+Tests bash always, and fish and zsh if they are installed.
 """
 import shutil
 import subprocess
@@ -32,31 +32,31 @@ def script(shell):
 
 
 class Completions(unittest.TestCase):
-    def test_bash(self):
+    def test_bash_completes_commands_and_options(self):
         for words, expected in CASES:
-            asked = " ".join(f"'{word}'" for word in words)
-            done = run("bash", "-c", script("bash") + f"\nCOMP_WORDS=({asked}); COMP_CWORD={len(words) - 1}\n"
+            comp_words = " ".join(f"'{word}'" for word in words)
+            done = run("bash", "-c", script("bash") + f"\nCOMP_WORDS=({comp_words}); COMP_CWORD={len(words) - 1}\n"
                        '_grove; printf "%s\\n" "${COMPREPLY[@]}"')
             self.assertEqual(done.stderr, "")
             self.assertLessEqual(expected, set(done.stdout.split()))
-        # After an option that takes a file, bash's own completion of files comes.
+        # After an option that takes a file, bash completes file names itself.
         done = run("bash", "-c", script("bash") + "\nCOMP_WORDS=(grove solve --output ''); COMP_CWORD=3\n"
                    '_grove; echo "${#COMPREPLY[@]}"')
         self.assertEqual(done.stdout, "0\n")
 
     @unittest.skipUnless(shutil.which("fish"), "no fish")
-    def test_fish(self):
+    def test_fish_completes_commands_and_options(self):
         for words, expected in CASES:
             done = run("fish", "--no-config", "-c", script("fish") + f"\ncomplete -C '{' '.join(words)}'")
             offered = {line.split("\t")[0] for line in done.stdout.splitlines()}
             self.assertLessEqual(expected - {"-o"}, offered, done.stderr)
 
     @unittest.skipUnless(shutil.which("zsh"), "no zsh")
-    def test_zsh(self):
+    def test_zsh_script_is_valid(self):
         done = run("zsh", "-n", "/dev/stdin", input=script("zsh"))
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
-    def test_what_is_not_there(self):
+    def test_unknown_help_topics_are_refused(self):
         for words in (["--completion", "csh"], ["--completion"], ["--manual"], ["--nonsense"]):
             done = run(GROVE, "help", *words)
             self.assertEqual(done.returncode, 2)
@@ -64,7 +64,7 @@ class Completions(unittest.TestCase):
 
 
 class Manual(unittest.TestCase):
-    def test_a_page_for_each_command(self):
+    def test_every_command_has_a_manual_page(self):
         with tempfile.TemporaryDirectory() as folder:
             self.assertEqual(run(GROVE, "help", "--manual", folder).returncode, 0)
             pages = {path.name: path.read_text() for path in Path(folder).iterdir()}

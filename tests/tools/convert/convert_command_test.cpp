@@ -134,9 +134,9 @@ TEST_F(ConvertCommand, MapsAreNotOverwritten) {
             "o.map: is not the map of 'plain.yaml'; expected the same 5 x 3 cells");
   EXPECT_EQ(content("o.map"), other);
   EXPECT_EQ(refused({"plain.yaml", "x.cts.json", "--map", "o.map"}).substr(0, 21),
-            "o.map: is another map");
+            "o.map: is not the map");
   EXPECT_EQ(refused({"plain.cts.json", "x.cts.json", "--map", "o.map"}).substr(0, 21),
-            "o.map: is another map");
+            "o.map: is not the map");
 }
 
 TEST_F(ConvertCommand, TerrainIsReadAsBySolve) {

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""From a map of ROS to waypoints: an office, converted, solved, and driven over the original image.
+"""Converts a ROS map of an office, solves on it and checks the waypoints against the original image.
 
-    office_test.py GROVE [FOLDER]    keeps what it makes in FOLDER
+    office_test.py GROVE [FOLDER]    keeps the files in FOLDER
 """
 import csv
 import math
@@ -24,7 +24,7 @@ FREE, WALL, UNKNOWN = 254, 0, 205
 
 
 def office(width=400, height=300, seed=1):
-    """Rows from the top: two rows of rooms along a corridor, doors, desks, a corner nobody has seen."""
+    """Returns pixel rows from the top: two rows of rooms along a corridor, doors, desks, an unknown corner."""
     dice = random.Random(seed)
     rows = [bytearray([FREE]) * width for _ in range(height)]
 
@@ -62,7 +62,7 @@ def png(rows):
 
 
 def clearance(rows, x, y):
-    """Metres from a point of the world to the nearest pixel that is not free, 1 at most."""
+    """Returns the metres from a point of the world to the nearest pixel that is not free, at most 1."""
     px, py = (x - ORIGIN[0]) / RESOLUTION, len(rows) - (y - ORIGIN[1]) / RESOLUTION
     reach, best = int(1 / RESOLUTION), 1.0
     for iy in range(int(py) - reach, int(py) + reach + 1):
@@ -104,9 +104,9 @@ class Office(unittest.TestCase):
 
     def test_waypoints_lie_on_free_space(self):
         self.write()
-        told = self.convert("--robot-radius", str(RADIUS))
-        self.assertIn("40 x 30 cells", told)
-        self.assertIn("--cell-size 0.5 --origin -10,-5.5", told)
+        message = self.convert("--robot-radius", str(RADIUS))
+        self.assertIn("40 x 30 cells", message)
+        self.assertIn("--cell-size 0.5 --origin -10,-5.5", message)
         self.grove("generate", "instance", "--map", "office.map", "--agents", "12", "--tasks", "36",
                    "-o", "office.cts.json")
         self.grove("solve", "office.cts.json", "--quiet", "--time-limit", "10", "-o", "office.plan.json")
@@ -130,7 +130,7 @@ class Office(unittest.TestCase):
         self.assertGreaterEqual(least, RADIUS - 1e-6)
         self.assertGreater(len([row for row in rows if row["task"]]), 30)
 
-    def test_a_wide_robot_gets_to_fewer_cells(self):
+    def test_wide_robots_reach_fewer_cells(self):
         self.write()
         counts = []
         for radius in ("0", "0.2", "0.3", "0.45"):
@@ -138,20 +138,20 @@ class Office(unittest.TestCase):
         self.assertEqual(sorted(counts, reverse=True), counts)
         self.assertGreater(counts[0], counts[-1] + 50)
 
-    def test_a_map_without_a_way_is_refused(self):
+    def test_map_without_free_cells_is_refused(self):
         self.write()
-        for options, told in ((("--robot-radius", "5"), "office.yaml: no cell is free on the map of cells of 0.5 m for robots of "
+        for options, text in ((("--robot-radius", "5"), "office.yaml: no cell is free on the map of cells of 0.5 m for robots of "
                                                         "radius 5 m; expected a smaller --robot-radius or --cell-size"),
                               (("--cell-size", "7", "--robot-radius", "0.5"), "no two neighbouring cells are free")):
             error = self.convert(*options, code=2)
-            self.assertIn(told, error)
+            self.assertIn(text, error)
             self.assertEqual(error.count("\n"), 1)
         self.rows = [bytes([UNKNOWN]) * len(row) for row in self.rows]
         self.write()
         self.assertIn("office.yaml: the middle of no cell is free; expected", self.convert(code=2))
         self.assertFalse((self.folder / "office.map").exists())
 
-    def test_png_and_pgm_and_negated_are_the_same_map(self):
+    def test_png_pgm_and_negated_images_give_the_same_map(self):
         maps = []
         self.write()
         self.convert()
@@ -165,8 +165,8 @@ class Office(unittest.TestCase):
         maps.append((self.folder / "office.map").read_text())
         self.assertEqual(len(set(maps)), 1)
 
-    def test_bad_maps_are_refused_by_file_and_place(self):
-        for keys, told in (({"resolution": "fine"}, "office.yaml: resolution: found 'fine'"),
+    def test_malformed_maps_are_refused_with_file_and_place(self):
+        for keys, text in (({"resolution": "fine"}, "office.yaml: resolution: found 'fine'"),
                            ({"resolution": None}, "office.yaml: resolution"),
                            ({"origin": [0, 0, 1.57]}, "yaw of 1.57"),
                            ({"mode": "raw"}, "office.yaml: mode: found 'raw'"),
@@ -174,7 +174,7 @@ class Office(unittest.TestCase):
             self.write(**keys)
             (self.folder / "nowhere.pgm").unlink(missing_ok=True)
             error = self.convert(code=2)
-            self.assertIn(told, error)
+            self.assertIn(text, error)
             self.assertEqual(error.count("\n"), 1)
         self.write()
         (self.folder / "office.pgm").write_bytes(b"P5\n400 300\n255\nshort")
@@ -189,7 +189,7 @@ class Office(unittest.TestCase):
         self.assertIn("no cell of 100 m", self.grove("convert", "office.yaml", "office.map", "--cell-size",
                                                      "100", code=2))
 
-    def test_ascii(self):
+    def test_ascii_map_is_converted(self):
         (self.folder / "hall.txt").write_text("####\n#. #\n#_0#\n####\n")
         self.assertIn("4 x 4 cells, 4 passable", self.grove("convert", "hall.txt", "hall.map"))
         (self.folder / "hall.txt").write_text("####\n####\n")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What programs that drive robots share: all tests of this folder.
+"""Runs all tests of this folder: code shared by the programs that drive robots.
 
     driving_test.py GROVE [TEST...]
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Metres of an order back to cells."""
+"""Tests the conversion of metres in an order to cells."""
 import unittest
 
 import orders
@@ -8,9 +8,9 @@ from grove_driving.order import read_order
 
 
 class Frames(unittest.TestCase):
-    def test_cells_of_a_shifted_map(self):
-        orders.order_file("crowd")
-        orders.grove("execute", "crowd.cts.json", "crowd.plan.json", "--order", "shifted.order.json", "--cell-size", "0.8",
+    def test_metres_of_a_shifted_map_convert_to_cells(self):
+        orders.order_file("dense")
+        orders.grove("execute", "dense.cts.json", "dense.plan.json", "--order", "shifted.order.json", "--cell-size", "0.8",
                      "--origin", "-3,2.5")
         order = read_order(orders.folder() / "shifted.order.json")
         frame = Frame(order)
@@ -20,5 +20,5 @@ class Frames(unittest.TestCase):
                 for one, other in zip(frame.cells(action.at), action.place):
                     self.assertAlmostEqual(one, other)
 
-    def test_roadmaps_stay_in_metres(self):
+    def test_roadmap_places_stay_in_metres(self):
         self.assertEqual(Frame(read_order(orders.order_file("roads"))).cells((2.5, 1.0)), (2.5, 1.0))

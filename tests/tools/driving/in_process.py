@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Runs a program's main() in this process: for command lines that end at once, of which starting Python is most."""
+"""Runs main() of a program in this process, for short runs whose time is mostly the start of Python."""
 import contextlib
 import io
 import signal
 
 
 def run(main, *arguments):
-    """(exit code, stdout, stderr) of main(arguments), as of the program."""
+    """Runs main(arguments) and returns (exit code, stdout, stderr)."""
     out, err = io.StringIO(), io.StringIO()
     handler = signal.getsignal(signal.SIGTERM)
     try:

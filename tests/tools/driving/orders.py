@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Passing orders to drive, made by grove itself."""
+"""Generates passing orders with grove, for tests of the programs that drive robots."""
 import atexit
 import functools
 import json
@@ -8,16 +8,16 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-GROVE = Path("build/release/bin/grove")     # the runner says which
+GROVE = Path("build/release/bin/grove")     # set by suite.run()
 
-# A ring: four robots of a block of 2 x 2 cells, each on to the next one's cell.
+# A ring: four robots on a block of 2 x 2 cells; each moves to the cell of the next one.
 ROUND = {"map": "open.map", "tasks": [],
          "agents": [{"id": "a", "start": [2, 1], "goal": [3, 1]}, {"id": "b", "start": [3, 1], "goal": [3, 2]},
                     {"id": "c", "start": [3, 2], "goal": [2, 2]}, {"id": "d", "start": [2, 2], "goal": [2, 1]}]}
-# Two who want to pass each other in a corridor with one niche.
+# Two robots that must pass each other in a corridor with one niche.
 NARROW = {"map": "narrow.map", "tasks": [{"id": "t", "cell": [3, 0], "agents": ["up"]}],
           "agents": [{"id": "up", "start": [0, 1], "goal": [6, 1]}, {"id": "down", "start": [6, 1], "goal": [0, 1]}]}
-# Two on roads of two and three steps, past each other at a crossing; one works on the way.
+# Two robots on roads of two and three steps that pass each other at a crossing; both have tasks on the way.
 ROADS = {"roadmap": "hall.roadmap.json",
          "tasks": [{"id": "press", "cell": "C", "agents": ["r1", "r2"], "duration": 2},
                    {"id": "look", "cell": "N", "agents": ["r2"]}],
@@ -27,7 +27,7 @@ HALL = {"vertices": [{"id": "W", "at": [0, 0]}, {"id": "C", "at": [2, 0]}, {"id"
         "edges": [{"from": "W", "to": "C", "steps": 2}, {"from": "C", "to": "E", "steps": 3},
                   {"from": "C", "to": "N", "steps": 2}]}
 MAPS = {"open.map": ["." * 7] * 5, "wide.map": ["." * 9] * 6, "narrow.map": ["@@@.@@@", "......."]}
-GENERATED = {"crowd": ("open.map", "--agents", 6, "--tasks", 12, "--seed", 6),
+GENERATED = {"dense": ("open.map", "--agents", 6, "--tasks", 12, "--seed", 6),
              "work": ("open.map", "--agents", 5, "--tasks", 8, "--turning", "--durations", "0-3", "--seed", 5),
              "many": ("wide.map", "--agents", 9, "--tasks", 18, "--seed", 3)}
 
@@ -51,7 +51,7 @@ def grove(*arguments):
 
 @functools.cache
 def order_file(name, following=True):
-    """Of an instance above, by name."""
+    """Returns the passing order file of the instance with this name, one of those above."""
     stem = name if following else f"{name}.none_follows"
     if name in GENERATED:
         map_name, *options = GENERATED[name]
@@ -63,7 +63,7 @@ def order_file(name, following=True):
 
 
 def visits(name):
-    """{(robot, cell)} of the tasks of its instance."""
+    """Returns {(robot, cell)} of the tasks of the instance."""
     order_file(name)
     instance = json.loads((folder() / f"{name}.cts.json").read_text())
     return {(robot, tuple(task["cell"])) for task in instance["tasks"] for robot in task["agents"]}

@@ -6,7 +6,7 @@ from pathlib import Path
 
 
 def run(file, modules):
-    """The exit code."""
+    """Runs the tests of the modules, or those named on the command line; returns the exit code."""
     grove, *names = sys.argv[1:]
     sys.path[:0] = [str(Path(file).resolve().parent), str(Path(grove).resolve().parent)]
     import orders

@@ -16,6 +16,7 @@ namespace execute_command_test {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::UnorderedElementsAreArray;
 
 class ExecuteCommand : public ::testing::Test {
@@ -139,11 +140,16 @@ TEST_F(ExecuteCommand, WritesThePassingOrder) {
 }
 
 TEST_F(ExecuteCommand, ReportsBlockedRobots) {
-  const ProcessResult done = execute({"--dies", "a3@12", "--view", directory_ / "page.html"});
+  const ProcessResult done = execute({"--fail", "a3@12", "--view", directory_ / "page.html"});
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out, HasSubstr("a3 has failed"));
   EXPECT_THAT(done.out, HasSubstr("waits for a3"));
   EXPECT_TRUE(std::filesystem::exists(directory_ / "page.html"));
+}
+
+TEST_F(ExecuteCommand, AcceptsTheOldNameOfFail) {
+  EXPECT_EQ(execute({"--dies", "a3@12"}).out, execute({"--fail", "a3@12"}).out);
+  EXPECT_THAT(execute({"--help"}).out, Not(HasSubstr("--dies")));
 }
 
 TEST_F(ExecuteCommand, SameSeedGivesTheSameExecution) {
@@ -163,7 +169,7 @@ TEST_F(ExecuteCommand, RefusesInvalidOptionsAndPlans) {
   EXPECT_THAT(complaint(execute({"--slow", "a1=0.5"})), HasSubstr("a factor from 1 to 1000"));
   EXPECT_THAT(complaint(execute({"--slow", "zz=2"})), HasSubstr("a robot of the instance"));
   EXPECT_THAT(complaint(execute({"--stop", "a1@x=3"})), HasSubstr("--stop"));
-  EXPECT_THAT(complaint(execute({"--dies", "a1"})), HasSubstr("ROBOT@TIME"));
+  EXPECT_THAT(complaint(execute({"--fail", "a1"})), HasSubstr("ROBOT@TIME"));
   EXPECT_THAT(complaint(execute({"--delays", "2"})), HasSubstr("--delays"));
   EXPECT_THAT(complaint(execute({"--delay-steps", "2"})), HasSubstr("allowed only with --delays"));
   json plan = json::parse(std::ifstream(plan_));

@@ -294,7 +294,7 @@ TEST_F(ReplanCommand, RefusesInvalidOptions) {
   const json soon = read("p.plan.json")["agents"][0]["path"][8];
   const std::string ahead = std::to_string(int(soon[0])) + "," + std::to_string(int(soon[1]));
   EXPECT_THAT(complaint({"--at", "3", "--commit", "9", "--blocked", ahead}),
-              HasSubstr("--commit: found 9; expected 4 at most"));
+              HasSubstr("--commit: found 9; expected at most 4"));
 }
 
 }  // namespace replan_command_test

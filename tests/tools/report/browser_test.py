@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Opens a report in a real browser: it asks for nothing, complains of nothing, and shows its figures.
+"""Opens reports in Chromium: checks that they send no requests, log no errors and show their figures.
 
     browser_test.py GROVE
 
-Exit codes: 0 passed, 1 failed, 77 there is no Chromium here.
+Exit codes: 0 passed, 1 failed, 77 skipped because Chromium is not installed.
 """
 import subprocess
 import sys
@@ -23,7 +23,7 @@ LINE_COLOUR = (0x00, 0x72, 0xB2)  # of the first method, in every figure
 
 
 def rows():
-    """Few: each map and number of agents is drawn."""
+    """Returns few rows, because each map and number of agents is drawn."""
     found = synthetic.rows(1, maps=("room-32-32-4",), agents=(5,), tasks=(10, 30))
     return [row for row in found if row["method"] in ("auto", "cts-cbs-a", "hcbs") or row["problem"] == "cts"]
 
@@ -51,43 +51,43 @@ class Browser(unittest.TestCase):
         subprocess.run([str(GROVE), "report", str(self.folder), "-o", str(self.folder / "out")], check=True)
         return self.folder / "out/report.html"
 
-    def test_a_report(self):
+    def test_report_shows_figures_and_contradictions(self):
         def red(picture):
             return shares(picture).get((0xC0, 0, 0), 0)
         found = rows()
-        seen = self.visit(self.report(found))
-        self.assertEqual(seen.console, [])
-        self.assertEqual(seen.requests, [])
-        self.assertFalse(is_blank(seen.picture))
-        self.assertGreater(shares(seen.picture).get(LINE_COLOUR, 0), 2e-4, "no figure is seen")
+        page_visit = self.visit(self.report(found))
+        self.assertEqual(page_visit.console, [])
+        self.assertEqual(page_visit.requests, [])
+        self.assertFalse(is_blank(page_visit.picture))
+        self.assertGreater(shares(page_visit.picture).get(LINE_COLOUR, 0), 2e-4, "no figure is visible")
         # Dark on light.
-        self.assertGreater(shares(seen.picture)[255, 255, 255], 0.5)
-        self.assertEqual(red(seen.picture), 0)
-        # A contradiction is seen at once.
+        self.assertGreater(shares(page_visit.picture)[255, 255, 255], 0.5)
+        self.assertEqual(red(page_visit.picture), 0)
+        # The banner of a contradiction is visible without scrolling.
         found = [row for row in found if row["problem"] == "mg" and row["solved"]]
         found += [row | {"method": "x", "status": "optimal", "cost": 1} for row in found]
         self.assertGreater(red(self.visit(self.report(found)).picture), 0.05)
 
-    def test_a_false_claim_is_seen_at_once_and_figures_fit_a_phone(self):
+    def test_false_claim_is_visible_and_figures_fit_400_pixels(self):
         found = list(synthetic.solver_rows(1, agents=(20, 60)))
-        found[3] |= {"status": "wrong", "solved": False, "cost": None, "error": "the plan is wrong: agents 3 and 7 collide"}
+        found[3] |= {"status": "invalid", "solved": False, "cost": None, "error": "the plan is wrong: agents 3 and 7 collide"}
         page = self.report(found)
-        seen = self.browser.visit(page, size=(400, 2400))
-        self.assertEqual((seen.console, seen.requests), ([], []))
-        self.assertGreater(shares(seen.picture).get((0xC0, 0, 0), 0), 0.05)
+        page_visit = self.browser.visit(page, size=(400, 2400))
+        self.assertEqual((page_visit.console, page_visit.requests), ([], []))
+        self.assertGreater(shares(page_visit.picture).get((0xC0, 0, 0), 0), 0.05)
         self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), 400)
 
-    def test_this_test_hears_the_console(self):
+    def test_console_messages_are_detected(self):
         for script in ("console.error('boo')", "noSuchFunction()"):
             self.assertEqual(len(self.visit(self.page(f"<p>x</p><script>{script}</script>")).console), 1)
         refused = "<meta http-equiv='Content-Security-Policy' content=\"default-src 'none'\">"
         self.assertTrue(self.visit(self.page(refused + "<img src='http://example.invalid/x.png'>")).console)
 
-    def test_this_test_sees_requests(self):
+    def test_network_requests_are_detected(self):
         self.assertEqual(self.visit(self.page("<img src='http://example.invalid/x.png'>")).requests,
                          ["http://example.invalid/x.png"])
 
-    def test_this_test_sees_that_nothing_is_there(self):
+    def test_blank_page_is_detected(self):
         self.assertTrue(is_blank(self.visit(self.page("")).picture))
         self.assertFalse(is_blank(self.visit(self.page("<p>Some words are not nothing.</p>" * 9)).picture))
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Reading rows, and every figure that is computed from them, on rows small enough to do it by hand."""
+"""Tests the reading of rows and every figure computed from them, on rows small enough to compute by hand."""
 import json
 import math
 import sys
@@ -23,7 +23,7 @@ NEEDED = {"instance": "i", "method": "a", "map": "m", "agents": 5, "tasks": 10, 
 
 
 def row(**values):
-    """A row as read, solved in a second unless told otherwise."""
+    """Returns a row as read; by default it is solved in one second."""
     absent = {name: None if absent is rows.NEEDED else absent
               for name, (_, absent) in rows.COLUMNS.items()}
     found = rows.Row(**(absent | NEEDED | values))
@@ -35,7 +35,7 @@ def failed(**values):
 
 
 def measures(found):
-    """Of rows that are all there are."""
+    """Returns the measures of rows that are all rows of the table."""
     return metrics.measures(found, metrics.best_costs(found))
 
 
@@ -56,7 +56,7 @@ class Folder(unittest.TestCase):
         path.write_bytes(text if isinstance(text, bytes) else text.encode())
         return path
 
-    def complaint(self, *arguments):
+    def error_of(self, *arguments):
         with self.assertRaises(BadInput) as caught:
             read_results(arguments)
         self.assertNotIn("\n", str(caught.exception))
@@ -64,84 +64,84 @@ class Folder(unittest.TestCase):
 
 
 class Reading(Folder):
-    def test_both_formats_say_the_same(self):
+    def test_csv_and_jsonl_give_the_same_rows(self):
         made = list(synthetic.rows(1, tasks=(10, 50)))
         self.assertEqual(read_results([self.file("a.csv", *made)]).rows,
                          read_results([self.file("a.jsonl", *made)]).rows)
 
-    def test_a_folder_is_its_results(self):
+    def test_folder_is_read_as_its_results_file(self):
         self.file("results.csv", NEEDED)
         self.assertEqual(read_results([self.folder]).files, [(f"{self.folder}/results.csv", 1)])
         self.file("results.jsonl", NEEDED, NEEDED | {"instance": "j"})
         self.assertEqual(read_results([self.folder]).files, [(f"{self.folder}/results.jsonl", 2)])
 
-    def test_rows_of_instances_that_cannot_be_read_are_left_out(self):
+    def test_rows_of_unreadable_instances_are_omitted(self):
         lost = NEEDED | dict.fromkeys(("map", "agents", "tasks", "problem", "cost")) | {
             "instance": "broken", "solved": False, "status": "error", "error": "x.cts.json: no map"}
         for name in ("a.jsonl", "a.csv"):
             results = read_results([self.file(name, NEEDED, lost)])
             self.assertEqual((len(results.rows), results.unreadable), (1, ["broken"]))
-        self.assertIn("column map: empty", self.complaint(self.file("a.jsonl", lost | {"status": "unknown"})))
+        self.assertIn("column map: empty", self.error_of(self.file("a.jsonl", lost | {"status": "unknown"})))
 
-    def test_a_last_line_that_is_cut_off_is_left_out(self):
+    def test_incomplete_last_line_is_omitted(self):
         good = json.dumps(NEEDED)
         results = read_results([self.text("a.jsonl", good + "\n" + good[:20])])
         self.assertEqual((len(results.rows), results.cut_off), (1, [f"{self.folder}/a.jsonl"]))
-        self.assertEqual(self.complaint(self.text("a.jsonl", good[:20])),
+        self.assertEqual(self.error_of(self.text("a.jsonl", good[:20])),
                          "a.jsonl: no rows; expected at least one")
-        whole = read_results([self.text("a.jsonl", good)])  # only the line's end is missing
+        whole = read_results([self.text("a.jsonl", good)])  # only the line break is missing
         self.assertEqual((len(whole.rows), whole.cut_off), (1, []))
 
-    def test_a_byte_order_mark_is_no_letter(self):
+    def test_byte_order_mark_is_ignored(self):
         path = self.file("a.csv", NEEDED)
         path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
         self.assertEqual(len(read_results([path]).rows), 1)
 
-    def test_absent_values(self):
+    def test_missing_columns_have_default_values(self):
         for path in (self.file("a.csv", NEEDED), self.file("a.jsonl", NEEDED)):
             read = read_results([path]).rows[0]
             self.assertEqual((read.omega, read.seed, read.sqr, read.roots, read.error),
                              ("", None, None, None, ""))
 
-    def test_failures_count_as_the_limit_and_have_no_sqr(self):
+    def test_failure_has_the_time_limit_as_runtime_and_no_sqr(self):
         path = self.file("a.jsonl", NEEDED | {"solved": False, "runtime_s": 3, "sqr": 0.5})
         read = read_results([path]).rows[0]
         self.assertEqual((read.runtime_s, read.sqr), (100, None))
 
-    def test_sqr_from_the_costs(self):
+    def test_sqr_is_computed_from_the_costs(self):
         path = self.file("a.jsonl", NEEDED | {"root_cost": 9})
         self.assertEqual(read_results([path]).rows[0].sqr, 0.9)
 
-    def test_omega_is_a_number_however_it_is_written(self):
+    def test_omega_is_normalised(self):
         for written, omega in (("0.010", "0.01"), (0, "0"), ("0.0", "0"), ("inf", "inf"), (0.1, "0.1")):
             path = self.file("a.jsonl", NEEDED | {"omega": written})
             self.assertEqual(read_results([path]).rows[0].omega, omega)
 
-    def test_of_a_repeated_run_the_later_counts(self):
+    def test_latest_row_of_a_repeated_run_counts(self):
         first = NEEDED | {"ended_at": "2026-01-01", "cost": 11}
         results = read_results([self.file("a.csv", NEEDED | {"ended_at": "2026-01-02"}, first)])
         self.assertEqual(([found.cost for found in results.rows], results.repeated), ([10], 1))
         self.assertEqual(len(read_results([self.file("a.csv", first, first | {"seed": 1},
                                                      first | {"omega": "0"})]).rows), 3)
 
-    def test_letters_that_cannot_be_shown(self):
+    def test_unprintable_characters_are_escaped(self):
         path = self.text("a.jsonl", json.dumps(NEEDED | {"method": "a\n\ud800\x00é"}))
         self.assertEqual(read_results([path]).rows[0].method, "a\\n\\ud800\\x00é")
 
 
 class Formulas(Folder):
-    """Cells that a spreadsheet would take for a formula."""
+    """Tests cells that a spreadsheet would take for a formula."""
     GUARDED = ("=1+2", "@SUM(A1)", "+1-2", "-2+3", "\t=1", "\r=1", "=a,b", "'=1", "--omega 0")
     PLAIN = ("", "a", "-1", "-1.5e-3", "'a", "1-2")
 
-    def test_stand_behind_an_apostrophe(self):
+    def test_formulas_are_prefixed_with_an_apostrophe(self):
         for text in self.GUARDED:
             self.assertEqual(csv_value(text), "'" + text)
         for text in self.PLAIN:
             self.assertEqual(csv_value(text), text)
         self.assertEqual((csv_value(-1), csv_value(-1.5), csv_value(None)), ("-1", "-1.5", ""))
 
-    def test_are_read_back_unchanged(self):
+    def test_formulas_are_read_back_unchanged(self):
         for text in self.GUARDED + self.PLAIN:
             self.assertEqual(text_of_cell(csv_value(text)), text)
         for text in ("=cmd|' /C calc'!A0", "-f", "'=1"):
@@ -151,40 +151,40 @@ class Formulas(Folder):
 
 
 class Refusals(Folder):
-    def test_files(self):
-        self.assertEqual(self.complaint(self.folder / "no"), "no: no such file or directory")
-        self.assertEqual(self.complaint(self.text("a.txt", "")),
+    def test_unreadable_files_are_refused(self):
+        self.assertEqual(self.error_of(self.folder / "no"), "no: no such file or directory")
+        self.assertEqual(self.error_of(self.text("a.txt", "")),
                          "a.txt: unknown file type; expected .csv, .jsonl or a directory")
-        self.assertTrue(self.complaint(self.folder).endswith(
+        self.assertTrue(self.error_of(self.folder).endswith(
             ": no results.jsonl and no results.csv in this directory; "
             "expected what grove bench or grove-mpi batch writes"))
-        self.assertEqual(self.complaint(self.text("a.csv", "")),
+        self.assertEqual(self.error_of(self.text("a.csv", "")),
                          "a.csv: empty; expected a line with the names of the columns")
-        self.assertEqual(self.complaint(self.text("a.jsonl", "\n")),
+        self.assertEqual(self.error_of(self.text("a.jsonl", "\n")),
                          "a.jsonl: no rows; expected at least one")
-        self.assertEqual(self.complaint(self.text("a.jsonl", b"\xff")),
+        self.assertEqual(self.error_of(self.text("a.jsonl", b"\xff")),
                          "a.jsonl: byte 0: not UTF-8 text")
 
-    def test_columns(self):
-        self.assertEqual(self.complaint(self.text("a.csv", "instance,method,cost\n")),
+    def test_wrong_columns_are_refused(self):
+        self.assertEqual(self.error_of(self.text("a.csv", "instance,method,cost\n")),
                          "a.csv: line 1: missing column map, agents, tasks, problem, time_limit_s, solved, "
                          "status, runtime_s; expected the columns that grove bench writes")
         header = ",".join(NEEDED)
-        self.assertEqual(self.complaint(self.text("a.csv", f"{header},map\n")),
+        self.assertEqual(self.error_of(self.text("a.csv", f"{header},map\n")),
                          "a.csv: line 1: found column map twice; expected it once")
-        self.assertEqual(self.complaint(self.text("a.csv", f"{header}\n1,2\n")),
+        self.assertEqual(self.error_of(self.text("a.csv", f"{header}\n1,2\n")),
                          "a.csv: row 1 (line 2): 2 columns; expected 11 as in the first line")
-        self.assertEqual(self.complaint(self.text("a.csv", f'{header}\n"1,2\n')),
+        self.assertEqual(self.error_of(self.text("a.csv", f'{header}\n"1,2\n')),
                          "a.csv: line 2: not CSV: unexpected end of data")
 
-    def test_json(self):
+    def test_malformed_json_is_refused(self):
         good = json.dumps(NEEDED)
-        self.assertEqual(self.complaint(self.text("a.jsonl", good + "\n" + good[:20] + "\n" + good)),
+        self.assertEqual(self.error_of(self.text("a.jsonl", good + "\n" + good[:20] + "\n" + good)),
                          "a.jsonl: row 2: not JSON; expected one object a line")
-        self.assertEqual(self.complaint(self.text("a.jsonl", "[1]\n")),
+        self.assertEqual(self.error_of(self.text("a.jsonl", "[1]\n")),
                          "a.jsonl: row 1: found '[1]'; expected a JSON object")
 
-    def test_values(self):
+    def test_wrong_values_are_refused(self):
         for column, wrong, expected in (
                 ("agents", "x", "an integer of at least 0"), ("tasks", -1, "an integer of at least 0"),
                 ("agents", 1.5, "an integer of at least 0"), ("cost", "1e3", "an integer of at least 0"),
@@ -198,8 +198,8 @@ class Refusals(Folder):
                 ("counts", "bypasses", "numbers as name=7, separated by blanks"),
                 ("counts", {"bypasses": 7}, "numbers as name=7, separated by blanks"),
                 ("counts", "bypasses=-1 a=2", "numbers as name=7, separated by blanks"),
-                ("status", "timeout", "one of optimal, bounded, feasible, infeasible, unknown, error, wrong, "
-                 "claimed, unsuitable"),
+                ("status", "timeout", "one of optimal, bounded, feasible, infeasible, unknown, error, invalid, "
+                 "claimed, unsupported"),
                 ("trace", "0.1:5", "plans as seconds:cost:bound, separated by blanks"),
                 ("trace", "0.1:x:-", "plans as seconds:cost:bound, separated by blanks")):
             for name, place in (("a.csv", "row 2 (line 3)"), ("a.jsonl", "row 2")):
@@ -207,23 +207,23 @@ class Refusals(Folder):
                     continue
                 shown = wrong if isinstance(wrong, str) else json.dumps(wrong)
                 path = self.file(name, NEEDED, NEEDED | {column: wrong})
-                self.assertEqual(self.complaint(path), f"{name}: {place}, column {column}: "
+                self.assertEqual(self.error_of(path), f"{name}: {place}, column {column}: "
                                                        f"found '{shown}'; expected {expected}")
 
-    def test_what_is_not_there(self):
+    def test_missing_values_are_refused(self):
         for name, place in (("a.csv", "row 1 (line 2)"), ("a.jsonl", "row 1")):
-            self.assertEqual(self.complaint(self.file(name, NEEDED | {"map": None})),
+            self.assertEqual(self.error_of(self.file(name, NEEDED | {"map": None})),
                              f"{name}: {place}, column map: empty; expected a value")
-        self.assertEqual(self.complaint(self.file("a.jsonl", NEEDED | {"cost": None})),
+        self.assertEqual(self.error_of(self.file("a.jsonl", NEEDED | {"cost": None})),
                          "a.jsonl: row 1, column cost: empty in a solved row; "
                          "expected an integer")
-        self.assertEqual(self.complaint(self.file("a.jsonl", NEEDED | {"status": "unknown"})),
+        self.assertEqual(self.error_of(self.file("a.jsonl", NEEDED | {"status": "unknown"})),
                          "a.jsonl: row 1, column status: found 'unknown' in a solved row; "
                          "expected one of optimal, bounded, feasible")
 
 
 class Measures(unittest.TestCase):
-    def test_of_some_rows(self):
+    def test_measures_of_four_rows(self):
         found = measures([row(runtime_s=1.0, sqr=0.9, roots=4, rtsp_calls=10), row(instance="j", runtime_s=3.0, sqr=0.8, roots=2),
                           failed(instance="k", roots=30), failed(instance="l")])
         self.assertEqual((found.instances, found.runs, found.solved, found.success), (4, 4, 2, 0.5))
@@ -233,8 +233,8 @@ class Measures(unittest.TestCase):
         self.assertAlmostEqual(found.mean_sqr, 0.85)
         self.assertEqual((found.mean_roots, found.mean_rtsp_calls), (12, 10))
 
-    def test_seeds_are_repetitions(self):
-        """An instance with many seeds weighs as much as one with a single one."""
+    def test_seeds_share_the_weight_of_an_instance(self):
+        """Checks that an instance with many seeds weighs as much as an instance with one seed."""
         found = measures([*(row(seed=seed, runtime_s=2.0, sqr=0.5, cost=20) for seed in (1, 2, 3)), failed(seed=4),
                           row(instance="j", seed=1, runtime_s=10.0, sqr=1.0, cost=30), failed(instance="k", seed=1)])
         self.assertEqual((found.instances, found.seeds, found.runs, found.solved), (3, 4, 6, 4))
@@ -244,13 +244,13 @@ class Measures(unittest.TestCase):
         self.assertAlmostEqual(found.par2_s, ((2 + 2 + 2 + 200) / 4 + 10 + 200) / 3)
         self.assertEqual((found.mean_sqr, found.mean_cost_ratio), (0.75, 1))
 
-    def test_claims_are_counted_and_solve_nothing(self):
+    def test_claims_are_counted_but_not_solved(self):
         found = measures([row(), failed(instance="j", status="claimed", claimed_cost=5),
-                          failed(instance="k", status="wrong", cost=3), failed(instance="l")])
-        self.assertEqual((found.claimed, found.wrong, found.success), (1, 1, 0.25))
-        self.assertEqual(metrics.best_costs([failed(status="claimed", cost=5), failed(status="wrong", cost=3)]), {})
+                          failed(instance="k", status="invalid", cost=3), failed(instance="l")])
+        self.assertEqual((found.claimed, found.invalid, found.success), (1, 1, 0.25))
+        self.assertEqual(metrics.best_costs([failed(status="claimed", cost=5), failed(status="invalid", cost=3)]), {})
 
-    def test_none_solved(self):
+    def test_measures_without_solved_rows(self):
         found = measures([failed(omega="0")])
         self.assertEqual((found.success, found.mean_runtime_s, found.par2_s, found.mean_sqr,
                           found.mean_cost_ratio, found.within_omega), (0, 100, 200, None, None, 0))
@@ -260,7 +260,7 @@ class Measures(unittest.TestCase):
             return metrics.within_omega(row(omega=omega, **values))
         for cost, found in ((100, True), (101, True), (102, False)):
             self.assertIs(within("0.01", cost=cost, lower_bound=100), found)
-        # What the plan costs counts, not what the status says.
+        # The cost of the plan counts, not the status.
         self.assertIs(within("0.01", status="bounded", cost=102, lower_bound=100), False)
         # 1.1 x 110 is 121, but a little more or less in binary.
         self.assertIs(within("0.1", cost=121, lower_bound=110), True)
@@ -268,11 +268,11 @@ class Measures(unittest.TestCase):
         self.assertIs(within("0", cost=10, lower_bound=10), True)
         self.assertIs(within("0", cost=10, lower_bound=9), False)
         for status, found in (("optimal", True), ("bounded", True), ("feasible", False)):
-            self.assertIs(within("0.01", status=status), found)  # no bound is told
+            self.assertIs(within("0.01", status=status), found)  # the row has no bound
         for omega in ("inf", ""):
             self.assertIsNone(within(omega, status="optimal", lower_bound=10))
 
-    def test_how_many_are_within_omega(self):
+    def test_rows_within_omega_are_counted(self):
         found = [row(omega="0.1", cost=110, lower_bound=100), row(omega="0.1", cost=111, lower_bound=100),
                  row(omega="0.1", status="optimal"), failed(omega="0.1", cost=100, lower_bound=100)]
         self.assertEqual(measures(found).within_omega, 2)
@@ -298,8 +298,8 @@ class Measures(unittest.TestCase):
         self.assertEqual(metrics.cost_ratio(free, metrics.best_costs([free])), 1)
         self.assertIsNone(metrics.cost_ratio(easy, metrics.best_costs([easy, free])))
 
-    def test_the_cost_ratio_of_an_exact_method_is_not_worse_for_solving_more(self):
-        """SQR is: 10/10 on the easy instance, 10/20 on the hard one, which the other does not solve."""
+    def test_cost_ratio_does_not_penalise_solving_harder_instances(self):
+        """Checks that only its mean SQR is worse: 10/10 on the easy instance, 10/20 on one that no other solves."""
         exact = [row(status="optimal", cost=10, sqr=1.0),
                  row(instance="j", status="optimal", cost=20, sqr=0.5)]
         other = [row(method="b", cost=11, sqr=10 / 11), failed(method="b", instance="j")]
@@ -308,14 +308,14 @@ class Measures(unittest.TestCase):
         self.assertLess(exact.mean_sqr, other.mean_sqr)
         self.assertEqual((exact.mean_cost_ratio, other.mean_cost_ratio), (1, 1.1))
 
-    def test_cells_keep_methods_omegas_and_limits_apart_and_leave_gaps(self):
+    def test_cells_separate_methods_omegas_and_limits(self):
         made = [row(), row(omega="0"), row(time_limit_s=7.0), row(tasks=20, method="b")]
         found = metrics.by_cell(made, metrics.best_costs(made))
         self.assertEqual({cell: set(lines) for cell, lines in found.items()},
                          {Cell("m", 5, 10): {Line("a", "", 100), Line("a", "0", 100), Line("a", "", 7.0)},
                           Cell("m", 5, 20): {Line("b", "", 100)}})
 
-    def test_the_median_run_of_several_seeds(self):
+    def test_median_run_of_several_seeds(self):
         def time_of(*runs):
             return metrics.median_runs(runs)["i"][Line("a", "", 100)].runtime_s
         self.assertEqual(time_of(row(runtime_s=5), row(runtime_s=1), row(runtime_s=3)), 3)
@@ -327,7 +327,7 @@ class Measures(unittest.TestCase):
     def test_solved_over_time(self):
         self.assertEqual(metrics.solved_over_time([row(runtime_s=5), failed(), row(runtime_s=2)]), [2, 5])
 
-    def test_only_solvers(self):
+    def test_only_solver_lists_instances_no_other_method_solves(self):
         runs = metrics.median_runs([
             row(), failed(method="b"), row(instance="j"), row(instance="j", method="b"),
             row(instance="k"), failed(instance="l"), failed(instance="l", method="b"),
@@ -336,7 +336,7 @@ class Measures(unittest.TestCase):
                           for line, rows in metrics.only_solver(runs).items()},
                          {("a", ""): ["i", "n"], ("a", "0"): ["n"]})
 
-    def test_beyond_the_baselines(self):
+    def test_instances_beyond_the_baselines_are_counted(self):
         runs = metrics.median_runs([
             row(), failed(method="base"), row(instance="j"), row(instance="j", method="base"),
             row(instance="k")])  # no baseline tried k
@@ -345,7 +345,7 @@ class Measures(unittest.TestCase):
 
 
 class Speedups(unittest.TestCase):
-    """Baselines x and y, method a; four instances."""
+    """Tests speed-ups of method a over baselines x and y on five instances."""
 
     def setUp(self):
         def times(instance, **seconds):
@@ -356,12 +356,12 @@ class Speedups(unittest.TestCase):
             *times("p", x=10, y=20, a=2),       # best 10
             *times("q", x=None, y=30, a=10),    # best 30
             *times("r", x=50, y=40, a=None),    # best 40
-            *times("easy", x=0.5, y=90, a=9),   # best 0.5: does not count
+            *times("easy", x=0.5, y=90, a=9),   # best 0.5: omitted
             *times("hard", x=None, y=None, a=1)])
         self.found = {(each.map, each.baseline.method, each.line.method): each
                       for each in speedup.speedups(runs, lambda line: line.method in "xy")}
 
-    def test_best_baseline(self):
+    def test_speedup_over_the_best_baseline(self):
         found = self.found["", "best baseline", "a"]
         # 10/2, 30/10, 40/100
         self.assertEqual((found.instances, found.median_ratio, found.line_failed, found.baseline_failed),
@@ -369,102 +369,105 @@ class Speedups(unittest.TestCase):
         self.assertEqual((found.baseline_median_s, found.line_median_s), (30, 10))
         self.assertEqual(found.sure, "exactly")  # 40/100 is the smallest anyway
 
-    def test_one_baseline(self):
+    def test_speedup_over_one_baseline(self):
         found = self.found["", "x", "a"]
         # 10/2, 100+/10, 50/100+
         self.assertEqual((found.median_ratio, found.baseline_failed, found.line_failed), (5, 1, 1))
         self.assertEqual(found.sure, "exactly")
         self.assertEqual(self.found["", "y", "x"].median_ratio, 0.8)  # 20/10, 30/100+, 40/50
 
-    def test_what_failures_leave_open(self):
+    def test_failures_bound_the_median_ratio(self):
         pairs = [(failed(), row(runtime_s=10)), (row(runtime_s=10), row(runtime_s=10))]
         self.assertEqual(speedup._sure(pairs, 5.5), "at least")
         self.assertEqual(speedup._sure([(mine, other) for other, mine in pairs], 0.55), "at most")
         self.assertEqual(speedup._sure([(failed(), failed())], 1), "about")
 
-    def test_by_map(self):
+    def test_speedups_of_one_map_equal_the_total(self):
         self.assertEqual(self.found["m", "x", "a"][3:], self.found["", "x", "a"][3:])
 
-    def test_no_time_at_all_is_a_millisecond(self):
+    def test_zero_runtime_counts_as_one_millisecond(self):
         runs = metrics.median_runs([row(method="x", runtime_s=2), row(runtime_s=0)])
         found = speedup.speedups(runs, lambda line: line.method == "x")
         self.assertEqual([each.median_ratio for each in found if each.line.method == "a"], [2000] * 4)
 
 
 class Proofs(unittest.TestCase):
-    def said(self, *found):
+    def contradictions(self, *found):
         return [each.what for each in proofs.contradictions(found)]
 
-    def test_agreement(self):
+    def test_consistent_proofs_have_no_contradiction(self):
         optimal = {"status": "optimal", "cost": 10, "lower_bound": 10}
         rows_ = [row(**optimal), row(method="b", **optimal), row(method="c", cost=12, lower_bound=9),
                  row(instance="j", status="optimal", cost=11), failed(method="d", lower_bound=10)]
-        self.assertEqual(self.said(*rows_), [])
+        self.assertEqual(self.contradictions(*rows_), [])
         self.assertEqual(proofs.optimal_agreements(rows_), 1)
 
-    def test_optimal_costs_differ(self):
-        self.assertEqual(self.said(row(status="optimal", cost=10), row(method="b", status="optimal", cost=11),
-                                   row(method="c", omega="0", status="optimal", cost=11)),
+    def test_differing_optimal_costs_contradict(self):
+        self.assertEqual(self.contradictions(row(status="optimal", cost=10), row(method="b", status="optimal", cost=11),
+                                             row(method="c", omega="0", status="optimal", cost=11)),
                          ["optimal costs differ: 10 (a), 11 (b, c ω=0)"])
 
-    def test_a_plan_below_a_bound(self):
-        self.assertEqual(self.said(row(cost=10), failed(method="b", lower_bound=11)),
+    def test_plan_below_a_bound_contradicts(self):
+        self.assertEqual(self.contradictions(row(cost=10), failed(method="b", lower_bound=11)),
                          ["a plan costs 10 (a), below a proven lower bound: 11 (b)"])
-        self.assertEqual(self.said(row(cost=10), row(method="b", cost=12, root_cost=11)),
+        self.assertEqual(self.contradictions(row(cost=10), row(method="b", cost=12, root_cost=11)),
                          ["a plan costs 10 (a), below the root cost: 11 (b)"])
-        self.assertEqual(self.said(row(cost=10), row(method="b", status="optimal", cost=11)),
+        self.assertEqual(self.contradictions(row(cost=10), row(method="b", status="optimal", cost=11)),
                          ["a plan costs 10 (a), less than the optimal cost: 11 (b)"])
 
-    def test_a_plan_of_what_has_none(self):
-        self.assertEqual(self.said(row(), failed(method="b", status="infeasible")),
+    def test_plan_of_an_infeasible_instance_contradicts(self):
+        self.assertEqual(self.contradictions(row(), failed(method="b", status="infeasible")),
                          ["a plan costs 10 (a); but: infeasible (b)"])
 
-    def test_bounds_of_plans_that_keep_apart_bound_no_others(self):
-        self.assertEqual(self.said(row(cost=10), row(method="b", status="optimal", cost=12, lower_bound=12,
-                                                     options="--omega 0 --no-following")), [])
-        self.assertEqual(len(self.said(row(method="b", cost=10, options="--no-following"), failed(lower_bound=11))), 1)
+    def test_bounds_without_following_do_not_apply_with_following(self):
+        self.assertEqual(self.contradictions(row(cost=10), row(method="b", status="optimal", cost=12, lower_bound=12,
+                                                               options="--omega 0 --no-following")), [])
+        found = self.contradictions(row(method="b", cost=10, options="--no-following"), failed(lower_bound=11))
+        self.assertEqual(len(found), 1)
 
-    def test_problems_are_kept_apart_and_errors_left_out(self):
-        self.assertEqual(self.said(row(status="optimal", cost=10),
-                                   row(problem="cts", status="optimal", cost=11),
-                                   failed(method="b", status="error", cost=3, lower_bound=99)), [])
+    def test_other_problems_and_errors_do_not_contradict(self):
+        self.assertEqual(self.contradictions(row(status="optimal", cost=10),
+                                             row(problem="cts", status="optimal", cost=11),
+                                             failed(method="b", status="error", cost=3, lower_bound=99)), [])
 
 
 class FalseClaims(unittest.TestCase):
-    def said(self, *found, **known):
+    def false_claims(self, *found, **known):
         return [(each.method, each.kind, each.claimed, each.checked) for each in proofs.false_claims(found, **known)]
 
-    def test_what_is_true_is_none(self):
-        self.assertEqual(self.said(row(lower_bound=9), row(method="x", cost=11, claimed_cost=11, claimed_lower_bound=10),
-                                   failed(method="y", status="claimed", claimed_cost=9),
-                                   row(method="z", cost=11, claimed_cost=12,
-                                       trace=(rows.Point(1, 12, 8), rows.Point(2, 11, 10)), solver="z")), [])
+    def test_true_claims_are_accepted(self):
+        found = self.false_claims(row(lower_bound=9), row(method="x", cost=11, claimed_cost=11, claimed_lower_bound=10),
+                                  failed(method="y", status="claimed", claimed_cost=9),
+                                  row(method="z", cost=11, claimed_cost=12,
+                                      trace=(rows.Point(1, 12, 8), rows.Point(2, 11, 10)), solver="z"))
+        self.assertEqual(found, [])
 
-    def test_a_wrong_plan(self):
-        found = proofs.false_claims([failed(method="x", status="wrong", error="agents 3 and 7 collide", seed=4)])
+    def test_invalid_plan_is_a_false_claim(self):
+        found = proofs.false_claims([failed(method="x", status="invalid", error="agents 3 and 7 collide", seed=4)])
         self.assertEqual([(each.method, each.seed, each.kind, each.what) for each in found],
                          [("x", 4, "plan", "agents 3 and 7 collide")])
 
-    def test_a_cost_that_is_told_too_low(self):
-        self.assertEqual(self.said(row(method="x", cost=10, claimed_cost=9)), [("x", "cost", 9, 10)])
-        self.assertEqual(self.said(row(method="x", cost=10, solver="x", trace=(rows.Point(1, 9, None),))),
+    def test_claimed_cost_below_the_checked_cost_is_false(self):
+        self.assertEqual(self.false_claims(row(method="x", cost=10, claimed_cost=9)), [("x", "cost", 9, 10)])
+        self.assertEqual(self.false_claims(row(method="x", cost=10, solver="x", trace=(rows.Point(1, 9, None),))),
                          [("x", "cost", 9, 10)])
-        # Of a plan that nobody saw: only below what is proven.
+        # Without a plan file a claimed cost is false only if it is below a proven bound.
         claimed = failed(method="x", status="claimed", claimed_cost=9)
-        self.assertEqual(self.said(failed(lower_bound=10), claimed), [("x", "cost", 9, 10)])
-        self.assertEqual(self.said(failed(lower_bound=10, options="--no-following"), claimed), [])
+        self.assertEqual(self.false_claims(failed(lower_bound=10), claimed), [("x", "cost", 9, 10)])
+        self.assertEqual(self.false_claims(failed(lower_bound=10, options="--no-following"), claimed), [])
 
-    def test_a_bound_above_a_plan(self):
+    def test_claimed_bound_above_a_plan_is_false(self):
         bound = failed(method="x", claimed_lower_bound=11)
-        self.assertEqual(self.said(row(), bound), [("x", "lower bound", 11, 10)])
-        self.assertEqual(self.said(row(method="x", claimed_lower_bound=11)), [("x", "lower bound", 11, 10)])
-        self.assertEqual(self.said(bound, known_costs={("mg", "i"): 10}), [("x", "lower bound", 11, 10)])
-        # Plans that are none refute nothing.
-        self.assertEqual(self.said(failed(method="y", status="wrong", cost=10), bound), [("y", "plan", None, None)])
+        self.assertEqual(self.false_claims(row(), bound), [("x", "lower bound", 11, 10)])
+        self.assertEqual(self.false_claims(row(method="x", claimed_lower_bound=11)), [("x", "lower bound", 11, 10)])
+        self.assertEqual(self.false_claims(bound, known_costs={("mg", "i"): 10}), [("x", "lower bound", 11, 10)])
+        # An invalid plan refutes no bound.
+        self.assertEqual(self.false_claims(failed(method="y", status="invalid", cost=10), bound),
+                         [("y", "plan", None, None)])
 
 
 class OverTime(unittest.TestCase):
-    """Quality over time."""
+    """Tests quality over time."""
 
     def points(self, *found):
         return tuple(rows.Point(*each) for each in found)
@@ -472,23 +475,23 @@ class OverTime(unittest.TestCase):
     def test_plans_of_a_run(self):
         def plans(**values):
             return anytime.plans_over_time(row(wall_s=9.0, **values))
-        self.assertEqual(plans(), [(9, 10)])  # it tells nothing: when it ends
+        self.assertEqual(plans(), [(9, 10)])  # without a trace: at the end of the run
         self.assertEqual(plans(trace=self.points((1, 14, None), (2, 10, None))), [(1, 14), (2, 10)])
-        # What is shown in the end was not told of; what was told is cheaper than what is shown.
+        # The final plan is not in the trace; or the trace claims a lower cost than that of the final plan.
         self.assertEqual(plans(trace=self.points((1, 14, None))), [(1, 14), (9, 10)])
         self.assertEqual(plans(trace=self.points((1, 14, None), (2, 8, None))), [(1, 14), (9, 10)])
-        self.assertEqual(anytime.plans_over_time(failed(status="wrong", cost=3)), [])
+        self.assertEqual(anytime.plans_over_time(failed(status="invalid", cost=3)), [])
 
     def test_bounds_of_a_run(self):
-        told = row(wall_s=9.0, trace=self.points((1, 14, 7), (2, 12, 7), (3, 10, 8)), lower_bound=9)
-        self.assertEqual(anytime.bounds_over_time(told), [(1, 7), (3, 8), (9, 9)])
+        traced = row(wall_s=9.0, trace=self.points((1, 14, 7), (2, 12, 7), (3, 10, 8)), lower_bound=9)
+        self.assertEqual(anytime.bounds_over_time(traced), [(1, 7), (3, 8), (9, 9)])
 
     def panel(self, found, known=()):
         best = metrics.best_costs(found, known)
         panel, = anytime.panels(found, best, metrics.best_bounds(found))
         return panel
 
-    def test_the_mean_is_over_common_instances_and_says_how_many_have_a_plan(self):
+    def test_mean_is_over_common_instances_with_plan_share(self):
         def run(method, instance, *trace):
             return row(method=method, instance=instance, cost=trace[-1][1], wall_s=50.0, anytime=True,
                        trace=self.points(*trace))
@@ -497,8 +500,9 @@ class OverTime(unittest.TestCase):
             run("b", "i", (2, 12, None)), run("b", "j", (2, 25, None)), failed(method="b", instance="k", anytime=True)])
         self.assertEqual((panel.instances, panel.common), (3, 2))
         curve = panel.curves[Line("a", "", 100)]
-        told = [(step.seconds, round(3 * step.with_plan), step.common_with_plan, step.cost_ratio) for step in curve.steps]
-        self.assertEqual(told, [(1, 1, 0.5, 2), (2, 2, 1, 1.75), (3, 2, 1, 1.25), (4, 3, 1, 1.25), (5, 3, 1, 1)])
+        steps = [(step.seconds, round(3 * step.with_plan), step.common_with_plan, step.cost_ratio)
+                 for step in curve.steps]
+        self.assertEqual(steps, [(1, 1, 0.5, 2), (2, 2, 1, 1.75), (3, 2, 1, 1.25), (4, 3, 1, 1.25), (5, 3, 1, 1)])
         # 8/10 and 8/20; 9/10 and 10/20
         self.assertAlmostEqual(curve.at(2).bound_ratio, 0.6)
         self.assertAlmostEqual(curve.at(99).bound_ratio, 0.7)
@@ -508,7 +512,7 @@ class OverTime(unittest.TestCase):
         self.assertAlmostEqual(other.at(9).cost_ratio, (1.2 + 1.25) / 2)
         self.assertAlmostEqual(other.at(9).with_plan, 2 / 3)
 
-    def test_seeds_share_the_weight_of_their_instance(self):
+    def test_curves_weigh_instances_not_seeds(self):
         found = [row(seed=1, cost=10, trace=self.points((1, 20, None), (2, 10, None))),
                  row(seed=2, cost=12, trace=self.points((1, 12, None))),
                  row(seed=1, instance="j", cost=30, trace=self.points((1, 60, None), (2, 30, None)))]
@@ -516,15 +520,15 @@ class OverTime(unittest.TestCase):
         self.assertAlmostEqual(curve.at(1).cost_ratio, ((2 + 1.2) / 2 + 2) / 2)
         self.assertAlmostEqual(curve.at(2).cost_ratio, ((1 + 1.2) / 2 + 1) / 2)
 
-    def test_a_plan_of_unknown_cost_is_a_plan(self):
+    def test_plan_of_unknown_cost_counts_as_plan(self):
         curve = self.panel([row(anytime=True, first_plan_s=0.5, wall_s=100.0)]).curves[Line("a", "", 100)]
         self.assertEqual([(step.seconds, step.with_plan, step.cost_ratio) for step in curve.steps],
                          [(0.5, 1, None), (100, 1, 1)])
 
-    def test_methods_that_do_not_improve_are_left_out(self):
+    def test_methods_without_anytime_plans_are_omitted(self):
         self.assertEqual(anytime.panels([row()], {("mg", "i"): 10}, {}), [])
 
-    def test_what_is_known_elsewhere_counts(self):
+    def test_known_costs_lower_the_best_cost(self):
         curve = self.panel([row(anytime=True)], {("mg", "i"): 8}).curves[Line("a", "", 100)]
         self.assertEqual(curve.steps[-1].cost_ratio, 1.25)
 
@@ -538,7 +542,7 @@ class Logs(Folder):
     def log(self, name, *events, end="\n"):
         return self.text(name, "\n".join(json.dumps(event) for event in (self.HEADER, *events)) + end)
 
-    def test_a_run(self):
+    def test_log_of_a_complete_run(self):
         path = self.log("a.jsonl", {"event": "bound", "time_s": 0.1, "lower_bound": 8, "incumbent": None},
                         {"event": "counts", "time_s": 0.1, "counts": {}},
                         {"event": "progress", "time_s": 0.2, "lower_bound": 8, "incumbent": None},
@@ -549,27 +553,29 @@ class Logs(Folder):
                          ("a", "maps/i.cts.json", 5, "bounded", 2.5))
         self.assertEqual([tuple(moment) for moment in run.moments], [(0.1, None, 8), (0.5, 12, 8), (2.5, 12, 9)])
 
-    def test_a_log_that_is_cut_off(self):
+    def test_log_with_incomplete_last_line(self):
         run = logs.read_log(self.log("a.jsonl", {"event": "bound", "time_s": 1, "lower_bound": 8}, end='\n{"event": "b'))
         self.assertEqual((run.status, len(run.moments)), ("", 1))
 
-    def test_the_first_line_tells_logs_from_results(self):
+    def test_logs_are_recognised_by_their_first_line(self):
         log, other = self.log("a.jsonl"), self.text("c.jsonl", '{"no": "event"}\n')
         self.assertEqual(logs.parted([self.folder]), ([], [log]))
         table = self.file("results.jsonl", NEEDED)
         self.assertEqual(logs.parted([self.folder]), ([self.folder], [log]))
         self.assertEqual(logs.parted([table, log, other]), ([table, other], [log]))
 
-    def test_wrong_events(self):
-        for event, said in (({"event": "bound", "time_s": "x", "lower_bound": 8}, "time_s: found '\"x\"'; expected a number"),
-                            ({"event": "bound", "time_s": 1, "lower_bound": 1.5}, "lower_bound: found '1.5'; expected an integer")):
+    def test_malformed_events_are_refused(self):
+        for event, message in (({"event": "bound", "time_s": "x", "lower_bound": 8},
+                                "time_s: found '\"x\"'; expected a number"),
+                               ({"event": "bound", "time_s": 1, "lower_bound": 1.5},
+                                "lower_bound: found '1.5'; expected an integer")):
             with self.assertRaises(BadInput) as caught:
                 logs.read_log(self.log("a.jsonl", event))
-            self.assertIn(f"a.jsonl: line 2, {said}", str(caught.exception))
+            self.assertIn(f"a.jsonl: line 2, {message}", str(caught.exception))
 
 
 class Tracker(Folder):
-    """Its rows out, its best known in."""
+    """Tests the rows for MAPF Tracker and the best known values read from it."""
 
     NAME = "random-32-32-20-random-3-2"
 
@@ -583,7 +589,7 @@ class Tracker(Folder):
     def grove_plan(self, *paths):
         return json.dumps({"agents": [{"path": path} for path in paths]})
 
-    def test_which_scenario(self):
+    def test_scenario_is_derived_from_the_instance_name(self):
         def place(**values):
             found = tracker.place_of(self.row(**values))
             return found and tuple(found)
@@ -594,26 +600,26 @@ class Tracker(Folder):
                        {"instance": "mine-random-3-2", "map": "mine"}):
             self.assertIsNone(place(**values), values)
 
-    def test_a_submission(self):
-        # Two agents; one waits for the other at the end of its way.
+    def test_submission_lists_rows_and_omissions(self):
+        # Two agents; one waits for the other at the end of its path.
         path = [[0, 2], [1, 2], [1, 2], [1, 1], [1, 1], [1, 1]]
         cheap = self.plan("a.plan.json", self.grove_plan(path, [[5, 5], [5, 6], [5, 7]]))
-        found = [self.row(plan_file=cheap, lower_bound=4), self.row(seed=1, cost=7, plan_file="dear"),
+        found = [self.row(plan_file=cheap, lower_bound=4), self.row(seed=1, cost=7, plan_file="expensive"),
                  self.row(instance="random-32-32-20-random-4-2", cost=None, status="unknown", solved=False),
                  self.row(instance="mine-random-3-2", map="mine"),
-                 self.row(instance="random-32-32-20-random-5-2", plan_file=self.plan("b", self.grove_plan(path, [[1, 2]]))),
+                 self.row(instance="random-32-32-20-random-5-2", plan_file=self.plan("b", self.grove_plan(path, [[1, 2], [3, 2]]))),
                  self.row(instance="random-32-32-20-random-6-2")]
         done = tracker.submission(found, metrics.best_costs(found))
         self.assertEqual(done.text, "map_name,scen_type,type_id,agents,lower_cost,solution_cost,flip_up_down,solution_plan\n"
                                     'random-32-32-20,random,3,2,4,5,FALSE,"rwu\n2d"\n')
         self.assertEqual(sum(done.left_out.values()), 5)
         self.assertEqual(sorted(why.replace(f"{self.folder}/", "") for why in done.left_out), [
-            "b: two agents are on one cell at time 1",
+            "b: agent 1 jumps at time 1",
             "not of a scenario of the Moving AI benchmark (expected the name MAP-even-N-AGENTS or MAP-random-N-AGENTS)",
             "not the cheapest plan of the instance",
             "without a checked plan (status unknown)", "without a plan file (grove bench --keep-plans)"])
 
-    def test_bounds_that_are_refuted_are_not_submitted(self):
+    def test_refuted_bounds_are_not_submitted(self):
         plan = self.plan("a", self.grove_plan([[0, 0], [1, 0], [2, 0]], [[0, 5], [1, 5], [2, 5], [3, 5]]))
         for values, bound in (({"lower_bound": 4}, "4"), ({"claimed_lower_bound": 5}, "5"), ({}, ""),
                               ({"claimed_lower_bound": 6}, ""), ({"lower_bound": 5, "options": "--no-following"}, "")):
@@ -621,28 +627,23 @@ class Tracker(Folder):
             line = tracker.submission(found, metrics.best_costs(found)).text.split("\n")[1]
             self.assertTrue(line.startswith(f"random-32-32-20,random,3,2,{bound},5,"), (values, line))
 
-    def test_plans_that_are_none(self):
-        def said(text, agents=2):
+    def test_malformed_plans_are_refused(self):
+        def error_of_plan(text, agents=2):
             with self.assertRaises(plans.BadPlan) as caught:
-                plans.recounted(plans.read_plan(Path(self.plan("p", text)), agents))
+                plans.read_plan(Path(self.plan("p", text)), agents)
             return str(caught.exception)
-        self.assertEqual(said(self.grove_plan([[0, 0], [2, 0]], [[5, 5]])), "agent 0 jumps at time 1")
-        self.assertEqual(said(self.grove_plan([[0, 0], [1, 0]], [[1, 0], [0, 0]])), "agents 0 and 1 swap places at time 1")
-        self.assertEqual(said(self.grove_plan([[0, 0], [1, 0]], [[2, 0], [2, 1], [2, 0], [1, 0]])),
-                         "two agents are on one cell at time 3")
-        self.assertEqual(said(self.grove_plan([[0, 0]])), "paths of 1 agents; expected 2")
-        self.assertEqual(said("nothing"), "found no plan; expected a plan file of Grove")
-        self.assertEqual(said(self.grove_plan([["a"], ["b"]], [[5, 5]])), "agent 0 jumps at time 1")
-        self.assertEqual(said(self.grove_plan(7, [[5, 5]])), "found no plan; expected a plan file of Grove")
-        # A rotation is none.
-        ring = [[0, 0], [1, 0], [1, 1], [0, 1]]
-        turned = self.grove_plan(*([ring[at], ring[(at + 1) % 4]] for at in range(4)))
-        self.assertEqual(plans.recounted(plans.read_plan(Path(self.plan("p", turned)), 4)), 4)
+        self.assertEqual(error_of_plan(self.grove_plan([[0, 0], [2, 0]], [[5, 5]])), "agent 0 jumps at time 1")
+        self.assertEqual(error_of_plan(self.grove_plan([[0, 0]])), "paths of 1 agents; expected 2")
+        self.assertEqual(error_of_plan("nothing"), "found no plan; expected a plan file of Grove")
+        self.assertEqual(error_of_plan(self.grove_plan([["a"], ["b"]], [[5, 5]])), "agent 0 jumps at time 1")
+        self.assertEqual(error_of_plan(self.grove_plan(7, [[5, 5]])), "found no plan; expected a plan file of Grove")
+        paths = plans.read_plan(Path(self.plan("p", self.grove_plan([[0, 0], [1, 0], [1, 0]], [[5, 5]]))), 2)
+        self.assertEqual(plans.cost_of(paths), 1)
 
     def known(self, name, text):
         return tracker.read_known([self.text(name, text)])
 
-    def test_what_is_known(self):
+    def test_best_known_values_are_read(self):
         place = tracker.Place("random-32-32-20", "random", 3, 2)
         head = "map_name,scen_type,type_id,agents,lower_cost,solution_cost,flip_up_down,solution_plan\n"
         for name, text in (
@@ -656,8 +657,8 @@ class Tracker(Folder):
         self.assertEqual(self.known("a.csv", head + "m,even,1,2,7,,,\nm,even,1,2,,9,,\nm,even,1,2,null,undefined,,\n"),
                          {tracker.Place("m", "even", 1, 2): tracker.Known(7, 9)})
 
-    def test_what_is_no_download(self):
-        for name, text, said in (
+    def test_malformed_downloads_are_refused(self):
+        for name, text, message in (
                 ("a.csv", "x,y\n",
                  "a.csv: line 1: missing column agents; expected the columns of a download of MAPF Tracker"),
                 ("a.csv", "agents,lower_cost,solution_cost\n2,4,6\n", "a.csv: line 2: missing scen_type; expected"),
@@ -667,9 +668,9 @@ class Tracker(Folder):
                 ("a.txt", "", "a.txt: expected a .csv or .json of MAPF Tracker")):
             with self.assertRaises(BadInput) as caught:
                 self.known(name, text)
-            self.assertIn(f"{self.folder}/{said}", str(caught.exception))
+            self.assertIn(f"{self.folder}/{message}", str(caught.exception))
 
-    def test_rows_beside_what_is_known(self):
+    def test_rows_are_compared_with_the_best_known_values(self):
         known = {tracker.place_of(self.row()): tracker.Known(4, 6)}
 
         def flags(*found):
@@ -682,23 +683,25 @@ class Tracker(Folder):
         self.assertEqual(flags(self.row(cost=7), self.row(seed=1, cost=5)), [(5, None, True, False, False)])
         self.assertEqual(flags(self.row(problem="cts")), [])
 
-    def test_contradictions(self):
-        def said(known, *found):
+    def test_contradictions_with_best_known_values(self):
+        def contradictions(known, *found):
             return [each.what for each in proofs.contradictions(found, {("mapf", self.NAME): tracker.Known(*known)})]
-        self.assertEqual(said((4, 6), self.row(cost=4, lower_bound=4), failed(**self.row()._asdict() | {"cost": None})), [])
-        self.assertEqual(said((6, 6), self.row(cost=5)), ["MAPF Tracker has a lower bound of 6; a plan costs 5 (a)"])
-        self.assertEqual(said((4, 5), self.row(cost=7, lower_bound=6)),
+        self.assertEqual(contradictions((4, 6), self.row(cost=4, lower_bound=4),
+                                        failed(**self.row()._asdict() | {"cost": None})), [])
+        self.assertEqual(contradictions((6, 6), self.row(cost=5)),
+                         ["MAPF Tracker has a lower bound of 6; a plan costs 5 (a)"])
+        self.assertEqual(contradictions((4, 5), self.row(cost=7, lower_bound=6)),
                          ["MAPF Tracker has a plan of cost 5, below a proven lower bound: 6 (a)"])
 
 
 class CommonInstances(unittest.TestCase):
-    """What all solve which solve any."""
+    """Tests instances that are solved by all methods that solve any instance."""
 
     def measured(self, found):
         return {line.method: each for line, each in
                 metrics.measures_by_line(found, metrics.best_costs(found)).items()}
 
-    def test_are_those_of_all_that_solve_any(self):
+    def test_common_instances_exclude_methods_that_solve_none(self):
         found = [row(instance="easy", method="a", sqr=1.0, cost=10), row(instance="hard", method="a", sqr=0.5, cost=20),
                  row(instance="easy", method="b", sqr=0.8, cost=12), failed(instance="hard", method="b"),
                  failed(instance="easy", method="c"), failed(instance="hard", method="c")]
@@ -708,11 +711,11 @@ class CommonInstances(unittest.TestCase):
         self.assertEqual((b.mean_sqr, b.common_sqr, b.common_cost_ratio), (0.8, 0.8, 1.2))
         self.assertEqual((c.common_sqr, c.common_cost_ratio), (None, None))
 
-    def test_need_two(self):
-        alone = self.measured([row(method="a", sqr=1.0), failed(method="b")])["a"]
-        self.assertEqual((alone.common, alone.common_sqr), (0, None))
+    def test_common_instances_need_two_methods(self):
+        measured = self.measured([row(method="a", sqr=1.0), failed(method="b")])["a"]
+        self.assertEqual((measured.common, measured.common_sqr), (0, None))
 
-    def test_are_solved_with_every_seed(self):
+    def test_common_instances_are_solved_with_every_seed(self):
         found = [row(method="a", seed=1, sqr=0.8, cost=12, runtime_s=2), row(method="a", seed=2, sqr=0.6, cost=14, runtime_s=4),
                  row(method="b", seed=1, sqr=1.0, cost=10)]
         a = self.measured(found)["a"]
@@ -722,14 +725,14 @@ class CommonInstances(unittest.TestCase):
         self.assertEqual((a.common, a.common_mean_cost), (0, None))
 
 
-class TheLines(unittest.TestCase):
-    def test_groves_own_search_has_its_name(self):
+class LinesAndFamilies(unittest.TestCase):
+    def test_default_method_is_labelled_grove(self):
         lines = Lines([row(method="auto"), row(method="hcbs")], [])
         self.assertEqual([lines.label(line) for line in lines.all], ["Grove", "hcbs"])
         lines = Lines([row(method="auto"), row(method="Grove")], [])
         self.assertEqual({lines.label(line) for line in lines.all}, {"Grove", "auto"})
 
-    def test_labels_tell_what_the_method_does_not(self):
+    def test_labels_distinguish_omegas_and_limits(self):
         found = [row(method="a", omega="0"), row(method="a", omega="inf"), row(method="b", omega="0.01"),
                  row(method="c"), row(method="c", time_limit_s=7.5)]
         lines = Lines(found, ["b"])
@@ -738,15 +741,15 @@ class TheLines(unittest.TestCase):
         self.assertEqual([lines.name(line) for line in lines.all],
                          ["a", "a", "c, limit 7.5 s", "c, limit 100 s", "b"])
 
-    def test_labels_leave_out_an_omega_that_all_share(self):
+    def test_labels_omit_a_common_omega(self):
         def labels(*found):
             lines = Lines(found, [])
             return [lines.label(line) for line in lines.all]
         self.assertEqual(labels(row(omega="0"), row(method="b", omega="0")), ["a", "b"])
-        # Of different problems, which no figure shows side by side.
+        # Different problems are never in the same figure.
         self.assertEqual(labels(row(omega="0"), row(method="b", omega="1", problem="cts")), ["a", "b"])
 
-    def test_families_by_options(self):
+    def test_families_are_derived_from_options(self):
         found = [row(method=method, omega=omega, options=options) for method, omega, options in (
             ("one", "0", "--method x --omega 0 --seed 1"), ("two", "inf", "--method x --omega=inf --seed 1"),
             ("three", "0.1", "--method x --seed 2 --omega 0.1"), ("four", "0", "--method y --omega 0"))]
@@ -756,7 +759,7 @@ class TheLines(unittest.TestCase):
         self.assertEqual([[line.method for line in family.lines] for family in named],
                          [["four", "one", "three"]])
 
-    def test_families_by_name(self):
+    def test_families_are_derived_from_names(self):
         found = [row(method="x", omega=omega) for omega in ("inf", "0", "0.01")]
         found += [row(method="cts-cbs-w0", omega="0"), row(method="cts-cbs-w0.1", omega="0.1"),
                   row(method="eecbs2", omega="2"), row(method="eecbs1", omega="1")]
@@ -772,23 +775,23 @@ class TheLines(unittest.TestCase):
 
 
 class Scales(unittest.TestCase):
-    def test_points_side_by_side(self):
+    def test_points_of_lines_are_dodged(self):
         self.assertEqual(scales.dodged([10, 30], "abc"), {"a": -0.5, "b": 0, "c": 0.5})
         self.assertEqual(scales.dodged([10, 15, 30], "ab"), {"a": -0.125, "b": 0.125})
         self.assertEqual(scales.dodged([10], "ab"), {"a": 0, "b": 0})
         self.assertEqual(scales.dodged([10, 30], "a"), {"a": 0})
 
-    def test_rounded_down(self):
+    def test_values_are_rounded_down(self):
         for value, rounded in ((1, 1), (0.9, 0.3), (0.3, 0.3), (0.29, 0.1), (0.0081, 0.003), (0.002, 0.001)):
             self.assertAlmostEqual(scales.rounded_down(value), rounded, places=12)
 
-    def test_where_time_begins(self):
+    def test_time_axis_begins_below_the_fastest_run(self):
         self.assertEqual(scales.first_time([row(runtime_s=0.0042), row(runtime_s=2)]), 0.003)
         self.assertEqual(scales.first_time([row(runtime_s=0), row(runtime_s=0.05)]), 0.03)
         self.assertEqual(scales.first_time([row(runtime_s=50)]), 1)
         self.assertEqual(scales.first_time([failed()]), 1)
 
-    def test_what_lies_below_is_larger(self):
+    def test_lines_drawn_first_have_larger_depth(self):
         for count in (1, 2, 8, 30):
             depths = [style.depth(rank, count) for rank in range(count)]
             self.assertEqual((depths, depths[-1]), (sorted(set(depths), reverse=True), 0))
@@ -796,13 +799,13 @@ class Scales(unittest.TestCase):
 
 
 class Tables(unittest.TestCase):
-    def test_numbers(self):
+    def test_numbers_are_formatted(self):
         self.assertEqual([seconds(value) for value in (0, 0.0123456, 1.23456, 12.3456, 180, 9876.5)],
                          ["<0.001", "0.0123", "1.23", "12.3", "180", "9876"])
         self.assertEqual([csv_value(value) for value in (None, 3, 0.5, math.pi, "a")],
                          ["", "3", "0.5", "3.14159", "a"])
 
-    def test_text_is_only_text(self):
+    def test_text_is_escaped_in_html(self):
         self.assertNotIn("<script>", html_table(["<script>"], [[word("<script>", "<script>")]]))
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""`grove report` as its user meets it: files, messages, exit codes, time.
+"""Tests the command `grove report`: files, messages, exit codes and run time.
 
     program_test.py GROVE
 """
@@ -30,11 +30,11 @@ GROVE = Path("build/release/bin/grove")
 FIGURES = ["cactus_cts", "cactus_mg", "comparison_cts", "comparison_mg", "omega_study", "splits_cts", "splits_mg"]
 TABLES = ["common_cts", "common_mg", "comparison_cts", "comparison_mg", "contradictions", "false_claims", "omega_study",
           "only_solver_cts", "only_solver_mg", "search_cts", "search_mg", "speedup_cts", "speedup_mg", "summary_cts", "summary_mg"]
-MOST_SECONDS = 30  # 5 where nothing else runs; the processor time of a busy machine is twice that and more
+MAX_SECONDS = 30  # of processor time: 5 on an idle machine, more than twice that on a busy one
 
 
 def few(scenarios, **options):
-    """Rows of few cells and methods: every map and number of agents is a column of panels to draw."""
+    """Returns rows of few cells and methods, because every map and number of agents is a column of panels to draw."""
     found = synthetic.rows(scenarios, **({"maps": ("room-32-32-4",), "agents": (5,), "tasks": (10, 30)} | options))
     return (row for row in found if row["method"] not in ("cts-cbs-b", "cts-cbs-c", "optimal-cbs"))
 
@@ -45,7 +45,7 @@ def run(*arguments, program=None, **options):
 
 
 def run_here(*arguments):
-    """The same in this process: to start Python and matplotlib takes longer than most reports."""
+    """Runs `grove report` in this process, because starting Python and matplotlib takes longer than most reports."""
     if str(GROVE.parent) not in sys.path:
         sys.path.insert(0, str(GROVE.parent))
     from grove_report.cli import main
@@ -55,14 +55,14 @@ def run_here(*arguments):
 
 
 class Elements(HTMLParser):
-    """What a page refers to, and whether every element that must end does."""
+    """Collects the references of a page and checks that every element is closed."""
 
     EMPTY = {"meta", "link", "img", "br"}
 
     def __init__(self, text):
         super().__init__()
         self.references, self.open, self.balanced = [], [], True
-        self.downloads = {}  # {name: what is saved}
+        self.downloads = {}  # {file name: data URL}
         self.feed(text)
         self.balanced &= not self.open
 
@@ -89,7 +89,7 @@ class Folder(unittest.TestCase):
         return path
 
     def report(self, *arguments, run=run_here, **options):
-        """Its page and its stderr."""
+        """Returns the page and stderr of a report."""
         done = run(*arguments, "-o", self.folder / "out", **options)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, f"^wrote {self.folder}/out/report.html: [1-9][0-9]* rows\n$")
@@ -98,7 +98,7 @@ class Folder(unittest.TestCase):
         return page, done.stderr
 
     def assert_files_are_there(self, page):
-        """Every file that a page names is there, and to be saved from the page."""
+        """Checks that every file that the page names exists and can be downloaded from the page."""
         for name, content in Elements(page).downloads.items():
             kind, data = content.split(",")
             self.assertEqual(kind, "data:text/csv;base64")
@@ -111,7 +111,7 @@ class Folder(unittest.TestCase):
         with (self.folder / f"out/{name}.csv").open(encoding="utf-8") as file:
             return list(csv.DictReader(file))
 
-    def complaint(self, *arguments, run=run_here, **options):
+    def error_of(self, *arguments, run=run_here, **options):
         done = run(*arguments, **options)
         self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
         start = "grove: error: "
@@ -120,7 +120,7 @@ class Folder(unittest.TestCase):
 
 
 class Reports(Folder):
-    def test_all_files_are_there_and_the_page_needs_no_other(self):
+    def test_report_writes_all_files_and_a_self_contained_page(self):
         page, stderr = self.report(self.results(few(2)))
         self.assertEqual(stderr, "")
         expected = [f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")]
@@ -138,19 +138,19 @@ class Reports(Folder):
         self.assertNotIn("<script", page)
         self.assertNotIn("url(", page)
 
-    def test_figures_of_an_earlier_report_go(self):
+    def test_figures_of_an_earlier_report_are_removed(self):
         self.report(self.results(few(1, tasks=(10,))))
         others = [self.folder / "out" / name for name in ("notes.csv", "comparison_mg.txt", "my_cactus_mg.png")]
         for other in others:
             other.write_text("mine")
-        (self.folder / "out/comparison_mg_2.png").write_text("of many maps")
+        (self.folder / "out/comparison_mg_2.png").write_text("many maps")
         self.report(self.results([row for row in few(1, tasks=(10,)) if row["problem"] == "cts"]))
         left = {path.name for path in (self.folder / "out").iterdir()}
         self.assertLessEqual({other.name for other in others}, left)
         self.assertEqual({name for name in left if "_mg" in name}, {"comparison_mg.txt", "my_cactus_mg.png"})
         self.assertIn("omega_study.png", left)
 
-    def test_groves_own_search_stands_beside_the_study_of_omega(self):
+    def test_omega_study_includes_groves_default_search(self):
         study = [row for row in few(1) if row["problem"] == "cts"]
         found = study + [row | {"method": "auto", "options": "--omega 0", "omega": "0"} for row in study
                          if row["omega"] == "0"]
@@ -160,7 +160,7 @@ class Reports(Folder):
         self.assertIn(">Grove, ω = 0</td>", page)
         self.assertNotRegex(page, r">auto\b")
 
-    def test_tables_say_what_the_rows_do(self):
+    def test_tables_agree_with_the_rows(self):
         found = list(few(4, agents=(20,)))
         self.report(self.results(found))
         cell = [row for row in found if (row["problem"], row["method"], row["map"], row["agents"],
@@ -173,7 +173,7 @@ class Reports(Folder):
                                sum(row["runtime_s"] for row in cell) / len(cell), places=2)
         self.assertEqual({row["omega"] for row in self.table("omega_study")}, {"0", "0.01", "0.1", "inf"})
 
-    def test_every_cell_and_method_is_in_the_page_and_in_a_file(self):
+    def test_page_and_file_list_every_cell_and_method(self):
         page, _ = self.report(self.results([row for row in few(1) if row["problem"] == "mg"]))
         table = page.split("Table: every cell (map, N, M) and method</summary>")[1].split("</details>")[0]
         self.assertEqual(table.count("<tr>"), 1 + len(self.table("comparison_mg")))
@@ -182,7 +182,7 @@ class Reports(Folder):
         self.assertLessEqual({"success_rate", "median_runtime_s", "mean_sqr", "mean_cost_ratio"},
                              set(self.table("comparison_mg")[0]))
 
-    def test_what_is_not_proven_is_told(self):
+    def test_unproven_results_are_reported(self):
         first = next(few(1)) | {"solved": True, "runtime_s": 1, "lower_bound": 100, "root_cost": 100}
         found = [first | {"instance": name, "method": method, "omega": omega, "status": status, "cost": cost}
                  for name, method, omega, status, cost in (
@@ -190,10 +190,10 @@ class Reports(Folder):
                      ("r", "near", "0.01", "optimal", 120), ("p", "any", "inf", "feasible", 105),
                      ("q", "any", "inf", "optimal", 102), ("p", "exact", "0", "optimal", 104))]
         page, _ = self.report(self.results(found))
-        for told in ("(ω = 0: exact; ω = 0.01: near; ω = ∞: any)",
+        for text in ("(ω = 0: exact; ω = 0.01: near; ω = ∞: any)",
                      "near, ω = 0.01: 2 of 3 solved runs are outside ω (status feasible)",
                      "any, ω = ∞: no guarantee; 1 of 2 solved runs are not proven optimal (status feasible)"):
-            self.assertIn(told, page)
+            self.assertIn(text, page)
         self.assertNotIn("of 1 solved runs", page)  # exact
         within = {row["method"]: row["within_omega"] for row in self.table("summary_mg")}
         self.assertEqual(within, {"near": "1", "any": "", "exact": "1"})
@@ -202,8 +202,8 @@ class Reports(Folder):
         self.assertEqual(ratios, {"near": f"{(107 / 104 + 103 / 102 + 1) / 3:.6g}",
                                   "any": f"{(105 / 104 + 1) / 2:.6g}", "exact": "1"})
 
-    def test_the_same_rows_give_the_same_bytes(self):
-        """As JSON or CSV, in any order, whatever hash() is."""
+    def test_equal_rows_give_identical_files(self):
+        """Compares reports of the same rows as JSON and CSV, in different orders, with different seeds of hash()."""
         found, reports = list(few(1)), []
         for name, seed in (("results.jsonl", "1"), ("results.csv", "2")):
             page, _ = self.report(self.results(found, name), run=run, env={**os.environ, "PYTHONHASHSEED": seed})
@@ -215,28 +215,28 @@ class Reports(Folder):
         for name, content in reports[0].items():
             self.assertTrue(content == reports[1][name], name)
 
-    def test_what_the_search_did(self):
+    def test_search_counters_are_reported(self):
         first, second = [row for row in few(2, tasks=(10,), study=False) if row["method"] == "auto"]
         found = [first | {"counts": "bypasses=5 prices_asked=30 prices_known=10 splits_bar=3 splits_new_kind=1"},
                  second | {"counts": "bypasses=8 prices_asked=10 prices_known=10 splits_bar=5", "solved": False},
-                 first | {"method": "tells nothing", "counts": None}]
+                 first | {"method": "without counters", "counts": None}]
         page, _ = self.report(self.results(found))
         self.assertEqual(self.table("search_mg"), [
             {"method": "auto", "omega": "0.01", "time_limit_s": "180", "runs": "2", "bypasses": "13",
-             "prices_asked": "40", "prices_known": "20", "splits_bar": "8", "splits_new_kind": "1"}])
+             "branching_cost_queries": "40", "branching_cost_hits": "20", "splits_vertex_edge": "8", "splits_new_kind": "1"}])
         table = page.split("Table: other counters</summary>")[1].split("</details>")[0]
         self.assertEqual(re.findall(r'<td>([^<]*)</td><td class="number">([^<]*)', table),
                          [("bypasses: another path of the same cost", "6.5"),
                           ("costs with one more constraint (strong branching): share of cache hits", "50 %")])
         self.assertIn('alt="What nodes were split on"', page)
-        # Older tables have no such column, and baselines count nothing.
+        # Older tables have no such column, and baselines have no counters.
         for counts in ("bypasses=1 splits_bar=0", None):
             page, _ = self.report(self.results([row | {"counts": counts} for row in found]))
             self.assertNotIn("What nodes were split on", page)
             self.assertEqual("Search counters" in page, counts is not None)
             self.assertEqual((self.folder / "out/search_mg.csv").exists(), counts is not None)
 
-    def test_a_contradiction_is_loud(self):
+    def test_contradictions_are_reported_with_a_warning(self):
         found = list(few(1, study=False, tasks=(10,)))
         page, _ = self.report(self.results(found))
         self.assertNotIn("CONTRADICT", page)
@@ -249,7 +249,7 @@ class Reports(Folder):
         self.assertTrue(stderr.startswith("grove: warning: proofs contradict each other"), stderr)
         self.assertEqual({row["instance"] for row in self.table("contradictions")}, {first["instance"]})
 
-    def test_several_limits_and_seeds_are_told(self):
+    def test_several_limits_and_seeds_are_reported(self):
         found = [row for row in few(1, study=False) if row["omega"] == "0"]
         page, _ = self.report(self.results(found))
         self.assertNotIn("Before you compare", page)
@@ -261,19 +261,19 @@ class Reports(Folder):
         with path.open("a", encoding="utf-8") as file:
             file.write('{"instance": "room')
         page, _ = self.report(path)
-        for told in ("the last line is cut off", "One name stands for several instances",
+        for text in ("the last line is cut off", "One name stands for several instances",
                      "several time limits (180 s, 999 s)", "several seeds (0, 7)", "several versions",
                      "mgcbs, limit 999 s"):
-            self.assertIn(told, page)
+            self.assertIn(text, page)
 
-    def test_gaps(self):
+    def test_missing_cells_are_reported(self):
         found = [row for row in few(1, study=False) if row["method"] != "hcbs" or row["tasks"] != 30]
         page, _ = self.report(self.results(found))
         self.assertIn("not every method was run on all 2 instances (hcbs, ω = 0: 1)", page)
         self.assertNotIn(("hcbs", "30"), {(row["method"], row["tasks"])
                                           for row in self.table("comparison_mg")})
 
-    def test_names_are_only_text(self):
+    def test_names_are_escaped_in_html(self):
         name = "<b>$\\alpha$</b>_&\"'"
         found = [row | {"method": name, "map": "<i>", "error": "<u>", "status": "error", "solved": False,
                         "cost": None, "sqr": None} for row in few(1, study=False)]
@@ -283,7 +283,7 @@ class Reports(Folder):
             self.assertNotIn(tag, page)
         self.assertTrue(Elements(page).balanced)
 
-    def test_little_is_enough(self):
+    def test_required_columns_suffice(self):
         row = next(few(1))
         needed = ["instance", "method", "map", "agents", "tasks", "problem", "time_limit_s", "solved", "status",
                   "cost", "runtime_s"]
@@ -293,24 +293,24 @@ class Reports(Folder):
             path = self.results([{name: found[name] for name in needed}])
             self.assertEqual(self.report(path)[1], "")
 
-    def test_baselines_by_name(self):
+    def test_baselines_are_selected_by_name(self):
         path = self.results(few(3, study=False))
         self.report(path, "--baseline", "cts-cbs-a, hcbs")
         self.assertEqual({row["baseline"] for row in self.table("speedup_mg")},
                          {"best baseline", "cts-cbs-a", "hcbs"})
 
-    def test_other_solvers(self):
-        """Success and quality over time, seeds as repetitions, what all solve."""
+    def test_results_of_other_solvers_are_reported(self):
+        """Tests success, quality over time, seeds as repetitions and commonly solved instances."""
         found = list(synthetic.solver_rows(3, agents=(20, 60, 100)))
         found.append(found[0] | {"method": "turns", "solver": "mine", "status": "unsuitable", "solved": False, "cost": None,
                                  "trace": None, "error": "robots that turn"})
         page, stderr = self.report(self.results(found))
         self.assertEqual(stderr, "")
-        for told in ('alt="Success rate over the number of agents"', 'alt="Quality over time"',
+        for text in ('alt="Success rate over the number of agents"', 'alt="Quality over time"',
                      "<h3>Instances that all methods solve",
                      "Guarantees of other solvers are not checked here (eecbs, lacam, lns)", "several seeds (1, 2)",
                      "turns does not support 1 of the instances, which are omitted for it: robots that turn."):
-            self.assertIn(told, page)
+            self.assertIn(text, page)
         for name in ("success_mapf", "anytime_mapf"):
             self.assertTrue((self.folder / f"out/{name}.svg").exists())
         entry, = [row for row in self.table("success_mapf") if (row["map"], row["agents"], row["method"])
@@ -318,7 +318,7 @@ class Reports(Folder):
         cell = [row for row in found if (row["map"], row["agents"], row["method"]) == ("random-32-32-20", 100, "eecbs")]
         self.assertEqual((entry["instances"], entry["seeds"], entry["runs"]), ("3", "2", "6"))
         self.assertEqual(entry["success_rate"], f"{sum(row['solved'] for row in cell) / 6:.6g}")
-        # Of methods that do not improve their plans there is no curve.
+        # Methods that do not improve their plans have no curve.
         curves = self.table("anytime_mapf")
         self.assertEqual({row["method"] for row in curves}, {"auto", "lacam", "lns"})
         last = [row for row in curves if (row["panel"], row["method"], row["time_s"]) == ("empty-32-32", "lns", "30")]
@@ -328,13 +328,13 @@ class Reports(Folder):
         self.assertEqual((last[0]["common"], last[0]["mean_cost_ratio"]), ("9", f"{sum(ratios) / 18:.6g}"))
         common = self.table("common_mapf")
         self.assertEqual({row["method"] for row in common if row["agents"] == "20"}, {"auto", "eecbs", "lacam", "lns"})
-        # Without the weakest method more is common.
+        # Without the weakest method more instances are solved by all.
         self.report(self.results(found), "--method", "Grove,lacam,lns")
         self.assertEqual({row["method"] for row in self.table("summary_mapf")}, {"auto", "lacam", "lns"})
         self.assertGreater(sum(int(row["common"]) for row in self.table("common_mapf")) / 3,
                            sum(int(row["common"]) for row in common) / 4)
 
-    def test_false_claims_are_loud(self):
+    def test_false_claims_are_reported_with_a_warning(self):
         found = list(synthetic.solver_rows(1, maps=("empty-32-32",), agents=(20, 40)))
         page, _ = self.report(self.results(found))
         self.assertNotIn("FALSE CLAIMS", page)
@@ -342,23 +342,23 @@ class Reports(Folder):
         first.update(status="wrong", solved=False, cost=None, error="the plan is wrong: agents 3 and 7 collide at time 12")
         second["claimed_cost"] -= 1
         third["claimed_lower_bound"] = 10**6
-        fourth.update(status="claimed", solved=False, cost=None, error="claims a plan, and shows none")
+        fourth.update(status="claimed", solved=False, cost=None, error="claims a plan without writing one")
         page, stderr = self.report(self.results(found))
         self.assertEqual(stderr, "grove: warning: solvers make false claims (3 times); see "
                                  f"{self.folder}/out/false_claims.csv\n")
         self.assertIn("FALSE CLAIMS: 3<", page)
-        for told in (f"eecbs seed 1: mapf: {first['instance']}: the plan is wrong: agents 3 and 7 collide at time 12",
+        for text in (f"eecbs seed 1: mapf: {first['instance']}: the plan is wrong: agents 3 and 7 collide at time 12",
                      f"says that its plan costs {second['claimed_cost']}; recounted: {second['cost']}",
                      "says that no plan costs less than 1000000; a checked plan costs "):
-            self.assertIn(told, page)
+            self.assertIn(text, page)
         self.assertEqual([(row["method"], row["kind"]) for row in self.table("false_claims")],
                          [("eecbs", "plan"), ("eecbs", "cost"), ("eecbs", "lower bound")])
         entry, = [row for row in self.table("summary_mapf") if row["method"] == "eecbs"]
-        self.assertEqual((entry["wrong"], entry["claimed"], entry["solved"]), ("1", "1", "2"))
+        self.assertEqual((entry["invalid"], entry["claimed"], entry["solved"]), ("1", "1", "2"))
         self.assertIn(">only claimed</th>", page)
 
-    def test_logs_of_runs(self):
-        """Of the program itself; alone, and in a folder with results."""
+    def test_logs_of_runs_are_reported(self):
+        """Tests logs written by grove solve, without results and in a folder with results."""
         instance = Path(__file__).resolve().parents[3] / "benchmarks/data/rooms-32x32_n5_m10.cts.json"
         for seed in (1, 2):
             subprocess.run([str(GROVE), "solve", str(instance), "--omega", "0", "--seed", str(seed), "--threads", "1", "--quiet",
@@ -380,8 +380,8 @@ class Reports(Folder):
         done = run_here(self.folder, "-o", self.folder / "out")
         self.assertRegex(done.stdout, ": [0-9]+ rows, 2 logs\n$")
 
-    def test_mapf_tracker(self):
-        """What bench keeps, as rows to submit, as grove convert writes them; beside what is known."""
+    def test_tracker_rows_and_best_known_values(self):
+        """Compares the submission with rows of grove convert, and results with the best known values."""
         shutil.copy(Path(__file__).resolve().parents[3] / "benchmarks/data/empty-32x32.map", self.folder / "empty-32-32.map")
         scenario = (Path(__file__).resolve().parents[3] / "benchmarks/data/empty-32x32.scen").read_text(encoding="utf-8")
         (self.folder / "empty-32-32-even-3.scen").write_text(scenario.replace("empty-32x32", "empty-32-32"), encoding="utf-8")
@@ -389,7 +389,7 @@ class Reports(Folder):
                         "first: --omega 0", "--run", "second: --omega inf", "--keep-plans", "--output-dir", "table",
                         "--time-limit", "10", "--quiet"], cwd=self.folder, check=True, capture_output=True)
         table, out = self.folder / "table", self.folder / "rows.csv"
-        self.assertEqual(self.complaint(table, "--tracker", out), "--tracker: found plans of several methods; expected "
+        self.assertEqual(self.error_of(table, "--tracker", out), "--tracker: found plans of several methods; expected "
                          "--tracker-method first or second")
         done = run_here(table, "--tracker", out, "--tracker-method", "first")
         self.assertEqual((done.returncode, done.stdout), (0, f"wrote {out}: 2 rows of first for MAPF Tracker\n"), done.stderr)
@@ -416,25 +416,26 @@ class Reports(Folder):
         self.assertIn("grove: warning: proofs contradict each other", stderr)
         self.assertIn(f"MAPF Tracker has a lower bound of {cost + 1}; a plan costs {cost}", page)
         self.assertIn(f"MAPF Tracker has a plan of cost {cost - 1}, below a proven lower bound: {cost} (first", page)
-        # A plan that was changed since is not submitted, and a file that is there stays as it is.
+        # A plan changed since the run is not submitted, and the existing file stays unchanged.
         before = out.read_bytes()
         for name in (3, 8):
             plan = table / f"plans/first/empty-32-32-even-3-{name}.plan.json"
             found = json.loads(plan.read_text(encoding="utf-8"))
             found["agents"][0]["path"].insert(1, [31, 31])
             plan.write_text(json.dumps(found), encoding="utf-8")
-        self.assertIn("/plans/first/empty-32-32-even-3-3.plan.json: agent 0 jumps at time 1", self.complaint(table, "--tracker", out, "--tracker-method", "first"))
+        self.assertIn("/plans/first/empty-32-32-even-3-3.plan.json: agent 0 jumps at time 1",
+                      self.error_of(table, "--tracker", out, "--tracker-method", "first"))
         self.assertEqual(out.read_bytes(), before)
 
-    def test_20000_rows_take_seconds_and_their_figures_can_be_read_on_500_pixels(self):
+    def test_20000_rows_are_fast_and_legible_at_500_pixels(self):
         path = self.results(synthetic.rows(53), "results.csv")
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         self.report(path, run=run)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        # Not by the clock: the machine may be busy. It is one thread.
+        # Processor time, because the machine may be busy; the report uses one thread.
         spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
         print(f"{path.read_text().count(chr(10)) - 1} rows: {spent:.1f} s", file=sys.stderr)
-        self.assertLess(spent, MOST_SECONDS)
+        self.assertLess(spent, MAX_SECONDS)
         self.assertTrue((self.folder / "out/comparison_mg_3.svg").exists())  # three maps with three columns
         for path in (self.folder / "out").glob("*.svg"):
             svg = path.read_text(encoding="utf-8")
@@ -445,7 +446,7 @@ class Reports(Folder):
 
 
 class Usage(Folder):
-    def test_help(self):
+    def test_help_lists_options_and_examples(self):
         for argument in ("--help", "-h"):
             done = run(argument)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -454,77 +455,77 @@ class Usage(Folder):
         self.assertIn("report", subprocess.run([str(GROVE), "--help"], capture_output=True, text=True,
                                                check=True).stdout)
 
-    def test_wrong_usage(self):
+    def test_wrong_options_are_refused(self):
         path = self.results(few(1))
         hint = " (see 'grove report --help')"
         out = ("-o", self.folder / "out")
-        self.assertEqual(self.complaint(*out), "the following arguments are required: RESULTS" + hint)
-        self.assertEqual(self.complaint(path), "the following arguments are required: -o/--output" + hint)
-        self.assertEqual(self.complaint(path, *out, "--tracker-method", "auto"),
+        self.assertEqual(self.error_of(*out), "the following arguments are required: RESULTS" + hint)
+        self.assertEqual(self.error_of(path), "the following arguments are required: -o/--output" + hint)
+        self.assertEqual(self.error_of(path, *out, "--tracker-method", "auto"),
                          "--tracker-method: requires --tracker" + hint)
         self.assertIn("--method: found 'frob', which is not in the results; expected one of Grove, auto, ",
-                      self.complaint(path, *out, "--method", "frob"))
-        self.assertEqual(self.complaint(path, *out, "--bogus"), "unrecognized arguments: --bogus" + hint)
-        self.assertEqual(self.complaint(path, *out, "--baseline", "a,,b"),
+                      self.error_of(path, *out, "--method", "frob"))
+        self.assertEqual(self.error_of(path, *out, "--bogus"), "unrecognized arguments: --bogus" + hint)
+        self.assertEqual(self.error_of(path, *out, "--baseline", "a,,b"),
                          "--baseline: found 'a,,b'; expected a comma-separated list of names" + hint)
-        self.assertEqual(self.complaint(path, *out, "--study-agents", "x"),
+        self.assertEqual(self.error_of(path, *out, "--study-agents", "x"),
                          "--study-agents: found 'x'; expected an integer of at least 0" + hint)
-        self.assertEqual(self.complaint(path, *out, "--problem=mapf"),
+        self.assertEqual(self.error_of(path, *out, "--problem=mapf"),
                          "--problem: found 'mapf', which is not in the results; expected one of cts, mg")
         self.assertIn("--baseline: found 'frob', which is not in the results; expected one of Grove, auto, ",
-                      self.complaint(path, *out, "--baseline", "frob"))
+                      self.error_of(path, *out, "--baseline", "frob"))
         for study in (("--study", "auto"), ("--study-agents", "20")):
             self.assertIn("--study, --study-map, --study-agents: no rows with several omegas are left",
-                          self.complaint(path, *out, *study))
+                          self.error_of(path, *out, *study))
         shutil.rmtree(self.folder / "out")
         # Names of commands are names of files here.
-        self.assertEqual(self.complaint("solve", "check", *out), "solve: no such file or directory")
+        self.assertEqual(self.error_of("solve", "check", *out), "solve: no such file or directory")
         self.assertFalse((self.folder / "out").exists())
 
-    def test_wrong_rows(self):
+    def test_wrong_values_in_rows_are_refused(self):
         path = self.results([next(few(1)) | {"agents": "many"}])
-        self.assertEqual(self.complaint(path, "-o", self.folder / "out"), "results.jsonl: row 1, column "
+        self.assertEqual(self.error_of(path, "-o", self.folder / "out"), "results.jsonl: row 1, column "
                          "agents: found 'many'; expected an integer of at least 0")
 
-    def test_output_that_cannot_be_written(self):
+    def test_unwritable_output_is_an_error(self):
         path = self.results([next(few(1))])
-        self.assertEqual(self.complaint(path, "-o", path), "results.jsonl: cannot be written: File exists")
+        self.assertEqual(self.error_of(path, "-o", path), "results.jsonl: cannot be written: File exists")
         (self.folder / "out/report.html").mkdir(parents=True)
-        self.assertEqual(self.complaint(path, "-o", self.folder / "out"),
+        self.assertEqual(self.error_of(path, "-o", self.folder / "out"),
                          "out/report.html: cannot be written: Is a directory")
         done = subprocess.run(["/bin/sh", "-c", 'exec "$0" report --help >/dev/full', str(GROVE)],
                               capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stderr),
                          (1, "grove: error: standard output: cannot be written\n"))
 
-    def test_found_by_a_link_from_elsewhere(self):
+    def test_program_runs_through_a_symbolic_link(self):
         link = self.folder / "g"
         link.symlink_to(GROVE.resolve())
         self.assertEqual(run("--help", program=link, cwd="/").returncode, 0)
 
     def copy(self):
-        """A folder with grove alone."""
+        """Copies only the program grove to a folder and returns its path."""
         (self.folder / "bin").mkdir()
         return shutil.copy(GROVE, self.folder / "bin")
 
-    def test_without_its_other_half(self):
+    def test_missing_grove_report_is_an_error(self):
         program = self.copy()
-        self.assertEqual(self.complaint(run=run, program=program), "bin/grove-report: there is no such program; "
+        self.assertEqual(self.error_of(run=run, program=program), "bin/grove-report: there is no such program; "
                          "expected it beside grove (build target grove), or in ../libexec/grove (Debian package grove)")
 
-    def test_without_python(self):
+    def test_missing_python_is_an_error(self):
         program = self.copy()
         (self.folder / "bin/grove-report").write_text("#!/no/such/python3\n")
         (self.folder / "bin/grove-report").chmod(0o755)
-        self.assertEqual(self.complaint(run=run, program=program), "bin/grove-report: there is no /usr/bin/python3; "
+        self.assertEqual(self.error_of(run=run, program=program), "bin/grove-report: there is no /usr/bin/python3; "
                          "expected the Debian package python3")
 
-    def test_without_matplotlib(self):
+    def test_missing_matplotlib_is_an_error(self):
         (self.folder / "matplotlib.py").write_text(
             "raise ModuleNotFoundError(\"No module named 'matplotlib'\", name='matplotlib')\n")
         path = self.results(few(1))
         environment = {**os.environ, "PYTHONPATH": str(self.folder)}
-        self.assertEqual(self.complaint(path, "-o", self.folder / "out", run=run, env=environment),
+        self.assertEqual(self.error_of(path, "-o", self.folder / "out", run=run, env=environment),
                          "/usr/bin/python3 has no module matplotlib, which draws the figures; "
                          "expected the Debian package python3-matplotlib")
         self.assertEqual(run("--help", env=environment).returncode, 0)

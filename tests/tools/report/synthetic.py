@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Made-up results that look like those of `grove bench`: for tests of the report, and to look at one.
+"""Generates synthetic results in the format of `grove bench`, for tests of the report and for example reports.
 
     synthetic.py FILE.jsonl|FILE.csv [--scenarios 15] [--solvers]
 """
@@ -17,7 +17,7 @@ COLUMNS = ["instance", "method", "options", "map", "scenario", "agents", "tasks"
            "version", "machine", "ended_at", "error",
            "ranks", "threads", "memory_limit_gb", "plan_file", "instance_digest", "counts",
            "solver", "claimed_cost", "claimed_lower_bound", "claimed_s", "anytime", "trace"]
-MAPS = {"empty-32-32": 0.5, "random-32-32-20": 1.5, "room-32-32-4": 2.6}  # how hard
+MAPS = {"empty-32-32": 0.5, "random-32-32-20": 1.5, "room-32-32-4": 2.6}  # hardness
 AGENTS = (5, 10, 20)
 TASKS = (10, 20, 30, 40, 50)
 # Name: (ln of seconds on the easiest instance, growth with difficulty, share of the optimum lost)
@@ -40,12 +40,12 @@ def _optimum(hardness, agents, tasks, scenario):
 
 
 def _counts(method, nodes):
-    """Baselines count nothing."""
+    """Returns the search counters as text, or None for baselines, which have none."""
     if not method.startswith(("auto", "cts")):
         return None
-    found = {"bypasses": nodes // 9, "joint_pairs": 30 * nodes, "prices_asked": 8 * nodes, "prices_known": 6 * nodes,
-             "splits_bar": nodes // 2, "splits_no_traversal": nodes // 5, "splits_rest_by": nodes // 30,
-             "splits_no_rest_by": nodes // 7}
+    found = {"bypasses": nodes // 9, "joint_mdd_nodes": 30 * nodes, "branching_cost_queries": 8 * nodes, "branching_cost_hits": 6 * nodes,
+             "splits_vertex_edge": nodes // 2, "splits_corridor": nodes // 5, "splits_target": nodes // 30,
+             "splits_cost": nodes // 7}
     return " ".join(f"{name}={number}" for name, number in found.items() if number) or None
 
 
@@ -81,7 +81,7 @@ def _row(dice, instance, method, options, omega, shape):
 
 
 def rows(scenarios=15, maps=tuple(MAPS), agents=AGENTS, tasks=TASKS, seed=1, study=True):
-    """MG-MAPF rows of eight methods; with `study` CTS-MAPF rows of one with four omegas."""
+    """Yields MG-MAPF rows of eight methods; with `study` also CTS-MAPF rows of one method with four omegas."""
     dice = random.Random(seed)
     for name in maps:
         for number in agents:
@@ -100,7 +100,7 @@ def rows(scenarios=15, maps=tuple(MAPS), agents=AGENTS, tasks=TASKS, seed=1, stu
 
 
 def _trace(dice, first_s, end_s, first_cost, cost, bound):
-    """Plans that come at growing intervals, from the first to the best; as the table has them."""
+    """Returns plans at growing intervals, from the first to the best, in the format of the column `trace`."""
     points, seconds, at = [], first_s, first_cost
     while seconds < end_s and at > cost:
         points.append(f"{seconds:.3f}:{at}:{'-' if bound is None else bound}")
@@ -109,10 +109,13 @@ def _trace(dice, first_s, end_s, first_cost, cost, bound):
 
 
 def _solver_row(dice, place, method, seed, shape):
-    """Of classical MAPF. `shape`: (ln of seconds of the first plan, growth, cost of the first plan and of the last over
-    the optimum, adapter, whether it is anytime, whether it tells a bound)"""
+    """Returns a row of classical MAPF.
+
+    shape: (ln of seconds of the first plan, growth, cost of the first plan and of the last one over the optimum,
+    adapter, whether the solver is anytime, whether it reports a bound).
+    """
     name, hardness, scenario, agents = place
-    start, growth, first, last, adapter, anytime, tells = shape
+    start, growth, first, last, adapter, anytime, has_bound = shape
     limit, bound = 30.0, 22 * agents + scenario
     optimum = bound + agents * agents // 60
     seconds = math.exp(start + growth * hardness * agents / 40 + dice.gauss(0, 0.6))
@@ -127,9 +130,10 @@ def _solver_row(dice, place, method, seed, shape):
         "wall_s": round(ended, 4), "first_plan_s": round(seconds, 4) if solved else None, "version": "grove 0.1.0",
         "machine": "Example processor, 2 cores", "ended_at": "2026-01-02T03:04:05Z", "ranks": 1, "threads": 1,
         "instance_digest": f"{name}{scenario}", "solver": adapter or None, "anytime": anytime,
-        "claimed_cost": cost if adapter else None, "claimed_lower_bound": bound if adapter and tells else None}
+        "claimed_cost": cost if adapter else None, "claimed_lower_bound": bound if adapter and has_bound else None}
     if solved and (anytime or not adapter):
-        row["trace"] = _trace(dice, seconds, ended, max(cost, round(optimum * (1 + first))), cost, bound if tells else None)
+        row["trace"] = _trace(dice, seconds, ended, max(cost, round(optimum * (1 + first))), cost,
+                              bound if has_bound else None)
     return row
 
 
@@ -138,7 +142,7 @@ SOLVERS = {"auto": (-3.5, 1.9, 0.10, 0.006, "", False, True), "lns": (-4.0, 1.2,
 
 
 def solver_rows(scenarios=5, maps=("empty-32-32", "random-32-32-20"), agents=(20, 40, 60, 80, 100), seeds=(1, 2), seed=1):
-    """Classical MAPF rows of Grove and of three solvers of others."""
+    """Yields classical MAPF rows of Grove and of three other solvers."""
     dice = random.Random(seed)
     for name in maps:
         for number in agents:
@@ -166,7 +170,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("file", type=Path)
     parser.add_argument("--scenarios", type=int, default=15)
-    parser.add_argument("--solvers", action="store_true", help="classical MAPF, with solvers of others")
+    parser.add_argument("--solvers", action="store_true", help="classical MAPF, with other solvers")
     a = parser.parse_args()
     found = solver_rows(a.scenarios) if a.solvers else rows(a.scenarios)
     (write_csv if a.file.suffix == ".csv" else write_jsonl)(a.file, found)

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""docs/schemas: what Grove ships and writes is valid by them, and what it refuses is not. grove-verify refuses it, too.
+"""Tests docs/schemas: files that Grove ships and writes are valid; files that Grove and grove-verify refuse are not.
 
     schemas_test.py GROVE [GROVE_VERIFY]
 
-Exit code 77: jsonschema is not there.
+Exit code 77: skipped because jsonschema is not installed.
 """
 import copy
 import importlib.util
@@ -41,7 +41,7 @@ def validators():
 
 
 def properties(schema):
-    """Those that it describes, (key, schema): conditions only narrow them."""
+    """Yields (key, schema) of each property that the schema describes; omits conditions, which only restrict them."""
     for key, value in schema.items() if isinstance(schema, dict) else []:
         if key == "properties":
             yield from value.items()
@@ -78,16 +78,16 @@ class Case(unittest.TestCase):
         (self.folder / name).write_text(json.dumps(value))
         return self.folder / name
 
-    def complaints(self, schema, value):
+    def schema_errors(self, schema, value):
         return [f"/{'/'.join(map(str, error.absolute_path))}: {error.message}"
                 for error in self.validators[schema].iter_errors(value)]
 
     def assert_valid(self, schema, value, what=""):
-        found = self.complaints(schema, value)
+        found = self.schema_errors(schema, value)
         self.assertEqual(found, [], what)
 
     def solve(self, instance, *options, name="x"):
-        """Its plan, valid; its log too, each line of it."""
+        """Solves the instance, validates the plan and each line of the log, and returns both."""
         plan, log = self.folder / f"{name}.plan.json", self.folder / f"{name}.jsonl"
         grove("solve", instance, "--quiet", "--threads", 1, "--output", plan, "--log", log, "--log-format", "jsonl",
               "--log-tree", 50, *options, cwd=self.folder)
@@ -97,8 +97,8 @@ class Case(unittest.TestCase):
         return load(plan), lines(log)
 
 
-class TheSchemas(Case):
-    def test_are_valid_themselves(self):
+class Schemas(Case):
+    def test_schemas_are_valid(self):
         import jsonschema
         self.assertEqual(len(self.validators), 9)
         for name, validator in self.validators.items():
@@ -112,29 +112,29 @@ class TheSchemas(Case):
             schema = {**target, **{key: value for key, value in schema.items() if key != "$ref"}}
         return schema
 
-    def test_every_property_has_a_title_and_a_description(self):
+    def test_properties_have_titles_and_descriptions(self):
         for name, validator in self.validators.items():
             found = list(properties(validator.schema))
             self.assertGreaterEqual(len(found), 1, name)
             for key, schema in found:
-                told = self.resolved(validator, schema)
+                described = self.resolved(validator, schema)
                 for word in ("title", "description"):
-                    self.assertTrue(told.get(word), f"{name}: {key} has no {word}")
+                    self.assertTrue(described.get(word), f"{name}: {key} has no {word}")
 
-    def test_a_reference_stands_beside_no_properties(self):
-        """Of those VS Code takes only the nearer ones."""
-        def look(schema, where):
+    def test_references_have_no_sibling_properties(self):
+        """Checks that no schema has "$ref" next to "properties": VS Code then ignores the referenced properties."""
+        def check(schema, where):
             if isinstance(schema, dict):
                 self.assertFalse("$ref" in schema and "properties" in schema and isinstance(schema["$ref"], str), where)
             for key, inner in schema.items() if isinstance(schema, dict) else enumerate(schema):
                 if isinstance(inner, (dict, list)):
-                    look(inner, f"{where}/{key}")
+                    check(inner, f"{where}/{key}")
         for name, validator in self.validators.items():
-            look(validator.schema, name)
+            check(validator.schema, name)
 
 
-class WhatIsShipped(Case):
-    def test_instances_roadmaps_and_adapters(self):
+class ShippedFiles(Case):
+    def test_instances_roadmaps_and_adapters_are_valid(self):
         for schema, pattern, folder in (("instance", "*.cts.json", DATA), ("roadmap", "*.roadmap.json", DATA),
                                         ("solver", "*.json", ROOT / "tools/bench/solvers")):
             found = list(folder.rglob(pattern))
@@ -142,8 +142,8 @@ class WhatIsShipped(Case):
             for path in found:
                 self.assert_valid(schema, load(path), path)
 
-    def test_examples_of_the_documents(self):
-        """Every JSON example of an instance, a roadmap, an adapter or new tasks in docs/formats.md."""
+    def test_examples_of_the_documents_are_valid(self):
+        """Validates every JSON example of an instance, a roadmap, an adapter or new tasks in docs/formats.md."""
         text = (ROOT / "docs/formats.md").read_text(encoding="utf-8")
         seen = set()
         for block in text.split("```json\n")[1:]:
@@ -155,15 +155,15 @@ class WhatIsShipped(Case):
                 self.assert_valid(schema, value, block)
         self.assertEqual(seen, {"roadmap", "instance", "solver", "change"})
 
-    def test_the_document_tells_every_key(self):
+    def test_formats_document_lists_every_key(self):
         text = (ROOT / "docs/formats.md").read_text(encoding="utf-8")
         for name in ("instance", "roadmap", "plan", "change", "solver"):
             for key, _ in properties(self.validators[name].schema):
                 self.assertTrue(f"`{key}`" in text or f'`"{key}"`' in text or f'"{key}":' in text, f"{name}: {key}")
 
 
-class WhatIsWritten(Case):
-    def test_plans_and_logs(self):
+class WrittenFiles(Case):
+    def test_plans_and_logs_are_valid(self):
         cases = {
             "grid": (DATA / "first.cts.json", "--omega", 0),
             "roadmap": (DATA / "yard.cts.json", "--omega", 0),
@@ -187,22 +187,22 @@ class WhatIsWritten(Case):
         self.assertLessEqual({"optimal", "bounded"}, statuses)
         self.assertLessEqual({"header", "incumbent", "bound", "counts", "root", "node", "summary"}, events)
 
-    def crowd(self):
+    def hard_instance(self):
         robots = 14
         (self.folder / "corridor.map").write_text(f"type octile\nheight 2\nwidth {robots}\nmap\n" + ("." * robots + "\n") * 2)
-        return self.write("crowd.cts.json", {"map": "corridor.map", "tasks": [], "agents": [
+        return self.write("hard.cts.json", {"map": "corridor.map", "tasks": [], "agents": [
             {"id": f"a{i}", "start": [i, 0], "goal": [robots - 1 - i, 1]} for i in range(robots)]})
 
-    def test_runs_that_a_limit_ends(self):
-        crowd = self.crowd()
-        plan, _ = self.solve(crowd, "--time-limit", 0.2, "--without", "primal,lacam", name="unknown")
+    def test_runs_at_a_limit_write_valid_files(self):
+        hard = self.hard_instance()
+        plan, _ = self.solve(hard, "--time-limit", 0.2, "--without", "primal,lacam", name="unknown")
         self.assertEqual(plan["status"], "unknown")
-        self.solve(crowd, "--time-limit", 0.3, "--checkpoint", "kept", "--resume", "never", name="kept")
-        plan, log = self.solve(crowd, "--time-limit", 0.6, "--checkpoint", "kept", "--resume", "auto", name="resumed")
+        self.solve(hard, "--time-limit", 0.3, "--checkpoint", "kept", "--resume", "never", name="kept")
+        plan, log = self.solve(hard, "--time-limit", 0.6, "--checkpoint", "kept", "--resume", "auto", name="resumed")
         self.assertIn("seconds_before", plan["stats"])
         self.assertLessEqual({"resumed", "checkpoint"}, {line["event"] for line in log})
 
-    def test_no_plan_at_all(self):
+    def test_infeasible_run_writes_valid_files(self):
         (self.folder / "walled.map").write_text("type octile\nheight 1\nwidth 3\nmap\n.@.\n")
         walled = self.write("walled.cts.json", {"map": "walled.map", "tasks": [], "agents": [
             {"id": "a", "start": [0, 0], "goal": [2, 0]}]})
@@ -210,25 +210,25 @@ class WhatIsWritten(Case):
         self.assertEqual(plan["status"], "infeasible")
         self.assertIn("infeasible", {line["event"] for line in log})
 
-    def test_passing_orders(self):
-        ways = set()
+    def test_passing_orders_are_valid(self):
+        actions = set()
         for name in ("first", "yard", "shop"):
             instance = DATA / f"{name}.cts.json"
             self.solve(instance, "--omega", 0, name=name)
             grove("execute", instance, f"{name}.plan.json", "--order", f"{name}.order.json", cwd=self.folder)
             order = load(self.folder / f"{name}.order.json")
             self.assert_valid("passing-order", order, name)
-            ways |= {action["do"] for robot in order["robots"] for action in robot["actions"]}
-        self.assertEqual(ways, {"move", "turn", "work"})
+            actions |= {action["do"] for robot in order["robots"] for action in robot["actions"]}
+        self.assertEqual(actions, {"move", "turn", "work"})
 
-    def test_drive_logs(self):
+    def test_drive_logs_are_valid(self):
         grove("toio", "--demo", "--fast", "--quiet", "--log", "drive.jsonl", cwd=self.folder)
         drive = lines(self.folder / "drive.jsonl")
         self.assertGreater(len(drive), 10)
         for line in drive:
             self.assert_valid("drive-log-line", line, line)
 
-    def test_what_replan_reads_and_writes(self):
+    def test_replan_reads_and_writes_valid_files(self):
         self.solve(DATA / "shop.cts.json", name="shop")
         cases = [{"tasks": [{"id": "more", "cell": [0, 1], "agents": ["red", "blue"], "duration": 2}]},
                  {"$schema": "change.schema.json", "id": "more", "cell": [0, 1], "agents": ["spare"]}]
@@ -243,7 +243,7 @@ class WhatIsWritten(Case):
             self.assert_valid("instance", then)
             self.assertIn("working", {key for agent in then["agents"] for key in agent})
 
-    def test_what_generate_writes(self):
+    def test_generate_writes_valid_files(self):
         grove("generate", "roadmap", "--kind", "planar", "--vertices", 30, "--one-way", 30, "-o", "town.roadmap.json",
               cwd=self.folder)
         self.assert_valid("roadmap", load(self.folder / "town.roadmap.json"))
@@ -253,7 +253,7 @@ class WhatIsWritten(Case):
                   "made.cts.json", cwd=self.folder)
             self.assert_valid("instance", load(self.folder / "made.cts.json"), kind)
 
-    def test_tables_of_results(self):
+    def test_tables_of_results_are_valid(self):
         self.write("mine.json", {"name": "mine", "command": "{program} {map} {scenario}", "plan": None,
                                  "claims": {"cost": "cost (\\d+)"}})
         (self.folder / "list.txt").write_text("first.cts.json\nrandom-32x32-20_n5_m10_mg.cts.json\n"
@@ -270,21 +270,21 @@ class WhatIsWritten(Case):
         self.assertTrue(any(row["solver"] == "mine" for row in rows))
 
 
-class WhatIsRefused(Case):
-    """By the programs and by the schemas alike."""
+class RefusedFiles(Case):
+    """Tests files that the programs and the schemas refuse."""
 
     def refused_by_verify(self, kind, value):
-        """Whether grove-verify cannot read it; it is handed no certificate."""
+        """Returns whether grove-verify cannot read the instance; the certificate is empty."""
         instance = self.write("broken.cts.json", value if kind == "instance" else
                               {**load(DATA / "yard.cts.json"), "roadmap": "broken.roadmap.json"})
         if kind == "roadmap":
             self.write("broken.roadmap.json", value)
         done = subprocess.run([VERIFY, instance, "/dev/null"], capture_output=True, text=True, timeout=60, cwd=self.folder)
         self.assertEqual(done.returncode, 2, done.stdout)
-        return not done.stdout.startswith("unreadable: line ")  # that is of the certificate
+        return not done.stdout.startswith("unreadable: line ")  # an error of the certificate
 
     def assert_refused(self, kind, value):
-        self.assertTrue(self.complaints(kind, value), "the schema accepts it")
+        self.assertTrue(self.schema_errors(kind, value), "the schema accepts it")
         self.assertTrue(self.refused_by_grove(kind, value), "grove accepts it")
         if VERIFY and kind in ("instance", "roadmap"):
             self.assertTrue(self.refused_by_verify(kind, value), "grove-verify accepts it")
@@ -321,7 +321,7 @@ class WhatIsRefused(Case):
         return path
 
     def valid(self, kind):
-        """A file with all keys that there are."""
+        """Returns a valid file of this kind with all keys."""
         if kind == "instance":
             shop = load(DATA / "shop.cts.json")
             shop["tasks"].append({"id": "begun", "cell": [4, 2], "agents": ["spare"], "duration": 9})
@@ -339,7 +339,7 @@ class WhatIsRefused(Case):
                 "trace": [{"file": "{output}", "regex": "(.) (.)", "groups": ["cost", "seconds"]}]}
 
     def each_place(self, value, path=()):
-        """(path, value) of all that is in it; of lists the first entry."""
+        """Yields (path, value) of each nested value; of lists only the first entry."""
         yield path, value
         if isinstance(value, dict):
             for key, inner in value.items():
@@ -358,7 +358,7 @@ class WhatIsRefused(Case):
         return value
 
     def mutations(self, value):
-        """Keys misspelt, values of other types, numbers below all that are allowed."""
+        """Yields (description, file) with misspelt keys, values of wrong types and numbers below the allowed range."""
         for path, inner in self.each_place(value):
             if not path:
                 continue
@@ -383,12 +383,12 @@ class WhatIsRefused(Case):
                 yield f"{path} is called {word}", self.changed(
                     value, path, lambda at, k, w=word: at.__setitem__(w, at.pop(k)))
 
-    def test_what_is_there_is_accepted(self):
+    def test_files_with_all_keys_are_accepted(self):
         for kind in ("instance", "roadmap", "plan", "change", "solver"):
             self.assert_accepted(kind, self.valid(kind))
 
-    def test_keys_of_others(self):
-        """In every object: unknown ones are refused, and remarks are not."""
+    def test_unknown_keys_are_refused_and_remarks_accepted(self):
+        """Checks in every object that unknown keys are refused, and keys for remarks accepted."""
         for kind in ("instance", "roadmap", "plan", "change", "solver"):
             whole = self.valid(kind)
             objects = [path for path, value in self.each_place(whole) if isinstance(value, dict)]
@@ -403,7 +403,7 @@ class WhatIsRefused(Case):
                     with self.subTest(kind=kind, path=path, key=key):
                         self.assert_accepted(kind, changed) if good else self.assert_refused(kind, changed)
 
-    def test_mutations(self):
+    def test_mutated_files_are_refused(self):
         for kind in ("instance", "roadmap", "change", "solver", "plan"):
             value, count = self.valid(kind), 0
             for what, broken in self.mutations(value):
@@ -412,7 +412,7 @@ class WhatIsRefused(Case):
                     self.assert_refused(kind, broken)
             self.assertGreater(count, 10)
 
-    def test_missing_keys(self):
+    def test_missing_keys_are_refused(self):
         needed = {"instance": [(), ("agents", 0), ("tasks", 0), ("agents", 2, "working")],
                   "roadmap": [(), ("vertices", 0), ("edges", 0)], "change": [("tasks", 0)],
                   "solver": [("trace", 0)], "plan": [(), ("agents", 0)]}
@@ -428,7 +428,7 @@ class WhatIsRefused(Case):
                     with self.subTest(kind=kind, missing=(*place, key)):
                         self.assert_refused(kind, broken)
 
-    def test_what_does_not_go_together(self):
+    def test_inconsistent_keys_are_refused(self):
         shop, yard, town, solver = (self.valid("instance"), load(DATA / "yard.cts.json"), self.valid("roadmap"),
                                     self.valid("solver"))
         agent, driver = {"id": "r", "start": [0, 0]}, {"id": "r", "start": "gate"}
@@ -500,8 +500,8 @@ class WhatIsRefused(Case):
                 self.assert_refused(kind, broken)
 
 
-class TheKeyOfEditors(Case):
-    def test_is_accepted_in_files_that_people_write(self):
+class SchemaKey(Case):
+    def test_schema_key_is_accepted_in_input_files(self):
         instance = self.write("x.cts.json", {"$schema": "instance.schema.json", **load(DATA / "yard.cts.json")})
         self.write("yard.roadmap.json", {"$schema": "roadmap.schema.json", **load(DATA / "yard.roadmap.json")})
         for path, schema in ((instance, "instance"), (self.folder / "yard.roadmap.json", "roadmap")):
@@ -521,7 +521,7 @@ class TheKeyOfEditors(Case):
 
 if __name__ == "__main__":
     if not importlib.util.find_spec("jsonschema"):
-        print("skipped: python3-jsonschema is not there")
+        print("skipped: python3-jsonschema is not installed")
         sys.exit(77)
     del sys.argv[1:3]
     unittest.main()

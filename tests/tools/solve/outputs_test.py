@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What a run writes: by one run at a time, through no link, with the permissions of the umask; what is told where the
-disk is full; and signals before the run has begun.
+"""Tests output files: locks against a second run, no writes through links, permissions by the umask, messages about a
+full disk, and signals before the run has begun.
 
     outputs_test.py GROVE
 """
@@ -19,7 +19,7 @@ from pathlib import Path
 GROVE = Path(sys.argv[1]).resolve()
 DATA = Path(__file__).resolve().parents[3] / "benchmarks/data"
 QUICK = DATA / "first.cts.json"
-PATIENCE_S = 120  # ends what hangs
+TIMEOUT_S = 120  # of programs that hang
 
 
 class Outputs(unittest.TestCase):
@@ -32,7 +32,7 @@ class Outputs(unittest.TestCase):
                     "--seed", 1, "-o", self.hard)
 
     def run_it(self, *words, **more):
-        return subprocess.run([GROVE, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=PATIENCE_S,
+        return subprocess.run([GROVE, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=TIMEOUT_S,
                               check=False, **more)
 
     def start(self, *words, **more):
@@ -43,25 +43,25 @@ class Outputs(unittest.TestCase):
         self.addCleanup(running.kill)
         return running
 
-    def say(self, running, words):
-        """Reads on until a line holds the words."""
-        said = ""
+    def read_until(self, running, words):
+        """Reads the output until a line contains the words; returns all lines read."""
+        output = ""
         for line in running.stdout:
-            said += line
+            output += line
             if words in line:
-                return said
-        self.fail(f"'{words}' did not come: {said}")
+                return output
+        self.fail(f"'{words}' is not in the output: {output}")
 
 
 class OneAtATime(Outputs):
-    def test_a_second_run_is_refused(self):
+    def test_second_run_with_the_same_output_is_refused(self):
         outputs = {"-o": "x.plan.json", "--proof": "x.proof", "--log": "x.log", "--incumbents": "x"}
         words = [word for pair in outputs.items() for word in pair]
         self.run_it("solve", QUICK, "-o", "q.plan.json")
         (self.folder / "x.plan.json").write_text("{}")
-        (self.folder / "link").symlink_to("x.plan.json")     # another name of the same
-        running = self.start("solve", self.hard, "--omega", 0, "--time-limit", PATIENCE_S, *words)
-        self.say(running, "lower bound")
+        (self.folder / "link").symlink_to("x.plan.json")     # another name of the same file
+        running = self.start("solve", self.hard, "--omega", 0, "--time-limit", TIMEOUT_S, *words)
+        self.read_until(running, "lower bound")
         for option, name in outputs.items():
             mine = ["-o", "y.plan.json"] if option != "-o" else []
             done = self.run_it("solve", QUICK, option, name, *mine)
@@ -72,14 +72,14 @@ class OneAtATime(Outputs):
             self.assertEqual(done.returncode, 2)
             self.assertIn("is being written by another run", done.stderr)
         running.send_signal(signal.SIGTERM)
-        said, _ = running.communicate(timeout=PATIENCE_S)
-        self.assertEqual(running.returncode, 0, said)
+        output, _ = running.communicate(timeout=TIMEOUT_S)
+        self.assertEqual(running.returncode, 0, output)
         self.assertEqual([path.name for path in self.folder.iterdir() if path.name.startswith(".grove-")], [])
         self.assertEqual(self.run_it("check", self.hard, "x.plan.json").returncode, 0)
 
-    def test_what_a_killed_run_leaves_does_not_keep_the_next_away(self):
-        running = self.start("solve", self.hard, "--omega", 0, "--time-limit", PATIENCE_S, "-o", "x.plan.json")
-        self.say(running, "lower bound")
+    def test_lock_of_a_killed_run_does_not_block_the_next(self):
+        running = self.start("solve", self.hard, "--omega", 0, "--time-limit", TIMEOUT_S, "-o", "x.plan.json")
+        self.read_until(running, "lower bound")
         running.kill()
         running.wait()
         done = self.run_it("solve", QUICK, "-o", "x.plan.json")
@@ -109,7 +109,7 @@ class Links(Outputs):
 
 
 class Permissions(Outputs):
-    def test_of_new_files_are_those_of_the_umask(self):
+    def test_new_files_have_the_permissions_of_the_umask(self):
         for mask, expected in ((0o077, 0o600), (0o022, 0o644), (0o002, 0o664)):
             folder = self.folder / f"{mask:o}"
             folder.mkdir()
@@ -128,7 +128,7 @@ class FullDisk(Outputs):
     def nearly_full():
         resource.setrlimit(resource.RLIMIT_FSIZE, (200, 200))
 
-    def test_the_summary_is_told(self):
+    def test_summary_is_printed_if_the_plan_is_not_written(self):
         done = self.run_it("solve", QUICK, "-o", "x.plan.json", preexec_fn=self.nearly_full)
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertRegex(done.stdout, r"\nStatus +optimal\nCost +\d+\nLower bound +\d+\n")
@@ -136,36 +136,36 @@ class FullDisk(Outputs):
         self.assertEqual(done.stderr, "grove: error: x.plan.json: cannot be written: File too large\n")
         self.assertFalse((self.folder / "x.plan.json").exists())
 
-    def test_programs_are_told_too(self):
+    def test_jsonl_summary_is_printed_if_the_plan_is_not_written(self):
         done = self.run_it("solve", QUICK, "-o", "x.plan.json", "--log-format", "jsonl", preexec_fn=self.nearly_full)
         self.assertEqual(done.returncode, 1, done.stderr)
         summary = json.loads(done.stdout.splitlines()[-1])
         self.assertEqual((summary["event"], summary["status"], summary["plan_file"]), ("summary", "optimal", None))
 
-    def test_a_special_file(self):
+    def test_full_special_file_is_an_error(self):
         done = self.run_it("solve", QUICK, "-o", "/dev/full")
         self.assertEqual(done.returncode, 1)
         self.assertIn("Lower bound", done.stdout)
         self.assertIn("No space left on device", done.stderr)
 
-    def test_while_a_certificate_is_recorded(self):
-        running = self.start("solve", self.hard, "--omega", 0, "--time-limit", PATIENCE_S, "-o", "x.plan.json", "--proof", "x.proof",
+    def test_disk_full_during_recording_of_a_certificate(self):
+        running = self.start("solve", self.hard, "--omega", 0, "--time-limit", TIMEOUT_S, "-o", "x.plan.json", "--proof", "x.proof",
                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000)))
         part = self.folder / "x.proof.part-0-0"
-        said = self.say(running, "lower bound")
-        while part.exists():  # until it is full
+        output = self.read_until(running, "lower bound")
+        while part.exists():  # until the size limit is reached
             self.assertIsNone(running.poll())
         running.send_signal(signal.SIGTERM)
-        rest, _ = running.communicate(timeout=PATIENCE_S)
-        self.assertEqual(running.returncode, 1, said + rest)
+        rest, _ = running.communicate(timeout=TIMEOUT_S)
+        self.assertEqual(running.returncode, 1, output + rest)
         self.assertRegex(rest, r"\nCost +\d+\nLower bound +\d+\n")
         self.assertRegex(rest, r"\nProof file +x\.proof: none was written\n")
         self.assertIn("grove: error: x.proof.part-0-0: cannot be written: File too large\n", rest)
         self.assertEqual(self.run_it("check", self.hard, "x.plan.json").returncode, 0)
         self.assertEqual(list(self.folder.glob("*.part-*")), [])
 
-    @unittest.skipUnless(os.access("/dev", os.W_OK), "only root can write the parts of a certificate beside /dev/full")
-    def test_of_a_certificate(self):
+    @unittest.skipUnless(os.access("/dev", os.W_OK), "only root can write the parts of a certificate next to /dev/full")
+    def test_disk_full_at_the_end_of_a_certificate(self):
         done = self.run_it("solve", QUICK, "-o", "x.plan.json", "--proof", "/dev/full")
         self.assertIn("Lower bound", done.stdout)
         self.assertEqual(done.returncode, 1, done.stderr)
@@ -174,27 +174,27 @@ class FullDisk(Outputs):
 class Signals(Outputs):
     @staticmethod
     def signal_waiting():
-        """A checkpoint was asked for before the program began."""
+        """Makes SIGUSR1, the request for a checkpoint, pending before the program starts."""
         signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGUSR1])
         os.kill(os.getpid(), signal.SIGUSR1)
 
-    def test_a_checkpoint_may_be_asked_for_before_the_run_begins(self):
-        running = self.start("solve", self.hard, "--omega", 0, "--time-limit", PATIENCE_S, "--checkpoint", "kept",
+    def test_checkpoint_request_before_the_run_is_served(self):
+        running = self.start("solve", self.hard, "--omega", 0, "--time-limit", TIMEOUT_S, "--checkpoint", "kept",
                              preexec_fn=self.signal_waiting)
-        said = self.say(running, "Checkpoint of")  # the next one by the clock comes after ten minutes
+        output = self.read_until(running, "Checkpoint of")  # the first periodic checkpoint is due after ten minutes
         running.send_signal(signal.SIGTERM)
-        rest, _ = running.communicate(timeout=PATIENCE_S)
-        self.assertEqual(running.returncode, 0, said + rest)
+        rest, _ = running.communicate(timeout=TIMEOUT_S)
+        self.assertEqual(running.returncode, 0, output + rest)
         self.assertTrue((self.folder / "kept/checkpoint.grove").exists())
 
-    def test_no_command_ends_by_it(self):
-        """Standard input holds a command back where it has not read its instance yet."""
+    def test_sigusr1_ends_no_command(self):
+        """Sends SIGUSR1 while the commands wait for their instance on standard input."""
         for words in (("check", "-", "none.plan.json"), ("view", "-"), ("solve", "-")):
             running = self.start(*words, stdin=subprocess.PIPE)
             while not self.catches(running.pid, signal.SIGUSR1):
                 self.assertIsNone(running.poll())
             running.send_signal(signal.SIGUSR1)
-            running.communicate("{}", timeout=PATIENCE_S)
+            running.communicate("{}", timeout=TIMEOUT_S)
             self.assertEqual(running.returncode, 2, words)
 
     @staticmethod

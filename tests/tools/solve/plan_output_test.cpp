@@ -81,12 +81,12 @@ TEST_F(PlanOutput, ReplacesPlansOfAnotherInstance) {
 TEST_F(PlanOutput, RefutesAFalseBoundByTheExistingPlan) {
   write(waiting(0));
   EXPECT_THAT(failure(without_plan(Status::kInfeasible, 0)),
-              HasSubstr("proven that there is no plan"));
+              HasSubstr("claims that there is no plan"));
   EXPECT_THAT(failure(without_plan(Status::kUnknown, 3)), HasSubstr("no plan costs less than 3"));
   Solution wrong = waiting(1);
   wrong.lower_bound = 3;
   wrong.status = Status::kOptimal;
-  EXPECT_THAT(failure(wrong), HasSubstr("holds a valid plan of cost 2"));
+  EXPECT_THAT(failure(wrong), HasSubstr("has a valid plan of cost 2"));
   EXPECT_EQ(content(), solution_text(instance_, waiting(0)));
 }
 

@@ -115,6 +115,19 @@ TEST_F(SolveCommand, UsesTheLastOfARepeatedOption) {
             "--omega 0 --without primal,bypass,target --output p.json");
 }
 
+TEST_F(SolveCommand, AcceptsOldNamesOfTechniques) {
+  const auto nodes = [&](const std::string& techniques) {
+    const ProcessResult solved =
+        solve({data("rooms-32x32_n10_m30.cts.json"), "--omega", "0", "--threads", "1",
+               "--deterministic", "--without", techniques, "--output", "p.json"});
+    EXPECT_EQ(solved.exit_code, 0) << solved.err;
+    return plan("p.json")["stats"]["nodes_expanded"].get<int>();
+  };
+  EXPECT_EQ(nodes("configurations,traversal,dependencies,joint-paths,priced-plans"),
+            nodes("lacam,corridor,wdg,joint-mdd,lagrangian-lns"));
+  EXPECT_THAT(solve({"--help"}).out, Not(HasSubstr("priced-plans")));
+}
+
 TEST_F(SolveCommand, SetsTunables) {
   const auto nodes = [&](std::vector<std::string> tune) {
     std::vector<std::string> arguments = {data("rooms-32x32_n10_m30.cts.json"),
@@ -144,6 +157,7 @@ TEST_F(SolveCommand, SetsTunables) {
               HasSubstr("--tune: mdd-nodes: found '0'; expected an integer from 1 to 1000000000"));
   EXPECT_THAT(complaint(solve({data("first.cts.json"), "--tune", "mdd-nodes"})),
               HasSubstr("expected NAME=VALUE"));
+  EXPECT_EQ(nodes({"--tune", "compared-pairs=50000,spot-steps=8"}), defaults) << "old names";
   const ProcessResult help = solve({"--tune", "help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_THAT(help.out, HasSubstr("\npair-expansions=16  (from 1 to 1000000)\n"));
@@ -372,11 +386,11 @@ TEST_F(SolveCommand, RefusesInvalidArguments) {
   EXPECT_THAT(complaint(solve({"puzzle.json", "--threads", "0"})), HasSubstr("--threads"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--policy", "best"})),
               HasSubstr("auto, fixed, free"));
-  EXPECT_THAT(complaint(solve({"other.yaml"})), HasSubstr("'grove convert' makes of it"));
+  EXPECT_THAT(complaint(solve({"other.yaml"})), HasSubstr("'grove convert' makes from it"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--rtsp", "gurobi"})), HasSubstr("auto, cbc, dp"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--rtsp", "cbc"})),
               is_built(RtspBackend::kCbc)
-                  ? HasSubstr("expected --policy fixed with it, or no --rtsp cbc")
+                  ? HasSubstr("requires --policy fixed; expected that, or no --rtsp cbc")
                   : HasSubstr("built without CBC"));
   EXPECT_THAT(complaint(solve({"puzzle.json", "--omgea", "0"})), HasSubstr("--omgea"));
   EXPECT_THAT(complaint(solve({"missing.json"})), HasSubstr("missing.json"));

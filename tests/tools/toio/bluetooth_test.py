@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The Bluetooth side, with a bleak that is not there: behind each device stands a simulated cube."""
+"""Tests the Bluetooth connection with a fake bleak module whose devices are simulated cubes."""
 import asyncio
 import sys
 import types
@@ -28,7 +28,7 @@ HANDLERS = {protocol.MOTOR: "on_motor", protocol.ID_INFORMATION: "on_id", protoc
 
 
 class Client:
-    """As of bleak 0.20: characteristics by UUID, handlers get the characteristic first."""
+    """Imitates BleakClient of bleak 0.20: characteristics by UUID, handlers receive the characteristic first."""
 
     def __init__(self, device, disconnected_callback=None, timeout=10):
         self.device, self.cube, self.disconnected = device, device.cube, disconnected_callback
@@ -45,7 +45,7 @@ class Client:
 
     def break_off(self):
         self.is_connected = False
-        self.cube.notifying = protocol.Notifying(1, 0xff)       # forgotten
+        self.cube.notifying = protocol.Notifying(1, 0xff)       # settings of the connection are lost
         self.cube.on_id = self.cube.on_motor = self.cube.on_configuration = lambda data: None
         self.disconnected(self)
 
@@ -77,7 +77,7 @@ def fake_bleak(devices):
                                  exc=types.SimpleNamespace(BleakError=BleakError))
 
 
-async def drive(named=(), hide=(), name="crowd", meanwhile=None):
+async def drive(named=(), hide=(), name="dense", after_3_s=None):
     order, grid = plans.order(name), plans.grid(name)
     world, simulated = make_world(order, grid, Disturbances(), 1)
     devices = [Device(f"toio-{robot}", f"00:0{i}", cube) for i, (robot, cube) in enumerate(simulated.items())
@@ -87,8 +87,8 @@ async def drive(named=(), hide=(), name="crowd", meanwhile=None):
         try:
             cubes = await bluetooth.connect_cubes(order, grid, dict(named))
             assert all(cubes[robot].device.cube is simulated[robot] for robot in cubes)
-            if meanwhile:
-                asyncio.get_running_loop().call_later(3, meanwhile, devices)
+            if after_3_s:
+                asyncio.get_running_loop().call_later(3, after_3_s, devices)
             outcome = await Driver(order, cubes, grid).drive(plans.PATIENCE)
             for cube in cubes.values():
                 await cube.disconnect()
@@ -98,18 +98,18 @@ async def drive(named=(), hide=(), name="crowd", meanwhile=None):
 
 
 class Bluetooth(unittest.TestCase):
-    def test_cubes_are_told_apart_by_where_they_stand(self):
+    def test_cubes_are_identified_by_their_positions(self):
         outcome, world, devices = plans.run(drive())
         self.assertTrue(outcome.completed, outcome.waits)
         self.assertGreater(world.least, BODY)
         self.assertFalse(any(d.client.is_connected for d in devices))
 
-    def test_cubes_are_told_apart_by_name_and_address(self):
+    def test_cubes_are_identified_by_name_and_address(self):
         outcome, *_ = plans.run(drive([("a0", "TOIO-A0"), ("a1", "00:01")]))
         self.assertTrue(outcome.completed)
 
-    def test_a_lost_connection_comes_back(self):
-        outcome, world, devices = plans.run(drive(meanwhile=lambda those: those[0].client.break_off()))
+    def test_lost_connection_is_restored(self):
+        outcome, world, devices = plans.run(drive(after_3_s=lambda those: those[0].client.break_off()))
         self.assertTrue(outcome.completed, outcome.waits)
         self.assertEqual(devices[0].connections, 2)
         self.assertGreater(world.least, BODY)
@@ -119,11 +119,11 @@ class Bluetooth(unittest.TestCase):
             plans.run(drive(**options))
         self.assertIn(text, str(caught.exception))
 
-    def test_what_is_refused(self):
+    def test_missing_cubes_are_refused(self):
         self.refused("found no cube 'toio-x'", named=[("a0", "toio-x")])
         self.refused("the start of a2; expected one", hide=("a2",))
 
-    def test_without_bleak(self):
+    def test_missing_bleak_is_an_error(self):
         with mock.patch.dict(sys.modules, {"bleak": None}), self.assertRaises(BadInput) as caught:
-            plans.run(bluetooth.connect_cubes(plans.order("crowd"), plans.grid("crowd"), {}))
+            plans.run(bluetooth.connect_cubes(plans.order("dense"), plans.grid("dense"), {}))
         self.assertIn("python3-bleak", str(caught.exception))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Whole drives with simulated cubes: everything is visited, in the order's sequence, and nobody touches."""
+"""Tests whole drives with simulated cubes: all tasks are visited in the sequence of the order, without collisions."""
 import functools
 import io
 import json
@@ -12,12 +12,12 @@ from grove_toio.driver import Driver
 from grove_toio.mat import BODY
 from grove_toio.rings import PARTS
 
-NAMES = ("crowd", "work", "many", "narrow", "round")
+NAMES = ("dense", "work", "many", "narrow", "round")
 SEEDS = range(3)
 
 
 class Watched(Driver):
-    """Notes when actions end."""
+    """Records when actions end."""
 
     ended = {}
 
@@ -27,7 +27,7 @@ class Watched(Driver):
 
 
 class Ordinary(unittest.TestCase):
-    def test_all_is_visited_and_nobody_touches(self):
+    def test_all_tasks_are_visited_without_collisions(self):
         for name in NAMES:
             for loss in (0.0, 0.05, 0.2):
                 for seed in SEEDS if name != "many" else SEEDS[:1]:
@@ -42,26 +42,26 @@ class Ordinary(unittest.TestCase):
                 for cell in (r.start, *(a.place for a in r.actions[:outcome.done[r.name]]))}
         self.assertLessEqual(orders.visits(name), seen)
 
-    def test_slips_and_noise(self):
-        for name in ("crowd", "round"):
+    def test_drive_with_slips_and_noise_is_completed(self):
+        for name in ("dense", "round"):
             outcome, world = plans.drive(name, 0.05, 7, slip=1.0, noise=2.0)
             self.assertTrue(outcome.completed, outcome.waits)
             self.assertGreater(world.least, BODY)
 
-    def test_speeds(self):
+    def test_drive_at_lowest_and_highest_speed_is_completed(self):
         for speed in (10, 255):
-            outcome, world = plans.drive("crowd", 0.05, 1, speed=speed)
+            outcome, world = plans.drive("dense", 0.05, 1, speed=speed)
             self.assertTrue(outcome.completed, outcome.waits)
             self.assertGreater(world.least, BODY)
 
-    def test_cubes_truly_end_on_their_goals(self):
-        _, world = plans.calm_drive("crowd", 0.2, 1)
-        grid = plans.grid("crowd")
-        for robot, cube in zip(plans.order("crowd").robots, world.cubes):
+    def test_cubes_end_on_their_goals(self):
+        _, world = plans.calm_drive("dense", 0.2, 1)
+        grid = plans.grid("dense")
+        for robot, cube in zip(plans.order("dense").robots, world.cubes):
             x, y = grid.cell((cube.x, cube.y))
             self.assertLess(max(abs(x - robot.actions[-1].place[0]), abs(y - robot.actions[-1].place[1])), 0.15)
 
-    def test_turning_robots_look_where_they_shall(self):
+    def test_turning_robots_end_with_the_planned_heading(self):
         _, world = plans.calm_drive("work", 0.05, 2)
         headings = {"E": 0, "S": 90, "W": 180, "N": 270}
         for robot, cube in zip(plans.order("work").robots, world.cubes):
@@ -69,13 +69,13 @@ class Ordinary(unittest.TestCase):
                 off = (cube.angle - headings[robot.actions[-1].heading] + 180) % 360 - 180
                 self.assertLess(abs(off), 15)
 
-    def test_the_same_again(self):
-        one, other = (plans.drive("crowd", 0.2, 5) for _ in range(2))
+    def test_equal_seeds_give_equal_drives(self):
+        one, other = (plans.drive("dense", 0.2, 5) for _ in range(2))
         self.assertEqual(one[0], other[0])
         self.assertEqual(one[1].least, other[1].least)
 
 
-class TheOrder(unittest.TestCase):
+class Order(unittest.TestCase):
     def drive(self, name, **options):
         Watched.ended = {}
         outcome, _ = plans.drive(name, 0.05, 1, kind=Watched, **options)
@@ -83,14 +83,14 @@ class TheOrder(unittest.TestCase):
         self.assertEqual(len(Watched.ended), outcome.all_actions)
         return Watched.ended
 
-    def test_after_is_kept(self):
-        ended = self.drive("crowd")
-        for robot in plans.order("crowd").robots:
+    def test_actions_end_after_those_they_wait_for(self):
+        ended = self.drive("dense")
+        for robot in plans.order("dense").robots:
             for k, action in enumerate(robot.actions):
                 if action.after:
                     self.assertLessEqual(ended[action.after], ended[robot.name, k] + 1e-9)
 
-    def test_work_takes_its_time(self):
+    def test_work_takes_its_steps(self):
         ended = self.drive("work", step_seconds=0.7)
         tried = 0
         for robot in plans.order("work").robots:
@@ -100,18 +100,18 @@ class TheOrder(unittest.TestCase):
                     tried += 1
         self.assertTrue(tried)
 
-    def test_a_ring_ends_together(self):
+    def test_actions_of_a_ring_end_together(self):
         ended = self.drive("round")
         self.assertEqual(len(ended), 4)
         self.assertLess(max(ended.values()) - min(ended.values()), 0.1)
 
-    def test_two_cells_in_one_write_are_used_where_the_order_allows_it(self):
+    def test_two_cells_share_one_write_if_the_order_allows_it(self):
         outcome, _ = plans.drive("narrow", slip=0.0)
         self.assertLess(outcome.writes - outcome.corrections, outcome.all_actions + 8)
         self.assertGreater(PARTS, 1)
 
 
-class TheLog(unittest.TestCase):
+class Log(unittest.TestCase):
     @staticmethod
     @functools.cache
     def lines():
@@ -120,7 +120,7 @@ class TheLog(unittest.TestCase):
         plans.drive("work", 0.05, 1, log=log)
         return [json.loads(line) for line in stream.getvalue().splitlines()]
 
-    def test_it_is_what_the_document_says(self):
+    def test_log_has_the_documented_format(self):
         head, *lines = self.lines()
         names = [r.name for r in plans.order("work").robots]
         self.assertEqual(head, {"format": "grove drive 1", "order": "o.json", "robots": names, "seconds_per_step": 1.0})
@@ -133,7 +133,7 @@ class TheLog(unittest.TestCase):
         self.assertEqual([line["t"] for line in lines], sorted(line["t"] for line in lines))
         self.assertLessEqual({"moving", "working", "done"}, {line["state"] for line in lines})
 
-    def test_robots_begin_on_their_starts_and_end_on_their_goals(self):
+    def test_log_begins_at_starts_and_ends_at_goals(self):
         _, *lines = self.lines()
         for robot in plans.order("work").robots:
             own = [line for line in lines if line["robot"] == robot.name]
@@ -144,7 +144,7 @@ class TheLog(unittest.TestCase):
             self.assertEqual(own[-1]["state"], "done")
             self.assertEqual(sorted(line["action"] for line in own), [line["action"] for line in own])
 
-    def test_ten_lines_a_second_and_one_for_each_change(self):
+    def test_log_has_ten_lines_a_second_and_one_for_each_change(self):
         _, *lines = self.lines()
         for name in {line["robot"] for line in lines}:
             own = [line for line in lines if line["robot"] == name]

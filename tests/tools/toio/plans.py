@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Passing orders for cubes, and drives of them in virtual time."""
+"""Generates passing orders for cubes and drives them in virtual time."""
 import asyncio
 import functools
 
@@ -13,7 +13,7 @@ from orders import order_file
 
 PATIENCE = 240                  # virtual seconds
 
-# The simple mat has room for 7 x 5 cells, but not for robots that go round.
+# The simple mat has room for 7 x 5 cells, but not for robots in a ring.
 MAT = {"round": "collection", "many": "collection"}
 
 
@@ -33,12 +33,12 @@ def run(coroutine):
 
 
 def drive(name, loss=0.0, seed=0, lifts=(), seconds=PATIENCE, kind=Driver, slip=0.05, noise=1.0, **options):
-    """(outcome, world)"""
+    """Simulates a drive and returns (outcome, world)."""
     return run(simulate(order(name), grid(name), Disturbances(loss, slip, noise), seed, lifts, seconds, kind,
                         **options))
 
 
 @functools.cache
 def calm_drive(name, loss, seed):
-    """The same without more, shared by those who only look at how it ended."""
+    """Returns drive(name, loss, seed), cached for tests that only read the outcome."""
     return drive(name, loss, seed)

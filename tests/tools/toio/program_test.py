@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The program as its user meets it: the demonstration, messages, exit codes."""
+"""Tests the program grove-toio: the demonstration, messages, exit codes."""
 import functools
 import json
 import signal
@@ -29,12 +29,12 @@ def run(*arguments):
 
 
 class Program(unittest.TestCase):
-    def test_grove_hands_over_to_it(self):
+    def test_grove_toio_starts_the_program(self):
         done = subprocess.run([orders.GROVE, "toio", "--help"], capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("ORDER.json", done.stdout)
 
-    def test_the_demonstration(self):
+    def test_demonstration_visits_all_tasks(self):
         with tempfile.TemporaryDirectory() as folder:
             log = Path(folder) / "drive.jsonl"
             code, out, err = run("--demo", "--fast", "--log", log)
@@ -44,27 +44,27 @@ class Program(unittest.TestCase):
             self.assertRegex(out, r"Distance      at least [5-9]\d\.\d mm between centres")
             self.assertEqual(json.loads(log.read_text().splitlines()[0])["robots"], ["purple", "yellow", "green"])
 
-    def test_the_same_log_again(self):
+    def test_equal_runs_write_equal_logs(self):
         with tempfile.TemporaryDirectory() as folder:
             logs = [Path(folder) / name for name in ("a", "b")]
             for log in logs:
-                done = run(orders.order_file("crowd"), "--fast", "--loss", 0.2, "--log", log, "--quiet")
+                done = run(orders.order_file("dense"), "--fast", "--loss", 0.2, "--log", log, "--quiet")
                 self.assertEqual(done, (0, "", ""))
             self.assertEqual(*(log.read_bytes() for log in logs))
 
-    def test_a_drive_that_cannot_be_completed(self):
-        code, out, err = run(orders.order_file("crowd"), "--fast", "--lift", "a0@2=never", "--time-limit", "40")
+    def test_incomplete_drive_is_an_error(self):
+        code, out, err = run(orders.order_file("dense"), "--fast", "--lift", "a0@2=never", "--time-limit", "40")
         self.assertEqual(code, 1)
         self.assertIn("Tasks         not all visited", out)
         self.assertTrue(err.startswith("grove: error: not done within 40 s: "), err)
         self.assertIn("a0 is off the mat", err)
         self.assertEqual(err.count("\n"), 1)
 
-    def test_signals(self):
+    def test_signals_end_a_drive(self):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
             with self.subTest(signal=number), tempfile.TemporaryDirectory() as folder:
                 log = Path(folder) / "drive.jsonl"
-                process = start(orders.order_file("crowd"), "--log", log)
+                process = start(orders.order_file("dense"), "--log", log)
                 wait_until("robots drive", lambda: '"moving"' in text_of(log), process)
                 process.send_signal(number)
                 process.communicate(timeout=HANG_S)
@@ -78,9 +78,9 @@ class Program(unittest.TestCase):
         self.assertIn(text, err)
         self.assertNotIn("Traceback", err)
 
-    def test_bad_input(self):
-        order, ring, missing = orders.order_file("crowd"), orders.order_file("round"), orders.folder() / "none.json"
-        plan = orders.folder() / "crowd.plan.json"
+    def test_wrong_input_is_refused(self):
+        order, ring, missing = orders.order_file("dense"), orders.order_file("round"), orders.folder() / "none.json"
+        plan = orders.folder() / "dense.plan.json"
         for text, *arguments in (
                 ("none.json: cannot be read", missing), ("/format: found null", plan),
                 ("/ring: found a ring of 4 robots on cells", ring),
@@ -100,5 +100,5 @@ class Program(unittest.TestCase):
                 self.refused(text, *arguments, by=functools.partial(in_process.run, main))
         self.refused("none.json: cannot be read", missing)
 
-    def test_a_full_disk(self):
-        self.refused("No space left", orders.order_file("crowd"), "--fast", "--quiet", "--log", "/dev/full", code=1)
+    def test_full_disk_is_an_error(self):
+        self.refused("No space left", orders.order_file("dense"), "--fast", "--quiet", "--log", "/dev/full", code=1)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""`grove toio`: all tests of this folder.
+"""Runs all tests of this folder: the command `grove toio`.
 
     toio_test.py GROVE [TEST...]
 """

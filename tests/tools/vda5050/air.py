@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Control, vehicles and one who looks on, without a broker and in virtual time: messages are delayed, overtake
-each other and get lost as the test wants it."""
+"""Simulates control, vehicles and a monitor without a broker and in virtual time; messages may be delayed, reordered or
+lost."""
 import functools
 import heapq
 import json
@@ -46,8 +46,8 @@ class Air:
         self.delayed, self.lost = delayed, lost
         self.stops = stops or {}                # robot: (begin, end)
         self.topics = Topics(PROTOCOLS[version], "i", "m")
-        self.complaints = []
-        self.monitor = Monitor(self.topics, self.complaints.append)
+        self.reports = []
+        self.monitor = Monitor(self.topics, self.reports.append)
         self.world = World(1.0)
         those = routes(name, following)
         self.control = Control(releases(order(name, following), those), style(version), "an order",
@@ -58,42 +58,42 @@ class Air:
             self.add(robot, those[robot.name], version)
 
     def add(self, robot, route, version):
-        def tell(topic, message):
+        def publish(topic, message):
             self.sent_at[robot.name] = self.now
-            self.fly(self.hear, robot.name, topic, message)
+            self.schedule(self.on_vehicle_message, robot.name, topic, message)
 
         speed = self.random.uniform(0.5, 3)
         self.vehicles[robot.name] = SimulatedVehicle(PROTOCOLS[version], robot.name, "m", route.serial, route.nodes[0].at,
-                                                     THETA.get(robot.heading, 0.0), self.world, tell, speed, math.pi)
+                                                     THETA.get(robot.heading, 0.0), self.world, publish, speed, math.pi)
         self.world.holders[route.nodes[0].id] = [self.vehicles[robot.name]]
         self.vehicles[robot.name].publish_state()
 
     # ---- messages
 
-    def fly(self, function, *arguments):
+    def schedule(self, function, *arguments):
         if self.random.random() < self.lost:
             return
         seconds = self.random.uniform(0, 20) if self.random.random() < self.delayed else 0.0
         self.number += 1
         heapq.heappush(self.due, (self.now + seconds, self.number, function, arguments))
 
-    def seen(self, serial, name, message):
-        """By the one who looks on, in the order in which the broker has them."""
+    def notify_monitor(self, serial, name, message):
+        """Passes a message to the monitor, in the order in which the broker receives them."""
         self.monitor.on_message(self.topics.topic(serial, name), json.dumps(message).encode())
 
     def send(self, robot, content):
         message = json.loads(json.dumps(self.headers[robot].message(content)))
-        self.seen(robot, "order", message)
-        self.fly(self.vehicles[robot].receive, message)
+        self.notify_monitor(robot, "order", message)
+        self.schedule(self.vehicles[robot].receive, message)
 
-    def hear(self, robot, name, message):
-        self.seen(robot, name, message)
+    def on_vehicle_message(self, robot, name, message):
+        self.notify_monitor(robot, name, message)
         self.control.on_state(robot, json.loads(json.dumps(message)))
 
     # ---- the drive
 
     def drive(self, seconds=3000):
-        """Is everything done?"""
+        """Runs until all is done or for `seconds` virtual seconds; returns whether all is done."""
         while self.now < seconds and not self.control.completed:
             self.now += TICK
             while self.due and self.due[0][0] <= self.now:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Orders as messages, by the published schemas."""
+"""Tests order messages against the published schemas."""
 import json
 import unittest
 
@@ -16,18 +16,18 @@ def messages(name, version, released=4, shown=7):
 
 
 class Messages(unittest.TestCase):
-    def test_schemas(self):
+    def test_orders_are_valid_by_the_schemas(self):
         for version in PROTOCOLS:
             validator = load_validators(version)["order"]
-            for name in ("crowd", "work", "roads"):
+            for name in ("dense", "work", "roads"):
                 for _, message in messages(name, version):
                     self.assertEqual([e.message for e in validator.iter_errors(message)], [])
                     broken = json.loads(json.dumps(message))
                     del broken["nodes"][0]["released"]
                     self.assertTrue(list(validator.iter_errors(broken)))
 
-    def test_base_and_horizon(self):
-        for route, message in messages("crowd", "2.1.0"):
+    def test_base_is_released_and_horizon_is_not(self):
+        for route, message in messages("dense", "2.1.0"):
             nodes, edges = message["nodes"], message["edges"]
             self.assertEqual([n["sequenceId"] for n in nodes], list(range(0, 2 * len(nodes), 2)))
             self.assertEqual([e["sequenceId"] for e in edges], list(range(1, 2 * len(edges), 2)))
@@ -46,7 +46,7 @@ class Messages(unittest.TestCase):
                 self.assertEqual(["theta" in n["nodePosition"] for n in message["nodes"]],
                                  [False] * route.last + [True])
 
-    def test_actions(self):
+    def test_works_and_visits_are_actions(self):
         those = [a for _, m in messages("work", "2.1.0", 100, 100) for n in m["nodes"] for a in n["actions"]]
         works = {a["actionId"]: dict((p["key"], p["value"]) for p in a["actionParameters"]) for a in those
                  if a["actionType"] == "work"}
@@ -54,7 +54,7 @@ class Messages(unittest.TestCase):
         self.assertTrue(all(p["seconds"] >= 1 and p["task"] for p in works.values()))
         self.assertIn("visit", {a["actionType"] for a in those})
 
-    def test_headers_count(self):
+    def test_header_ids_increase(self):
         header = Header(PROTOCOLS["2.1.0"], "m", "s")
         one, other = header.message({}), header.message({})
         self.assertEqual((one["headerId"], other["headerId"], one["version"]), (0, 1, "2.1.0"))

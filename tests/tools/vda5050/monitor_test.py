@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The one who looks on sees planted faults."""
+"""Tests that the monitor detects planted faults."""
 import json
 import unittest
 
@@ -11,10 +11,10 @@ from vehicle_test import order
 class Watching(unittest.TestCase):
     def setUp(self):
         self.topics = Topics(PROTOCOLS["2.1.0"], "uagv", "m")
-        self.said = []
-        self.monitor = Monitor(self.topics, self.said.append)
+        self.reports = []
+        self.monitor = Monitor(self.topics, self.reports.append)
 
-    def tell(self, serial, name, message):
+    def receive(self, serial, name, message):
         self.monitor.on_message(self.topics.topic(serial, name), message if isinstance(message, bytes)
                               else json.dumps({**message, "serialNumber": serial}).encode())
 
@@ -25,48 +25,48 @@ class Watching(unittest.TestCase):
                 "errors": [], "batteryState": {"batteryCharge": 50, "charging": False},
                 "safetyState": {"eStop": "NONE", "fieldViolation": False}}
 
-    def test_nothing_wrong(self):
-        self.tell("a", "order", order(0, 2, 4))
-        self.tell("a", "state", self.state("a", 2))
-        self.tell("b", "order", order(0, 1, 4))
-        self.tell("a", "state", self.state("a", 1))     # an old one
-        self.assertEqual((self.said, self.monitor.violations), ([], 0))
+    def test_correct_messages_are_accepted(self):
+        self.receive("a", "order", order(0, 2, 4))
+        self.receive("a", "state", self.state("a", 2))
+        self.receive("b", "order", order(0, 1, 4))
+        self.receive("a", "state", self.state("a", 1))     # outdated
+        self.assertEqual((self.reports, self.monitor.violations), ([], 0))
 
-    def test_a_place_that_two_may_be_on(self):
-        self.tell("a", "order", order(0, 2, 4))
-        self.tell("a", "state", self.state("a", 1))
-        self.tell("b", "order", order(0, 1, 4))
-        self.assertEqual(self.said, ["b: order: n1 is released, but a may still be there"])
+    def test_place_released_to_two_vehicles_is_reported(self):
+        self.receive("a", "order", order(0, 2, 4))
+        self.receive("a", "state", self.state("a", 1))
+        self.receive("b", "order", order(0, 1, 4))
+        self.assertEqual(self.reports, ["b: order: n1 is released, but a may still be there"])
 
-    def test_a_node_that_was_not_released(self):
-        self.tell("a", "order", order(0, 2, 4))
-        self.tell("a", "state", self.state("a", 3))
-        self.assertEqual(self.said, ["a: state: is on n3, node 6, which was not released"])
+    def test_vehicle_on_an_unreleased_node_is_reported(self):
+        self.receive("a", "order", order(0, 2, 4))
+        self.receive("a", "state", self.state("a", 3))
+        self.assertEqual(self.reports, ["a: state: is on n3, node 6, which was not released"])
 
-    def test_a_base_that_changes(self):
-        self.tell("a", "order", order(0, 2, 4))
+    def test_changed_base_is_reported(self):
+        self.receive("a", "order", order(0, 2, 4))
         changed = order(1, 3, 4, update=1)
         changed["nodes"][1]["nodeId"] = "elsewhere"
-        self.tell("a", "order", changed)
-        self.assertEqual(self.said, ["a: order: node 4 was n2 and is elsewhere now"])
+        self.receive("a", "order", changed)
+        self.assertEqual(self.reports, ["a: order: node 4 was n2 and is elsewhere now"])
 
-    def test_who_comes_late_says_nothing_of_what_was_before(self):
-        self.tell("a", "state", self.state("a", 0))
-        self.tell("a", "order", order(2, 3, 4, update=1))
-        self.tell("a", "state", self.state("a", 1))
-        self.assertEqual(self.said, [])
-        self.tell("a", "state", self.state("a", 4))
-        self.assertEqual(self.said, ["a: state: is on n4, node 8, which was not released"])
+    def test_late_monitor_ignores_earlier_nodes(self):
+        self.receive("a", "state", self.state("a", 0))
+        self.receive("a", "order", order(2, 3, 4, update=1))
+        self.receive("a", "state", self.state("a", 1))
+        self.assertEqual(self.reports, [])
+        self.receive("a", "state", self.state("a", 4))
+        self.assertEqual(self.reports, ["a: state: is on n4, node 8, which was not released"])
 
-    def test_messages_that_are_none(self):
-        self.tell("a", "order", b"{")
+    def test_malformed_messages_are_reported(self):
+        self.receive("a", "order", b"{")
         broken = order(0, 1, 1)
         broken["nodes"][1]["released"] = "yes"
-        self.tell("a", "order", broken)
+        self.receive("a", "order", broken)
         other = order(0, 1, 1)
         other["version"] = "1.0.0"
-        self.tell("a", "order", other)
-        for text, expected in zip(self.said, ("invalid JSON", "/nodes/1/released: 'yes' is not of type 'boolean'",
+        self.receive("a", "order", other)
+        for text, expected in zip(self.reports, ("invalid JSON", "/nodes/1/released: 'yes' is not of type 'boolean'",
                                              "header has 1.0.0, a")):
             self.assertIn(expected, text)
         self.assertEqual(self.monitor.violations, 3)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Control and simulated vehicles as the program puts them together, at several paces and in virtual time: what the
-log says is in seconds of the vehicles, so that the plan's times can be compared with it."""
+"""Tests control and simulated vehicles as the program combines them, at several paces and in virtual time. Times in the
+log are seconds of the vehicles, so that they can be compared with the times of the plan."""
 import functools
 import json
 import queue
@@ -15,7 +15,7 @@ from grove_vda5050.mqtt import Message, encode
 
 
 class Broker:
-    """Keeps what is to be kept, and passes on the rest."""
+    """Forwards messages to all connections and stores retained ones."""
 
     def __init__(self):
         self.kept = {}
@@ -25,26 +25,26 @@ class Broker:
         if retain:
             self.kept[message.topic] = message
         for connection in self.connections:
-            connection.hear(message)
+            connection.receive(message)
 
 
 class Connection:
     failure = None
 
     def __init__(self, broker, topics, will=None, hello=None, pause=None):
-        """pause(): lets time go on while there is nothing in the inbox; without, nobody waits for it."""
+        """Connects to the broker. `pause()` advances the time while the inbox is empty; None if get() never waits."""
         self.broker, self.topics, self.inbox, self.pause = broker, [t.split("/") for t, _ in topics], self, pause
         self.messages = queue.SimpleQueue()
         broker.connections.append(self)
         for message in broker.kept.values():
-            self.hear(message)
+            self.receive(message)
         if hello:
             self.publish(*hello, retain=True)
 
     def publish(self, topic, message, qos=0, retain=False):
         self.broker.publish(Message(topic, encode(message)), retain)
 
-    def hear(self, message):
+    def receive(self, message):
         levels = message.topic.split("/")
         if any(len(t) == len(levels) and all(a in ("+", b) for a, b in zip(t, levels)) for t in self.topics):
             self.messages.put(message)
@@ -62,7 +62,7 @@ class Connection:
 
 
 class Drive:
-    """Of `trial ORDER --pace ...`, without a broker and processes."""
+    """Runs `trial ORDER --pace ...` without a broker and processes."""
 
     def __init__(self, name, *options):
         self.seconds = 0.0
@@ -87,7 +87,7 @@ class Drive:
         return self.lines[-1]["t"]
 
     def first(self, robot, action):
-        """When it had completed so many actions."""
+        """Returns the time at which the robot had completed `action` actions."""
         return next(line["t"] for line in self.lines if line["robot"] == robot and line["action"] >= action)
 
 
@@ -97,36 +97,37 @@ def drive(*arguments):
 
 
 def planned_ends(name):
-    """{robot: (how many actions, the step at which the plan ends the last one)}"""
+    """Returns {robot: (number of actions, planned end of the last one in steps)}."""
     robots = json.loads(orders.order_file(name, False).read_text())["robots"]
     return {r["id"]: (len(r["actions"]), r["actions"][-1]["planned"] + r["actions"][-1]["steps"])
             for r in robots if r["actions"]}
 
 
 def lateness(one, name):
-    """Of each robot at its end, as the page of a drive has it: seconds after the plan's, at one second a step."""
+    """Returns the delay of each robot at its end, as the page of a drive shows it, in seconds, at one second a step."""
     return {robot: one.first(robot, count) - end for robot, (count, end) in planned_ends(name).items()}
 
 
 class Paces(unittest.TestCase):
-    def test_seconds_are_those_of_the_vehicles(self):
-        calm = drive("crowd")
+    def test_log_times_are_seconds_of_the_vehicles(self):
+        calm = drive("dense")
         for pace in (4, 20):
-            one = drive("crowd", "--pace", str(pace))
+            one = drive("dense", "--pace", str(pace))
             self.assertTrue(one.completed)
             self.assertAlmostEqual(one.end, one.seconds * pace, delta=3)
-            self.assertAlmostEqual(one.end / calm.end, 1, delta=0.5)       # messages take longer for them
+            # The same latency is longer in seconds of the vehicles.
+            self.assertAlmostEqual(one.end / calm.end, 1, delta=0.5)
             self.assertLess(one.seconds, calm.seconds / 2)
             self.assertEqual(one.fleet.world.collisions, [])
 
     def test_slow_vehicles_are_late_at_any_pace(self):
         for pace in ("1", "10"):
-            in_time, slow = (drive("crowd", "--pace", pace, "--turn-speed", "100000", "--speed", speed) for speed in ("2", "0.25"))
-            longest = max(end for _, end in planned_ends("crowd").values())
-            self.assertLess(max(lateness(in_time, "crowd").values()), longest)
-            self.assertGreater(max(lateness(slow, "crowd").values()), 2.5 * longest)
+            in_time, slow = (drive("dense", "--pace", pace, "--turn-speed", "100000", "--speed", speed) for speed in ("2", "0.25"))
+            longest = max(end for _, end in planned_ends("dense").values())
+            self.assertLess(max(lateness(in_time, "dense").values()), longest)
+            self.assertGreater(max(lateness(slow, "dense").values()), 2.5 * longest)
 
-    def test_a_stop_is_as_long_as_it_was_told(self):
+    def test_stop_lasts_as_long_as_requested(self):
         for pace in ("1", "10"):
             one = drive("narrow", "--pace", pace, "--stop", "down@3=60")
             self.assertTrue(one.completed)
@@ -135,11 +136,11 @@ class Paces(unittest.TestCase):
             self.assertAlmostEqual(gap, 60, delta=4)
             self.assertGreater(min(lateness(one, "narrow").values()), 50)
 
-    def test_messages_are_as_late_as_they_were_told(self):
+    def test_message_delay_is_in_seconds_of_the_vehicles(self):
         ends = [drive("many", "--pace", pace, "--delayed", "0.3", "--delay", "5", "--lost", "0.1").end for pace in ("1", "10")]
         self.assertAlmostEqual(ends[1] / ends[0], 1, delta=0.4)
 
-    def test_the_time_limit_is_of_real_seconds(self):
+    def test_time_limit_is_in_real_seconds(self):
         one = drive("narrow", "--pace", "10", "--stop", "down@1=1000000", "--time-limit", "20")
         self.assertFalse(one.completed)
         self.assertAlmostEqual(one.seconds, 20, delta=0.5)

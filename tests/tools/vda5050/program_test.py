@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The program as its user meets it, over a broker: commands, messages, exit codes."""
+"""Tests the program grove-vda5050 with a broker: commands, messages, exit codes."""
 import contextlib
 import functools
 import json
@@ -29,24 +29,24 @@ def run(*arguments):
     return process.returncode, out, err
 
 
-def order(name="crowd"):
+def order(name="dense"):
     return orders.order_file(name, False)
 
 
 class Refusals(unittest.TestCase):
-    def refused(self, said, *arguments, by=functools.partial(in_process.run, main)):
+    def refused(self, text, *arguments, by=functools.partial(in_process.run, main)):
         code, out, err = by(*arguments)
         self.assertEqual((code, out), (2, ""), err)
         self.assertTrue(err.startswith("grove: error: "), err)
-        self.assertIn(said, err)
+        self.assertIn(text, err)
         self.assertEqual(err.count("\n"), 1, err)
 
-    def test_by_the_program(self):
+    def test_unknown_command_is_refused_by_the_program(self):
         self.refused("invalid choice", "fly", by=run)
 
-    def test_one_line_each(self):
+    def test_wrong_arguments_give_one_error_line(self):
         missing, ring = orders.folder() / "none.json", orders.order_file("round")
-        for said, *arguments in (
+        for text, *arguments in (
                 ("COMMAND",),
                 ("invalid choice", "fly"),
                 ("ORDER.json", "drive", "--broker", "localhost"),
@@ -67,10 +67,10 @@ class Refusals(unittest.TestCase):
                 ("found '0'; expected an integer of at least 1", "trial", order(), "--base", "0"),
                 ("--ca-file: requires --tls", "drive", order(), "--broker", "localhost", "--ca-file", "x"),
                 ("cannot be created", "orders", order(), "-o", "/dev/null/x")):
-            with self.subTest(said=said):
-                self.refused(said, *arguments)
+            with self.subTest(text=text):
+                self.refused(text, *arguments)
 
-    def test_help(self):
+    def test_help_lists_commands_and_options(self):
         done = subprocess.run([orders.GROVE, "vda5050", "--help"], capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("--no-following", done.stdout)
@@ -81,7 +81,7 @@ class Refusals(unittest.TestCase):
 
 
 class Orders(unittest.TestCase):
-    def test_files(self):
+    def test_orders_are_written_to_files(self):
         with tempfile.TemporaryDirectory() as folder:
             code, out, err = run("orders", order("work"), "-o", folder, "--protocol", "3.0", "--serial", "a0=AGV-7",
                                  "--horizon", "2", "--manufacturer", "acme")
@@ -97,15 +97,15 @@ class Orders(unittest.TestCase):
 
 @unittest.skipUnless(shutil.which("mosquitto") or Path(MOSQUITTO).exists(), "no mosquitto")
 class OverABroker(unittest.TestCase):
-    def test_trial(self):
+    def test_trial_completes_all_tasks(self):
         with tempfile.TemporaryDirectory() as folder:
             log = Path(folder) / "drive.jsonl"
             code, out, err = run("trial", order("many"), *FAST, "--protocol", "3.0", "--delayed", "0.05", "--delay", "1",
                                  "--stop", "a1@1=2", "--log", log)
             self.assertEqual((code, err), (0, ""), out)
-            for said in ("Vehicles      9 of 9 done", "no vehicle drove to an occupied place",
+            for text in ("Vehicles      9 of 9 done", "no vehicle drove to an occupied place",
                          "Released      nothing wrong", "all checked by the schemas of 3.0.0"):
-                self.assertIn(said, out)
+                self.assertIn(text, out)
             lines = [json.loads(line) for line in log.read_text().splitlines()]
             self.assertEqual((lines[0]["format"], len(lines[0]["robots"])), ("grove drive 1", 9))
             last = {line["robot"]: line for line in lines[1:]}
@@ -116,7 +116,7 @@ class OverABroker(unittest.TestCase):
                 for one, other in zip(line["at"], place):
                     self.assertAlmostEqual(one, other, delta=0.01)
 
-    def test_each_on_its_own(self):
+    def test_drive_vehicles_and_watch_run_separately(self):
         with own_broker() as broker, contextlib.ExitStack() as stack:
             watch = stack.enter_context(start("watch", "--broker", broker))
             self.assertIn("Watching", watch.stdout.readline())
@@ -127,14 +127,14 @@ class OverABroker(unittest.TestCase):
             out, err = drive.communicate(timeout=120)
             self.assertEqual((drive.returncode, err), (0, ""), out)
             self.assertIn("6 of 6 done", out)
-            for process, number, said in ((vehicles, signal.SIGTERM, "no vehicle drove to an occupied place"),
+            for process, number, text in ((vehicles, signal.SIGTERM, "no vehicle drove to an occupied place"),
                                           (watch, signal.SIGINT, "Released      nothing wrong")):
                 process.send_signal(number)
                 out, err = process.communicate(timeout=120)
                 self.assertEqual((process.returncode, err), (0, ""), out)
-                self.assertIn(said, out)
+                self.assertIn(text, out)
 
-    def test_nobody_there(self):
+    def test_drive_without_vehicles_is_an_error(self):
         with own_broker() as broker:
             code, out, err = run("drive", order("narrow"), "--broker", broker, "--time-limit", "1")
             self.assertEqual(code, 1)
@@ -142,7 +142,7 @@ class OverABroker(unittest.TestCase):
             self.assertEqual(err, "grove: error: not done within 1 s: up (up) has sent no state; down (down) has "
                                   "sent no state\n")
 
-    def test_signals(self):
+    def test_signals_end_a_drive(self):
         with own_broker() as broker:
             for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
                 with start("drive", order(), "--broker", broker) as process:

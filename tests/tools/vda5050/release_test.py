@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""What may be released: never a place that another may be on, and in the end everything."""
+"""Tests releases: no place where another vehicle may be, and finally all places."""
 import random
 import unittest
 
 import air
 from grove_vda5050.release import Releases
 
-NAMES = ("crowd", "work", "many", "narrow", "roads", "round")
+NAMES = ("dense", "work", "many", "narrow", "roads", "round")
 
 
 class _Eager(Releases):
-    """Wrong: does not wait for the last of what it has to."""
+    """Releases too early: waits for one action too few."""
 
     def waits_for(self, name):
         after = super().waits_for(name)
@@ -18,7 +18,7 @@ class _Eager(Releases):
 
 
 def walk(name, seed, kind=Releases):
-    """Vehicles complete in any order what they may. Returns (all done, places that two held)."""
+    """Lets vehicles complete released nodes in random order; returns (all done, number of places held by two)."""
     order, routes = air.order(name, False), air.routes(name, False)
     releases, draw = kind(order, routes), random.Random(seed)
     reached = dict.fromkeys(routes, 0)
@@ -37,15 +37,15 @@ def walk(name, seed, kind=Releases):
 
 
 class Release(unittest.TestCase):
-    def test_any_order_of_arrivals(self):
+    def test_all_is_released_for_any_order_of_arrivals(self):
         for name in NAMES:
             for seed in range(40):
                 self.assertEqual(walk(name, seed), (True, 0), (name, seed))
 
-    def test_this_test_sees_what_is_released_too_early(self):
+    def test_too_early_releases_are_detected(self):
         self.assertGreater(sum(walk(name, seed, _Eager)[1] for name in NAMES for seed in range(3)), 0)
 
-    def test_who_waits_for_whom(self):
+    def test_completion_releases_the_waiting_vehicle(self):
         releases = Releases(air.order("narrow", False), air.routes("narrow", False))
         waits = {name: releases.waits_for(name) for name in ("up", "down")}
         self.assertTrue(any(waits.values()))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Routes of an order: nodes, edges, what is done where, and what is known to be done."""
+"""Tests the routes of an order: nodes, edges, tasks at nodes, and completed actions."""
 import json
 import math
 import unittest
@@ -25,7 +25,7 @@ def turning():
 
 
 class Routes(unittest.TestCase):
-    def test_nodes(self):
+    def test_route_has_nodes_with_places_and_tasks(self):
         route = make_route(turning(), "red")
         self.assertEqual([n.id for n in route.nodes], ["0_0", "1_0", "1_1"])
         self.assertEqual([n.at for n in route.nodes], [(0.5, 1.5), (1.5, 1.5), (1.5, 0.5)])
@@ -34,13 +34,13 @@ class Routes(unittest.TestCase):
         self.assertEqual([n.theta for n in route.nodes], [None, None, math.pi])
         self.assertTrue(route.turns)
 
-    def test_without_headings_nothing_is_said_of_them(self):
-        for route in air.routes("crowd", False).values():
+    def test_routes_without_headings_have_no_orientation(self):
+        for route in air.routes("dense", False).values():
             self.assertFalse(route.turns)
             self.assertEqual({n.theta for n in route.nodes}, {None})
 
-    def test_every_action_and_every_task_is_somewhere(self):
-        for name in ("crowd", "work", "many", "roads"):
+    def test_every_action_and_task_has_a_node(self):
+        for name in ("dense", "work", "many", "roads"):
             for robot in air.order(name, False).robots:
                 nodes = air.routes(name, False)[robot.name].nodes
                 self.assertEqual([n.place for n in nodes],
@@ -51,14 +51,14 @@ class Routes(unittest.TestCase):
                 self.assertEqual(sorted(tasks), sorted([a.task for a in robot.actions if a.task] + list(robot.visits) +
                                                        [v for a in robot.actions for v in a.visits]))
 
-    def test_what_is_known_to_be_done(self):
+    def test_completed_actions_follow_from_nodes_and_tasks(self):
         route = make_route(turning(), "red")
         shelf, press, cut = (w.id for n in route.nodes for w in n.works)
         for reached, finished, done in ((0, [], 0), (0, [shelf], 0), (1, [shelf], 1), (1, [shelf, press], 2),
                                         (1, [shelf, cut], 1), (1, [shelf, press, cut], 4), (2, [], 6)):
             self.assertEqual(actions_done(route, reached, set(finished)), done, (reached, finished))
 
-    def test_ids(self):
+    def test_ids_are_readable(self):
         self.assertEqual(readable("red one/2"), "red_one_2")
         self.assertEqual(air.routes("roads")["r1"].nodes[1].id, "W:C:1")
 
@@ -77,7 +77,7 @@ class Routes(unittest.TestCase):
         with self.assertRaisesRegex(BadInput, "o.json: /robots/0: found no key 'at'"):
             check_order("o.json", parse_order("o.json", json.dumps(holder)))
 
-    def test_ids_that_would_be_the_same_are_refused(self):
+    def test_ids_that_would_coincide_are_refused(self):
         text = json.dumps({"format": "grove passing order 1", "robots": [
             {"id": r, "start": [vertex], "at": [0, 0], "actions": []} for r, vertex in (("r", "a b"), ("s", "a_b"))]})
         with self.assertRaisesRegex(BadInput, "a_b"):

@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Opens pages of grove view in a real browser: they ask for nothing, complain of nothing, and show the plan.
+"""Opens pages of grove view in a browser: they send no requests, log no errors, and show the plan.
 
-    browser_test.py GROVE      GROVE_GL_PAGE of the environment: gl_page.ts, bundled
+    browser_test.py GROVE
 
-Exit codes: 0 passed, 1 failed, 77 there is no Chromium here.
+The environment variable GROVE_GL_PAGE names gl_page.ts, bundled.
+
+Exit codes: 0 passed, 1 failed, 77 no Chromium is installed.
+
 """
 import json
 import os
@@ -17,7 +20,7 @@ DARK_MOVING = (0x56, 0xB4, 0xE9)
 
 
 class Browser(PageTest):
-    def test_plans_of_all_kinds_of_worlds(self):
+    def test_plans_of_all_kinds_of_worlds_are_shown(self):
         for name in ("first", "shop", "yard", "empty-32x32_n5_m10"):
             with self.subTest(name):
                 page = self.page(DATA / f"{name}.cts.json", self.solved(name))
@@ -26,7 +29,7 @@ class Browser(PageTest):
                     self.assertGreater(seen.get(MOVING, 0), 0)
                     self.assertLess(seen.get(COLLISION, 0), 0.01)
 
-    def test_dark_and_light(self):
+    def test_colours_follow_the_preferred_scheme(self):
         page = self.page(DATA / "first.cts.json", self.solved("first"))
         for scheme, floor, moving in (("light", (255, 255, 255), MOVING), ("dark", (0x1B, 0x20, 0x28), DARK_MOVING)):
             self.browser.prefer(prefers_color_scheme=scheme)
@@ -35,11 +38,11 @@ class Browser(PageTest):
             self.assertGreater(seen.get(moving, 0), 0.001)
         self.browser.prefer(prefers_color_scheme="light")
 
-    def test_none(self):
+    def test_instance_without_a_plan_has_no_controls(self):
         self.see(self.page(DATA / "shop.cts.json"))
         self.assertEqual(self.text(".controls"), "")
 
-    def test_a_link_names_a_moment_and_a_robot(self):
+    def test_link_selects_a_time_and_a_robot(self):
         page = self.page(DATA / "shop.cts.json", self.solved("shop"))
         self.assertLess(self.see(page).get(CHOSEN, 0), 0.001)
         self.assertGreater(self.see(page, fragment="#t=8&agent=blue").get(CHOSEN, 0), 0.002)
@@ -49,23 +52,23 @@ class Browser(PageTest):
             browser.open(page)
             return json.loads(browser.evaluate("document.querySelector('#result').textContent"))
 
-    def test_robots_by_webgl(self):
+    def test_webgl_paints_robots(self):
         page = self.folder / "gl.html"
         page.write_text(f"<body><script>{GL_PAGE.read_text(encoding='utf-8')}</script></body>", encoding="utf-8")
         try:
             found = self.drawn_by_webgl(page)
-        except NoAnswer:  # seen once: software rendering that hangs, in a page that is right
+        except NoAnswer:  # seen once: software rendering hung on a correct page
             found = self.drawn_by_webgl(page)
         opaque = {name: f"{r},{g},{b},255" for name, (r, g, b) in
                   {"moving": MOVING, "resting": (0x8A, 0x92, 0x9C), "collision": COLLISION, "heading": (0x1C, 0x21, 0x28)}.items()}
         self.assertEqual(found["pixels"], {
-            "a moves": opaque["moving"], "nobody is here": "0,0,0,0",
+            "a moves": opaque["moving"], "an empty cell": "0,0,0,0",
             "b turns, pointing down and to the left": opaque["heading"],
             "c and d collide": opaque["collision"], "their star is larger than a robot": opaque["collision"],
             "a rests": opaque["resting"]})
         print(f"10,000 robots by WebGL: {found['milliseconds']:.1f} ms a frame (no graphics card here)")
 
-    def test_the_keyboard_alone_is_enough(self):
+    def test_keyboard_reaches_every_control(self):
         self.open(self.page(DATA / "shop.cts.json", self.solved("shop")))
         self.browser.key("?")
         self.assertTrue(self.evaluate("document.querySelector('dialog').open"))
@@ -78,7 +81,7 @@ class Browser(PageTest):
         self.browser.settle()
         self.assertEqual(self.text(".details h2"), "red")
         self.assertTrue(self.evaluate("grove.app.following"))
-        # Every control is come to by the tab key, and each is seen to be.
+        # The tab key reaches every control, and the focus is visible.
         reached = set()
         for _ in range(60):
             self.browser.key("Tab")
@@ -89,7 +92,7 @@ class Browser(PageTest):
                                  ".map((e) => e.tagName + ' ' + (e.title || e.ariaLabel || e.textContent))")
         self.assertGreater(len(controls), 15)
         self.assertEqual(set(controls) - reached, set())
-        # Keys in a list of choices are for it.
+        # Keys in a select element act on it only.
         before = self.evaluate("grove.app.player.time")
         self.evaluate("document.querySelector('select').focus()")
         self.browser.key("ArrowRight")
@@ -98,10 +101,10 @@ class Browser(PageTest):
 
 
 class TwoPlans(PageTest):
-    """Side by side, with what differs."""
+    """Tests of pages with two plans side by side."""
 
     def both(self, one, other):
-        """Robots a, b and c, in two plans; b differs. None: a file without a plan."""
+        """Writes a page of robots a, b and c in two plans; None stands for a file without a plan."""
         instance = self.grid(8, 3, [{"id": name, "start": [0, y]} for y, name in enumerate("abc")],
                              [{"id": "t", "cell": [1, 1], "agents": ["b"]}, {"id": "u", "cell": [2, 1], "agents": ["b"]}])
         sequence = {"b": ["t", "u"]}
@@ -125,7 +128,7 @@ class TwoPlans(PageTest):
         self.wait_until_known()
         self.assert_silent()
 
-    def test_who_differs_by_how_much_and_from_when_on(self):
+    def test_differences_have_costs_and_times(self):
         self.open_both(self.good(), self.good(b=self.row(1, 0, 0, 0, 1, 2), c=self.row(2, 0, 0, 1)))
         self.assertIn("2 of 3 robots differ. two.json costs 3 more than one.json.", self.text(".filters"))
         self.assertEqual(self.texts(".row"), ["b2 → 4 (+2)", "c1 → 2 (+1)"])
@@ -134,7 +137,7 @@ class TwoPlans(PageTest):
         self.choose_option("Sort order", "name")
         self.assertEqual(self.texts(".row")[0], "b2 → 4 (+2)")
 
-    def test_a_row_chooses_in_both_and_its_moment_leads_to_the_parting(self):
+    def test_row_selects_the_robot_in_both_plans_and_its_first_difference(self):
         self.open_both(self.good(), self.good(b=self.row(1, 0, 1, 1, 2)))
         self.press("b", ".pair .row")
         self.assertEqual(self.text(".details h2"), "b")
@@ -143,7 +146,7 @@ class TwoPlans(PageTest):
         self.assertEqual(self.texts(".visits .moment"), ["1", "1", "2", "3"])
         self.press("2", ".pair .moment")
         self.assertEqual(self.evaluate("grove.app.player.time"), 2)
-        # Its path of both, in both: in its colour and dashed, in that of text.
+        # Both plans show both paths of the chosen robot: one in its colour, one dashed in the text colour.
         for stage in self.evaluate("grove.stages.map(({element}) => (({x, y, width, height}) => [x, y, width, height])"
                                    "(element.getBoundingClientRect()))"):
             x, y, width, height = map(round, stage)
@@ -151,11 +154,11 @@ class TwoPlans(PageTest):
             self.assertGreater(dict((colour, count) for count, colour in seen).get(CHOSEN, 0), 100)
         self.assertNotEqual(*(self.evaluate(f"JSON.stringify([...grove.stages[{i}].frame.xs])") for i in (0, 1)))
 
-    def test_another_order(self):
+    def test_different_order_of_visits_is_shown(self):
         self.open_both(self.good(), self.good(b=[[0, 1], [0, 2], [1, 2], [2, 2], [2, 1], [1, 1]], c=[[0, 2], [0, 2]]))
         self.assertIn("other order", self.texts(".row")[0])
 
-    def test_the_same_twice(self):
+    def test_equal_plans_have_no_differences(self):
         self.open_both(self.good(), self.good())
         self.assertIn("0 of 3 robots differ. Both plans cost the same.", self.text(".filters"))
         self.assertIn("every robot does the same", self.text(".rows"))
@@ -163,19 +166,19 @@ class TwoPlans(PageTest):
         self.browser.settle()
         self.assertIn("the same in both", self.text(".details"))
 
-    def test_a_robot_without_a_path(self):
+    def test_missing_path_is_shown(self):
         self.open_both(self.good(), self.good(a=[]))
         self.assertIn("cannot be compared", self.text(".filters"))
         self.assertEqual(self.texts(".row"), ["a2 → no path"])
         self.press("a", ".pair .row")
         self.assertIn("The plan has no path for this robot.", self.text(".details"))
 
-    def test_a_file_without_a_plan(self):
+    def test_file_without_a_plan_is_shown(self):
         self.open_both(self.good(), None)
         self.assertEqual(self.evaluate("grove.stages.length"), 1)
         self.assertIn("no plan in this file", self.text(".strip"))
 
-    def test_plans_of_other_lengths_play_in_step(self):
+    def test_plans_of_different_lengths_play_together(self):
         self.open_both(self.good(), self.good(c=self.row(2, 0, *[0] * 20, 1)))
         self.assertTrue(self.text(".clock").endswith("/ 21"))
         self.browser.key("End")

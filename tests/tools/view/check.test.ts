@@ -130,7 +130,7 @@ test("wrong work is found", () => {
   assert.deepEqual(work("@0;E2.E.E", [[0, 2, 4], [1, 4, 5]]), ["work 4"], "leaves at work");
   assert.deepEqual(work("@0;E2.E.E", [...good, [0, 1, 3]]), ["work 1"], "twice");
   assert.deepEqual(work("@0;E2.E.E", [[0, 1, 3], [1, 2, 3]]), ["work 2", "work 2"], "two at once, elsewhere");
-  assert.deepEqual(work("@0;E2.E.E", good, { working: [0, 1] }), ["work 0"], "does not go on");
+  assert.deepEqual(work("@0;E2.E.E", good, { working: [0, 1] }), ["work 0"], "does not continue its work");
 });
 
 test("agents without a path are found", () => {

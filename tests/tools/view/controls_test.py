@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Every control of a page does what it says: by key, mouse and finger.
+"""Tests every control of a page by keyboard, mouse and touch.
 
     controls_test.py GROVE
 
-Exit codes: 0 passed, 1 failed, 77 there is no Chromium here.
+Exit codes: 0 passed, 1 failed, 77 no Chromium is installed.
+
 """
 from pages import DATA, PageTest, main
 
@@ -42,7 +43,7 @@ class Controls(PageTest):
     def finger(self, kind, *points):
         self.browser.call("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)])
 
-    def test_time(self):
+    def test_time_controls(self):
         for title, expected in (("One step forward", 1), ("To the end", 35), ("One step back", 34), ("To the beginning", 0)):
             self.button(title)
             self.assertEqual(self.state("player.time"), expected)
@@ -65,12 +66,12 @@ class Controls(PageTest):
         self.assertEqual(self.text(".speed"), "64 /s")
         self.keys("End", " ")
         self.wait_for("!grove.app.player.playing")
-        self.assertEqual(self.state("player.time"), 35, "it begins anew, and stops at the end")
+        self.assertEqual(self.state("player.time"), 35, "it restarts and stops at the end")
         self.keys("l", " ")
-        self.wait_for("(window.latest ?? 0) > (window.latest = grove.app.player.time)")  # it has begun anew
-        self.assertTrue(self.state("player.playing"), "in a loop it does not end")
+        self.wait_for("(window.latest ?? 0) > (window.latest = grove.app.player.time)")  # it has restarted
+        self.assertTrue(self.state("player.playing"), "a loop does not end")
 
-    def test_wheel_and_drag(self):
+    def test_wheel_zooms_and_drag_pans(self):
         x, y, *_ = self.box(".stage")
         whole = self.scale()
         self.browser.mouse("mouseWheel", x + 100, y + 100, deltaX=0, deltaY=-200)
@@ -80,13 +81,13 @@ class Controls(PageTest):
         self.browser.mouse("mousePressed", x + 200, y + 200, button="left", buttons=1)
         self.browser.mouse("mouseMoved", x + 240, y + 200, button="left", buttons=1)
         self.browser.mouse("mouseReleased", x + 240, y + 200, button="left")
-        self.assertLess(self.centre()[0], before[0], "the map goes to the right, what is seen to the left")
+        self.assertLess(self.centre()[0], before[0], "dragging the map to the right moves the view to the left")
         self.keys("0")
         self.assertEqual(self.scale(), whole)
         self.keys("+", "d")
         self.assertGreater(self.scale(), whole)
 
-    def test_fingers(self):
+    def test_pinch_zooms_and_swipe_pans(self):
         x, y, *_ = self.box(".stage")
         whole = self.scale()
         self.finger("touchStart", (x + 200, y + 200), (x + 300, y + 200))
@@ -102,7 +103,7 @@ class Controls(PageTest):
         self.finger("touchEnd")
         self.assertLess(self.centre()[0], before[0])
 
-    def test_a_click_chooses_robot_task_destination_or_nothing(self):
+    def test_click_selects_robot_task_destination_or_nothing(self):
         x, y, *_ = self.box(".stage")
 
         def click(cell_x, cell_y):
@@ -112,10 +113,10 @@ class Controls(PageTest):
             return self.text(".details h2")
         self.assertEqual(click(8, 4), "blue")
         self.assertEqual(click(2, 3), "1: shelf")
-        self.assertEqual(click(8, 0), "red", "whose destination this is")
+        self.assertEqual(click(8, 0), "red", "the destination of red")
         self.assertEqual(click(3, 0), "")
 
-    def test_following_keeps_a_robot_in_the_middle(self):
+    def test_followed_robot_stays_in_the_middle(self):
         for _ in range(12):
             self.browser.key("+")
         self.keys("n", "f", "ArrowRight", "ArrowRight", "ArrowRight")
@@ -126,7 +127,7 @@ class Controls(PageTest):
         self.assertFalse(self.state("following"))
         self.assertNotEqual(self.centre(), [2.5, 3.5])
 
-    def test_the_minimap_leads_elsewhere(self):
+    def test_minimap_moves_the_view(self):
         for _ in range(8):
             self.browser.key("+")
         self.browser.settle()
@@ -135,7 +136,7 @@ class Controls(PageTest):
         self.browser.settle()
         self.assertAlmostEqual(self.centre()[0], 0.8 * 9, delta=0.2)
 
-    def test_the_chart_is_a_slider_and_its_names_choose(self):
+    def test_chart_sets_the_time_and_its_names_select(self):
         x, y, width, height = self.box(".chart")
         self.browser.click(x + width - 2, y + 5)
         self.assertEqual(self.state("player.time"), 35)
@@ -145,17 +146,17 @@ class Controls(PageTest):
         self.browser.mouse("mouseMoved", x + width / 4, y + 5)
         self.assertIn("red works from 7 until 12", self.evaluate("document.querySelector('.chart').title"))
 
-    def test_heat_is_seen_where_it_is(self):
+    def test_heat_map_is_visible(self):
         for kind in ("traffic", "waits", "yields"):
             self.choose_option("Heat map", kind)
             self.assertGreater(self.evaluate("grove.stages[0].shown().heat.reduce((a, b) => a + b, 0)"), 0.9, kind)
             colours = [colour for _, colour in self.browser.look().getcolors(1 << 24)]
             near = min(sum(abs(a - b) for a, b in zip(colour, HEAT)) for colour in colours)
-            self.assertLess(near, 150, kind)  # it lies thinly on the floor
+            self.assertLess(near, 150, kind)  # the heat map is translucent on the floor
         self.choose_option("Heat map", "none")
         self.assertIsNone(self.evaluate("grove.stages[0].shown().heat"))
 
-    def test_a_long_wait_is_an_event_that_can_be_found(self):
+    def test_long_wait_is_listed_as_an_event(self):
         self.press("Events", ".tabs button")
         self.choose_option("Kind of events", "wait")
         self.assertEqual(self.texts(".row span[dir]"), ["blue waits 4 steps for red to pass"])
@@ -167,7 +168,7 @@ class Controls(PageTest):
         self.go(30)
         self.press("blue waits", ".row")
         self.assertEqual((self.text(".details h2"), f"step {self.state('player.time')}"), ("blue", time))
-        # Who is chosen from the list stays in it.
+        # A robot selected from the list keeps the focus in the list.
         self.keys("Escape")
         self.evaluate("(row => (row.focus(), row.click()))(document.querySelector('.row'))")
         self.browser.settle()

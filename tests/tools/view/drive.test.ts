@@ -140,7 +140,7 @@ test("wrong lines are skipped and counted", () => {
     const one = after(...events);
     assert.match(one.firstTrouble, expected);
     assert.equal(one.leftOut, 1);
-    assert.equal(one.drive.end, 9); // it goes on
+    assert.equal(one.drive.end, 9); // the log continues
   };
   wrong(/^line 2: robot: expected a robot that the first line names/, { ...good, robot: "z" });
   wrong(/^line 2: state: expected one of waiting/, { ...good, state: "asleep" });

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""grove view --drive in a browser: drives that ended, go on, and mean harm.
+"""Tests grove view --drive in a browser: drives that have ended or continue, and hostile logs.
 
     drive_page_test.py GROVE
+
 """
 import contextlib
 import json
@@ -60,7 +61,7 @@ class DrivePages(pages.PageTest):
     def positions(self):
         return self.browser.evaluate("[...grove.stages[0].frame.xs].map((x, i) => [x, grove.stages[0].frame.ys[i]])")
 
-    def test_a_drive_that_ended(self):
+    def test_ended_drive_is_shown(self):
         self.begin(line(0, "a", [0, 0], 0, "moving", 90), line(0, "b", [0, 1], 0, "done"),
                    line(2, "a", [1, 0], 1, "moving", 90), line(4, "a", [2, 0], 2, "lifted"),
                    line(9, "a", [2, 0], 2, "moving", 90), line(13, "a", [4, 0], 4, "done", 90))
@@ -84,7 +85,7 @@ class DrivePages(pages.PageTest):
         self.assertIn("2 of 2 done, 0 waiting, up to 0:09 late", self.text(".strip"))
         self.quiet()
 
-    def test_a_link_names_a_moment_and_a_robot(self):
+    def test_link_selects_a_time_and_a_robot(self):
         self.begin(line(0, "a", [0, 0], 0, "moving", 90), line(0, "b", [0, 1], 0, "done"),
                    line(10, "a", [4, 0], 4, "done", 90))
         self.browser.open(self.drive_page(), "#t=5&agent=a")
@@ -97,7 +98,7 @@ class DrivePages(pages.PageTest):
         self.wait_for("grove.app.player.time === 2 && grove.app.chosenTask === 0 && grove.app.chosen === -1")
         self.quiet()
 
-    def test_a_link_to_a_drive_that_is_followed(self):
+    def test_link_to_a_live_drive_selects_a_time(self):
         self.begin(line(0, "a", [0, 0], 0, "moving", 90), line(20, "a", [1, 0], 1, "moving"))
         with self.server() as address:
             with pages.Chromium("--disable-gpu", "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1") as browser:
@@ -105,9 +106,9 @@ class DrivePages(pages.PageTest):
                 browser.call("Page.navigate", url=address + "#t=5&agent=a")
                 self.wait_for("globalThis.grove?.app.player.time === 5 && grove.app.chosen === 0 && !grove.app.player.live")
                 browser.evaluate("document.querySelector('.golive').click()")
-                self.wait_for("location.hash === '#agent=a'")   # what is live has no moment of its own
+                self.wait_for("location.hash === '#agent=a'")  # a live page has no time in its address
 
-    def test_states_have_signs(self):
+    def test_states_have_different_signs(self):
         self.begin(*(line(t, "a", [0, 0], 0, state)
                      for t, state in enumerate(("waiting", "moving", "working", "lifted", "lost", "done"))))
         self.browser.open(self.drive_page())
@@ -116,11 +117,11 @@ class DrivePages(pages.PageTest):
             self.go(t)
             self.assertEqual(self.browser.evaluate("grove.stages[0].frame.mark(0)"), sign)
             seen.add(self.around_the_robot())
-        self.assertEqual(len(seen), 6)      # all are painted, and each looks otherwise
+        self.assertEqual(len(seen), 6)  # all signs are painted, and all differ
         self.quiet()
 
     def around_the_robot(self):
-        """What the canvas of labels has at the robot's edge, where signs are."""
+        """Returns the pixels of the label canvas at the edge of the robot, where signs are."""
         return self.browser.evaluate("""(() => {
           const {camera, frame, element} = grove.stages[0];
           const at = camera.toView(frame.xs[0], frame.ys[0]);
@@ -134,7 +135,7 @@ class DrivePages(pages.PageTest):
           return [...c.getImageData(0, 0, box[2], box[3]).data].join();
         })()""")
 
-    def test_a_log_that_breaks_off(self):
+    def test_truncated_log_is_shown(self):
         self.begin(line(0, "a", [0, 0], 0, "moving"), line(3, "a", [2, 0], 2, "waiting"), '{"t": 4, "rob')
         self.browser.open(self.drive_page())
         self.assertIn("The log ends before all robots are done.", self.text(".strip"))
@@ -142,7 +143,7 @@ class DrivePages(pages.PageTest):
         self.assertIn("waiting · 2 of 4", self.text(".rows"))
         self.quiet()
 
-    def test_a_line_that_cannot_be_read(self):
+    def test_invalid_line_is_refused(self):
         self.begin(line(1, "a", [1, 0], 1, "moving"), line(2, "a", [1, 0], 1, ALERT))
         words = [self.grove, "view", self.instance_file, self.plan_file, "--drive", self.log]
         done = subprocess.run(words, cwd=self.folder, capture_output=True, text=True)
@@ -150,8 +151,8 @@ class DrivePages(pages.PageTest):
         self.assertIn("drive.jsonl: line 3: /state: found", done.stderr)
         self.assertFalse((self.folder / "drive.html").exists())
 
-    def test_a_drive_on_a_roadmap(self):
-        """Metres of the roadmap, y up: at a vertex a robot is seen where the vertex is painted."""
+    def test_robots_on_a_roadmap_are_at_its_vertices(self):
+        """Checks metres of the roadmap with y up: a robot at a vertex is shown where the vertex is painted."""
         self.instance_file = pages.DATA / "yard.cts.json"
         self.run_grove("solve", self.instance_file, "--quiet", "--threads", "1", "--output", self.plan_file)
         yard = json.loads((pages.DATA / "yard.roadmap.json").read_text())
@@ -169,7 +170,7 @@ class DrivePages(pages.PageTest):
             self.assertAlmostEqual(y, there_y, places=2)
         self.quiet()
 
-    def test_names_that_mean_harm(self):
+    def test_hostile_names_run_no_script(self):
         instance = self.grid(3, 1, [{"id": ALERT, "start": [0, 0], "goal": [2, 0]}], [{"id": ALERT, "cell": [1, 0], "agents": [ALERT]}])
         self.run_grove("solve", instance, "--quiet", "--output", self.plan_file)
         self.begin(line(0, ALERT, [0, 0], 0, "moving"), line(2, ALERT, [2, 0], 2, "done"), robots=(ALERT,))
@@ -180,7 +181,7 @@ class DrivePages(pages.PageTest):
         self.assertNotEqual(self.browser.evaluate("document.title"), "owned")
         self.quiet()
 
-    def test_a_real_drive(self):
+    def test_demo_drive_is_shown(self):
         done = self.run_grove("toio", "--demo", "--fast", "--log", self.log)
         self.assertIn("all visited", done.stdout)
         demo = self.grove.parent / "grove_toio/demo/demo.cts.json"
@@ -195,7 +196,7 @@ class DrivePages(pages.PageTest):
 
     @contextlib.contextmanager
     def server(self, *words):
-        """Its address; it ends by Ctrl-C."""
+        """Runs a server, yields its address and ends it by SIGINT."""
         command = [self.grove, "view", self.instance_file, self.plan_file, "--drive", self.log, "--follow", *words]
         with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
             try:
@@ -205,7 +206,7 @@ class DrivePages(pages.PageTest):
             finally:
                 server.kill()
 
-    def test_a_drive_is_followed(self):
+    def test_live_drive_is_followed(self):
         with self.server() as address:
             with pages.Chromium("--disable-gpu", "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1") as browser:
                 self.browser = browser
@@ -216,8 +217,9 @@ class DrivePages(pages.PageTest):
             self.assertEqual(refused.exception.code, 403)
             refused.exception.close()
 
-    def test_the_server_sends_as_it_is(self):
-        """httplib would take seconds to compress a long log, which a browser accepts."""
+    def test_server_sends_without_compression(self):
+        """Checks that httplib does not compress a long log, which would take seconds, although the browser accepts
+        it."""
         self.begin(*(line(t, "a", [0, 0], 0, "moving") for t in range(1000)))
         with self.server() as address:
             for path in ("", "log?from=0&file="):
@@ -227,19 +229,19 @@ class DrivePages(pages.PageTest):
                     text = answer.read().decode()
             self.assertEqual(text, self.log.read_text())
 
-    def test_a_port_is_kept_and_given_back(self):
+    def test_port_is_reserved_and_released(self):
         with self.server() as address:
             port = re.search(r":(\d+)/", address)[1]
             for _ in range(5):
                 with urllib.request.urlopen(address) as answer:
-                    answer.read()                       # until the server ends the connection
+                    answer.read()  # until the server closes the connection
             words = [self.grove, "view", self.instance_file, self.plan_file, "--drive", self.log, "--follow", "--port", port]
             second = subprocess.run(words, capture_output=True, text=True, timeout=120)
             self.assertEqual(second.returncode, 2)
             self.assertIn("--port: is taken", second.stderr)
-        with self.server("--port", port) as again:      # at once, and ended at once
+        with self.server("--port", port) as again:  # free again at once
             self.assertIn(f":{port}/", again)
-            self.assertNotEqual(again, address)         # another token
+            self.assertNotEqual(again, address)  # another token
 
     def follow(self, address):
         self.browser.call("Page.navigate", url=address)
@@ -258,8 +260,8 @@ class DrivePages(pages.PageTest):
         self.browser.evaluate("document.querySelector('.golive').click()")
         self.until("Live.")
         whole = line(50, "a", [3, 0], 3, "moving")
-        self.add(whole[:30])                                # a line comes in two parts
-        self.asks_twice()
+        self.add(whole[:30])  # a line arrives in two parts
+        self.wait_for_two_requests()
         self.assertEqual(self.browser.evaluate("grove.app.player.end"), 40)
         self.add(whole[30:])
         self.until(lambda: self.browser.evaluate("grove.app.player.end") == 50)
@@ -268,7 +270,7 @@ class DrivePages(pages.PageTest):
         self.add(line(60, "a", [4, 0], 4, "done"), line(60, "b", [0, 1], 0, "done"))
         self.until("The drive has ended.")
         self.until("2 of 2 done")
-        self.begin(line(0, "a", [0, 0], 0, "moving"))       # another one
+        self.begin(line(0, "a", [0, 0], 0, "moving"))  # another drive
         self.until(lambda: self.browser.evaluate("grove.app.player.end") == 0)
         self.assertNotIn("left out", self.text(".strip"))
         self.log.write_text("no drive\n")
@@ -277,7 +279,7 @@ class DrivePages(pages.PageTest):
         self.assertTrue(all(url.startswith(address) for url in self.browser.requests), self.browser.requests)
 
     def drag_the_slider(self, part):
-        """From its end to a part of its length, by the mouse."""
+        """Drags the slider by mouse from its end to a part of its length."""
         box = self.browser.evaluate("(({x, y, width, height}) => [x, y, width, height])"
                                     "(document.querySelector('.time').getBoundingClientRect())")
         y = box[1] + box[3] / 2
@@ -294,11 +296,11 @@ class DrivePages(pages.PageTest):
             file.write("".join(lines))
 
     def until(self, what):
-        """A text of the line at the top, or a condition."""
+        """Waits for a text in the top line, or for a condition."""
         self.browser.wait_until(what, (lambda: what in self.text(".strip")) if isinstance(what, str) else what)
 
-    def asks_twice(self):
-        """Until the page has asked twice for more of the log, and so has dealt with the first answer."""
+    def wait_for_two_requests(self):
+        """Waits until the page has requested the log twice, so that it has processed the first answer."""
         before = len(self.browser.requests)
         self.browser.wait_until("more requests", lambda: len(self.browser.requests) >= before + 2)
 

@@ -10,7 +10,7 @@ import { kGrid, model } from "./models";
 
 const kSize = 400;
 
-// Moving to the right; turning on its place; and two that collide at 2.
+// A robot that moves to the right, one that turns on its place, and two that collide at 2.
 const shown = model(
   kGrid,
   [{ id: "a", start: 0 }, { id: "b", start: 3, turn: 1, angle: "2" }, { id: "c", start: 8 }, { id: "d", start: 10 }],
@@ -39,7 +39,7 @@ function pixels(): Record<string, string> {
   frame.update(0.25);
   robots.paint(camera, frame, kLight, 1);
   look("a moves", 0.75, 0.5);
-  look("nobody is here", 2, 0.5);
+  look("an empty cell", 2, 0.5);
   look("b turns, pointing down and to the left", 3.5 - 0.38 * Math.sin(Math.PI / 8), 0.5 + 0.38 * Math.cos(Math.PI / 8));
   frame.update(1);
   robots.paint(camera, frame, kLight, 1);

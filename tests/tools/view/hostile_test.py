@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Pages that mean harm or are spoilt: no script of theirs runs, nothing breaks, and the page says what is wrong.
+"""Tests hostile or corrupt pages: none of their scripts runs, and the page reports the error.
 
     hostile_test.py GROVE
 
-Exit codes: 0 passed, 1 failed, 77 there is no Chromium here.
+Exit codes: 0 passed, 1 failed, 77 no Chromium is installed.
+
 """
 import json
 import re
@@ -22,7 +23,7 @@ IDS = [
 
 
 def data(**changes):
-    """A page's data, of one robot on a map."""
+    """Returns the data of a page with one robot on a map."""
     return {"format": "grove view 1", "instance": "test", "world": {"kind": "grid", "width": 4, "height": 3, "free": "12"},
             "agents": [{"id": "a", "start": 0}], "tasks": [], "plans": [{"name": "p", "claims": {}, "agents": [{"path": "@0;3E"}]}],
             **changes}
@@ -35,7 +36,7 @@ class Hostile(PageTest):
         self.assertEqual(self.evaluate("document.querySelectorAll('img, iframe, object, main script').length"), 0)
         self.assertLessEqual(self.evaluate("document.documentElement.scrollWidth"), self.evaluate("innerWidth"))
 
-    def test_ids_and_names(self):
+    def test_hostile_ids_and_names_run_no_script(self):
         starts = [[x, y] for y in range(4) for x in range(5)]
         agents = [{"id": name, "start": start} for name, start in zip(IDS, starts)]
         tasks = [{"id": name, "cell": start, "agents": [name]} for name, start in zip(IDS, starts)]
@@ -57,7 +58,7 @@ class Hostile(PageTest):
             self.assertLess(max(map(len, self.texts(".row span"))), 100)
             self.assert_harmless()
 
-    def test_names_of_vertices(self):
+    def test_hostile_vertex_names_run_no_script(self):
         roadmap = {"vertices": [{"id": name, "at": [i % 5 * 10, i // 5 * 10]} for i, name in enumerate(IDS)],
                    "edges": [{"from": a, "to": b, "steps": 3} for a, b in zip(IDS, IDS[1:])]}
         (self.folder / "r.roadmap.json").write_text(json.dumps(roadmap), encoding="utf-8")
@@ -68,7 +69,7 @@ class Hostile(PageTest):
         self.assertIn("on </script>", self.text(".now"))
         self.assert_harmless()
 
-    def test_links(self):
+    def test_hostile_links_have_no_effect(self):
         page = self.page(DATA / "first.cts.json", self.solved("first"))
         for fragment in ("#t=1e999", "#t=-7", "#t=NaN&agent=__proto__", f"#agent=<script>{RUN}</script>", "#%E0%A4%A", "#t=99999999999",
                          "#t=3&t=4&agent=red&agent=blue", "#task=" + "x" * 10_000):
@@ -77,7 +78,7 @@ class Hostile(PageTest):
                 self.assertRegex(self.text(".clock"), r"^\d+ / 19$")
                 self.assert_harmless()
 
-    def test_a_plan_of_a_million_steps(self):
+    def test_plan_of_a_million_steps_is_shown(self):
         agents = [{"id": "a", "start": 0}, {"id": "b", "start": 8}]
         plan = [{"path": "@0;" + "2E.2W." * 166_666 + "3E"}, {"path": "@8;1000000."}]
         self.open(self.page_of(data(agents=agents, plans=[{"name": "p", "claims": {}, "agents": plan}])))
@@ -91,7 +92,7 @@ class Hostile(PageTest):
         self.assertLessEqual(len(self.texts(".row")), 300)
         self.assert_harmless()
 
-    def test_thousands_of_tasks_on_one_cell(self):
+    def test_thousands_of_tasks_on_one_cell_are_shown(self):
         tasks = [{"id": f"t{k}", "place": 5, "agents": [0]} for k in range(5000)]
         self.open(self.page_of(data(tasks=tasks, plans=[{"name": "p", "claims": {}, "agents": [{"path": "@0;ES"}]}])))
         self.wait_until_known()
@@ -105,18 +106,18 @@ class Hostile(PageTest):
         self.assertEqual(len(self.texts(".details li")), 201)
         self.assert_harmless()
 
-    def test_no_robots_and_no_tasks(self):
+    def test_page_without_robots_and_tasks_is_shown(self):
         self.open(self.page_of(data(agents=[], plans=[])))
         for key in "n", "p", "f", " ", "End", "?", "Escape", "0":
             self.browser.key(key)
         self.browser.settle()
         self.assert_harmless()
 
-    def test_spoilt_data_is_told_with_its_place(self):
+    def test_corrupt_data_is_reported_with_its_position(self):
         def without(key):
             return {name: value for name, value in data().items() if name != key}
         plan = data()["plans"][0]
-        for told, spoilt in [
+        for message, corrupt in [
             ("the data is no JSON", ""), ("the data is no JSON", "{"), ("the data: expected an object", "[]"),
             ("the data: expected an object", "null"), ("format: expected", without("format")), ("format: expected", data(format="grove view 2")),
             ("world: expected", without("world")), ("agents: expected a list", without("agents")),
@@ -128,13 +129,13 @@ class Hostile(PageTest):
             ("plans[0].agents[0].path: a path leaves the world", data(plans=[{**plan, "agents": [{"path": "@0;9S"}]}])),
             ("plans[0].agents[0].path: a path holds '<'", data(plans=[{**plan, "agents": [{"path": "<script>"}]}])),
         ]:
-            with self.subTest(told):
-                self.open(self.page_of(spoilt))
+            with self.subTest(message):
+                self.open(self.page_of(corrupt))
                 self.assertEqual(self.text("h1"), "This plan cannot be shown")
-                self.assertIn(told, self.text(".failure p"))
+                self.assertIn(message, self.text(".failure p"))
                 self.assert_harmless()
 
-    def test_a_page_without_data(self):
+    def test_page_without_data_is_reported(self):
         page = self.page(DATA / "first.cts.json")
         page.write_text(re.sub(r'<script type="application/json".*?</script>', "", page.read_text(encoding="utf-8"), flags=re.S),
                         encoding="utf-8")
@@ -142,7 +143,7 @@ class Hostile(PageTest):
         self.assertEqual(self.text(".failure p"), "this page contains no data")
         self.assert_harmless()
 
-    def test_this_test_sees_scripts_that_run(self):
+    def test_running_script_is_detected(self):
         page = self.folder / "bad.html"
         page.write_text(f"<p>{IDS[1]}</p>", encoding="utf-8")
         self.browser.open(page)

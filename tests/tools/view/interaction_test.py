@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Plays with pages of 10 to 10,000 robots as a user would, and reports what that takes.
+"""Simulates a user of pages with 10 to 10,000 robots and prints the times that this takes.
 
     interaction_test.py GROVE [--all] [--pictures FOLDER]
 
---all: with 100 and 10,000 robots, too, and with demands on time: a page is loaded within 3 seconds, and its own
-code takes less than 8 ms a frame. Prints a row for each size. Exit codes: 0 passed, 1 failed, 77 there is no
-Chromium here.
+With --all also pages with 100 and 10,000 robots, and with time limits: a page is loaded within 3 seconds, and its own
+code takes less than 8 ms a frame. Prints a row for each size. Exit codes: 0 passed, 1 failed, 77 no Chromium is installed.
+
 """
 import json
 import random
@@ -19,8 +19,8 @@ from pages import PageTest, main
 PICTURES = None
 SIZES = ((10, 20, 100), (1000, 200, 500))  # robots, side of the map, steps
 ALL_SIZES = ((10, 20, 100), (100, 50, 300), (1000, 200, 500), (10_000, 1000, 500))
-IS_MEASURED = False  # are there demands on time?
-SECONDS = 1  # that it plays
+IS_MEASURED = False  # whether time limits are checked
+SECONDS = 1  # duration of playing
 
 FRAMES = """new Promise((done) => {
   grove.frames.length = 0;
@@ -38,7 +38,8 @@ FRAMES = """new Promise((done) => {
 
 
 def synthetic(folder, count, side, steps):
-    """Robots that go to and fro, each in its own part of a row; a task for every third of them. Instance and plan."""
+    """Writes an instance and its plan: robots move to and fro, each in its own part of a row, and every third has a
+    task. Returns both paths."""
     rng = random.Random(count)
     name = f"b{count}"
     (folder / f"{name}.map").write_text(f"type octile\nheight {side}\nwidth {side}\nmap\n" + ("." * side + "\n") * side)
@@ -74,7 +75,7 @@ class Interaction(PageTest):
         self.browser.settle()
 
     def play(self, count):
-        """It plays, and stands still again; frames, and what they take."""
+        """Plays and pauses the plan. Returns the frame rate and the times of frames."""
         self.wait_for("grove.app.viewed.every((v) => v.checker.done && v.waits.done)")
         self.browser.settle()
         self.assertIn("valid", self.text(".verdict"))
@@ -82,10 +83,10 @@ class Interaction(PageTest):
         self.browser.key(" ")
         found = self.evaluate(FRAMES.replace("SECONDS", str(SECONDS)))
         self.key(" ")
-        still = self.text(".clock")
-        self.assertGreater(int(float(still.split()[0])), 0)
+        paused = self.text(".clock")
+        self.assertGreater(int(float(paused.split()[0])), 0)
         self.browser.settle()
-        self.assertEqual(self.text(".clock"), still)
+        self.assertEqual(self.text(".clock"), paused)
         self.key("Home", "ArrowRight")
         self.assertTrue(self.text(".clock").startswith("1 /"))
         return found
@@ -97,10 +98,10 @@ class Interaction(PageTest):
         self.assertEqual(self.text(".details h2"), f"robot-{count - 1}")
         self.assertIn("Now:", self.text(".now"))
         self.picture(f"{count}-chosen")
-        self.key("Escape", "Escape")  # the field's, then the page's
+        self.key("Escape", "Escape")  # first in the search field, then on the page
         self.assertEqual(self.text(".details h2"), "")
 
-    def look_closer(self, count):
+    def zoom_in(self, count):
         for _ in range(4):
             self.browser.mouse("mouseWheel", 300, 300, deltaX=0, deltaY=-120)
         self.browser.mouse("mousePressed", 300, 300, button="left", buttons=1)
@@ -116,11 +117,11 @@ class Interaction(PageTest):
         self.open(page, f"#t=37&agent=robot-{count // 2}")
         self.assertTrue(self.text(".clock").startswith("37 /"))
         self.assertEqual(self.text(".details h2"), f"robot-{count // 2}")
-        # The address follows what is looked at.
+        # The address follows the time and the selection.
         self.key("ArrowRight")
         self.wait_for(f"location.hash === '#t=38&agent=robot-{count // 2}'")
 
-    def test_pages_of_all_sizes(self):
+    def test_pages_of_all_sizes_are_interactive(self):
         for count, side, steps in ALL_SIZES if IS_MEASURED else SIZES:
             with self.subTest(robots=count):
                 instance, plan = synthetic(self.folder, count, side, steps)
@@ -130,7 +131,7 @@ class Interaction(PageTest):
                 loaded = self.browser.open(page)
                 found = self.play(count)
                 self.search(count)
-                self.look_closer(count)
+                self.zoom_in(count)
                 self.jump(page, count)
                 self.assert_silent()
                 size = page.stat().st_size

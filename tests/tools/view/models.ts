@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small models to test with, as the page's data.
+// Small models for tests, in the format of the page's data.
 
 import { readModel } from "../../../tools/view/page/read";
 import type { Model } from "../../../tools/view/page/model";
@@ -10,7 +10,7 @@ export interface AgentData {
   [key: string]: unknown;
 }
 
-// A grid of 4 x 3 cells, all free but number 5.
+// A grid of 4 x 3 cells, all free except number 5.
 export const kGrid = { kind: "grid", width: 4, height: 3, free: "5 1 6" };
 // A -3-> B (two places between), one way; B = C, two steps, both ways.
 export const kRoads = {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What tests of pages of grove view have in common: making pages, one browser, and what is seen and said."""
+"""Provides the test case of pages of grove view: it makes pages, shares one browser, and reads what a page shows."""
 
 import json
 import re
@@ -19,7 +19,7 @@ MOVING = (0x00, 0x72, 0xB2)
 COLLISION = (0xD0, 0x02, 0x1B)
 CHOSEN = (0xB4, 0x00, 0x9E)
 
-# The colour in the middle of each robot, on the canvas of robots.
+# Colour at the centre of each robot on the canvas of robots.
 COLOURS = """grove.stages.flatMap(({camera, frame, element}, plan) => {
   const canvas = element.querySelectorAll("canvas")[1];
   const copy = Object.assign(document.createElement("canvas"), {width: canvas.width, height: canvas.height});
@@ -33,7 +33,7 @@ COLOURS = """grove.stages.flatMap(({camera, frame, element}, plan) => {
 
 
 class PageTest(unittest.TestCase):
-    """One browser for all tests of a file; a folder for each."""
+    """Test case with one browser for all tests of a file and a folder for each test."""
     grove = Path("build/release/bin/grove")
 
     @classmethod
@@ -57,7 +57,7 @@ class PageTest(unittest.TestCase):
         return plan
 
     def page_of(self, data):
-        """A page with this data, text or what becomes JSON."""
+        """Writes a page with this data: text, or an object to be written as JSON."""
         page = self.page(DATA / "first.cts.json")
         text = data if isinstance(data, str) else json.dumps(data).replace("<", "\\u003c")
         block = re.compile(r'(<script type="application/json" id="grove-data">).*?(</script>)', re.S)
@@ -65,7 +65,7 @@ class PageTest(unittest.TestCase):
         return page
 
     def grid(self, width, height, agents, tasks=(), rows=None):
-        """Writes an instance on a map, all of it free if no rows are given; its path."""
+        """Writes an instance on a map and returns its path. Without `rows` the map is free."""
         rows = rows or ["." * width] * height
         (self.folder / "m.map").write_text(f"type octile\nheight {height}\nwidth {width}\nmap\n" + "\n".join(rows) + "\n",
                                            encoding="utf-8")
@@ -77,7 +77,7 @@ class PageTest(unittest.TestCase):
         return path
 
     def plan(self, paths, name="plan.json", **of_agents):
-        """Writes a plan that claims what is so: {id: path}; `work` and `sequence` by id. Its path."""
+        """Writes a plan with correct costs and returns its path. paths: {id: path}; `work` and `sequence` by id."""
         def rest(path):
             return max((t for t in range(1, len(path)) if path[t] != path[t - 1]), default=0)
         agents = []
@@ -90,14 +90,15 @@ class PageTest(unittest.TestCase):
         (self.folder / name).write_text(json.dumps(plan), encoding="utf-8")
         return self.folder / name
 
-    # --- what is seen and said ---
+    # --- what a page shows ---
 
     def open(self, page, fragment="", size=(1280, 800)):
         self.browser.open(page, fragment, size)
         self.browser.settle()
 
     def see(self, page, fragment="", size=(1280, 800)):
-        """Shares of colours; a page is silent, asks for nothing, and shows something."""
+        """Visits a page and returns the shares of colours. Asserts that the page sends no requests, logs nothing,
+        and is not blank."""
         seen = self.browser.visit(page, fragment, size)
         self.assertEqual(seen.console, [])
         self.assertEqual(seen.requests, [])
@@ -119,7 +120,7 @@ class PageTest(unittest.TestCase):
         return self.evaluate(f"[...document.querySelectorAll({json.dumps(selector)})].map((e) => e.textContent)")
 
     def press(self, text, selector="button"):
-        """The first button with this text in it."""
+        """Clicks the first button that contains the text."""
         found = self.evaluate(f"[...document.querySelectorAll({json.dumps(selector)})]"
                               f".find((e) => e.textContent.includes({json.dumps(text)}))?.click() ?? 'none'")
         self.browser.settle()
@@ -138,24 +139,24 @@ class PageTest(unittest.TestCase):
         self.browser.wait_until(script, lambda: self.evaluate(script))
 
     def wait_until_known(self):
-        """What is wrong, and who waits for whom: without the pauses for frames."""
+        """Runs the checks and the analysis of waits to their end, without pauses for frames."""
         self.wait_for("grove.app.work(500), grove.app.viewed.every((v) => v.checker.done && v.waits.done)")
         self.browser.settle()
 
     def colours(self):
-        """{(id, number of the plan): colour} as it is painted."""
+        """Returns {(id, number of the plan): painted colour}."""
         return {(agent, plan): tuple(colour) for agent, plan, colour in self.evaluate(COLOURS)}
 
     def red(self, plan=0):
-        """Who is painted red now, as "ab"."""
+        """Returns the ids of the robots that are painted red, for example "ab"."""
         return "".join(sorted(agent for (agent, of), colour in self.colours().items() if colour == COLLISION and of == plan))
 
 
 def main(**settings):
-    """Runs the tests of the file that asks: PROGRAM GROVE [unittest's options]."""
+    """Runs the tests of the calling file: PROGRAM GROVE [options of unittest]."""
     if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
         PageTest.grove = Path(sys.argv.pop(1)).resolve()
     if CHROMIUM is None:
-        print("skipped: there is no chromium-headless-shell and no chromium")
+        print("skipped: neither chromium-headless-shell nor chromium is installed")
         sys.exit(SKIPPED)
     unittest.main(module="__main__", **settings)

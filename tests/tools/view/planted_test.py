@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Plans with one fault each: the page shows who is at fault in red at that moment, and no one else and not before.
+"""Tests plans with one planted fault each: only the robots at fault are red, and only at the time of the fault.
 
     planted_test.py GROVE
 
-Exit codes: 0 passed, 1 failed, 77 there is no Chromium here.
+Exit codes: 0 passed, 1 failed, 77 no Chromium is installed.
+
 """
 import json
 
@@ -24,7 +25,7 @@ def turning(x, y, heading, **more):
 
 class Planted(PageTest):
     def check(self, instance, plan, red, event):
-        """`red`: {moment: who is}; `event`: its moment and its text."""
+        """Asserts the red robots and the event. red: {time: ids}; event: its time and text."""
         self.open(self.page(instance, plan), size=(800, 520))
         self.wait_until_known()
         self.assertEqual(self.text(".verdict"), "✗ 1 problem")
@@ -32,11 +33,11 @@ class Planted(PageTest):
             with self.subTest(time=time):
                 self.go(time)
                 self.assertEqual(self.red(), names)
-        self.tell(*event, red)
+        self.check_event(*event, red)
         self.assert_silent()
 
-    def tell(self, time, text, red):
-        """The list of events tells it, and a click leads there."""
+    def check_event(self, time, text, red):
+        """Asserts that the list of events has the event, and that a click goes to its time."""
         self.go(0)
         self.press("Events", ".tabs button")
         self.choose_option("Kind of events", "wrong")
@@ -47,63 +48,63 @@ class Planted(PageTest):
         self.assertIn(self.text(".details h2"), red[time])
         self.assertEqual(self.texts(".details h4.bad"), ["Problems"])
 
-    # The third robot, c, does nothing wrong.
+    # The third robot, c, has no fault.
     def grid_of(self, *agents):
         return self.grid(6, 4, [*agents, {"id": "c", "start": [0, 3]}])
 
     def with_c(self, **paths):
         return self.plan({**paths, "c": cells((0, 3), (1, 3), (2, 3), (3, 3), (4, 3), (5, 3))})
 
-    def test_two_on_one_cell(self):
+    def test_vertex_collision(self):
         instance = self.grid_of({"id": "a", "start": [0, 1]}, {"id": "b", "start": [2, 0]})
         plan = self.with_c(a=cells((0, 1), (1, 1), (2, 1), (3, 1), (4, 1)), b=cells((2, 0), (2, 0), (2, 1), (2, 2)))
         self.check(instance, plan, {0: "", 1: "", 1.4: "", 1.6: "ab", 2: "ab", 3: "", 4: ""}, (2, "a and b are both on [2, 1]"))
 
-    def test_an_exchange(self):
+    def test_edge_collision(self):
         instance = self.grid_of({"id": "a", "start": [1, 1]}, {"id": "b", "start": [4, 1]})
         plan = self.with_c(a=cells((1, 1), (2, 1), (3, 1), (4, 1)), b=cells((4, 1), (3, 1), (2, 1), (1, 1)))
         self.check(instance, plan, {0: "", 1: "", 1.3: "ab", 2: "ab", 3: ""}, (2, "a and b change places at [2, 1]"))
 
-    def test_into_a_robot_at_rest(self):
+    def test_collision_with_a_robot_at_rest(self):
         instance = self.grid_of({"id": "a", "start": [0, 1]}, {"id": "b", "start": [3, 1]})
         plan = self.with_c(a=cells((0, 1), (1, 1), (2, 1), (3, 1), (4, 1), (5, 1)), b=cells((3, 1)))
         self.check(instance, plan, {1: "", 2: "", 3: "ab", 4: "", 5: ""}, (3, "a and b are both on [3, 1]"))
 
-    def test_a_turning_robot_that_moves_sideways(self):
+    def test_turning_robot_moves_sideways(self):
         instance = self.grid_of(turning(0, 2, "E"))
         path = [[0, 2, "E"], [1, 2, "E"], [1, 1, "E"], [2, 1, "E"]]
         self.check(instance, self.with_c(a=path), {0: "", 1: "", 1.5: "a", 2: "a", 3: ""},
                    (2, "a goes to [1, 1], which is not ahead of it"))
 
-    def test_a_turn_within_which_it_collides(self):
+    def test_collision_within_a_turn(self):
         instance = self.grid_of(turning(3, 1, "E", turn_steps=2), {"id": "b", "start": [5, 1]})
         path = [[3, 1, "E"], [3, 1, "E"], [3, 1, "E", "S", 1], [3, 1, "S"], [3, 1, "S"]]
         plan = self.with_c(a=path, b=cells((5, 1), (4, 1), (3, 1), (2, 1), (1, 1)))
         self.check(instance, plan, {0: "", 1: "", 2: "ab", 3: "", 4: ""}, (2, "a and b are both on [3, 1]"))
 
-    def test_a_turn_that_goes_back_on_itself(self):
+    def test_turn_reverses(self):
         instance = self.grid_of(turning(3, 1, "E", turn_steps=2))
         path = [[3, 1, "E"], [3, 1, "E", "S", 1], [3, 1, "E"], [4, 1, "E"]]
         self.check(instance, self.with_c(a=path), {0: "", 1: "", 1.5: "a", 2: "a", 3: ""}, (2, "a turns in a way that is not a step of a turn"))
 
-    def test_a_step_that_is_none(self):
+    def test_step_to_a_distant_cell(self):
         instance = self.grid_of({"id": "a", "start": [0, 1]})
         plan = self.with_c(a=cells((0, 1), (1, 1), (3, 1), (4, 1)))
         self.check(instance, plan, {1: "", 1.5: "a", 2: "a", 3: ""}, (2, "a goes from [1, 1] to [3, 1], which is not a possible step"))
 
-    def test_a_step_into_a_wall(self):
+    def test_step_onto_a_blocked_cell(self):
         instance = self.grid(4, 2, [{"id": "a", "start": [0, 0]}], rows=["..@.", "...."])
         plan = self.plan({"a": cells((0, 0), (1, 0), (2, 0), (2, 1), (3, 1))})
         self.check(instance, plan, {1: "", 2: "a", 3: "", 4: ""}, (2, "a goes from [1, 0] to [2, 0], which is blocked"))
 
-    def test_work_left_too_soon(self):
+    def test_robot_moves_during_work(self):
         instance = self.grid(6, 4, [{"id": "a", "start": [0, 1], "goal": [4, 1]}, {"id": "c", "start": [0, 3]}],
                              [{"id": "t", "cell": [2, 1], "agents": ["a"], "duration": 3}])
         plan = self.plan({"a": cells((0, 1), (1, 1), (2, 1), (2, 1), (2, 1), (3, 1), (3, 1), (4, 1)), "c": cells((0, 3))},
                          work={"a": [{"task": "t", "begin": 2, "end": 5}]}, sequence={"a": ["t"]})
         self.check(instance, plan, {1: "", 3: "", 4: "", 5: "a", 6: ""}, (5, "a moves at work on t"))
 
-    def test_an_end_on_the_wrong_place(self):
+    def test_path_ends_away_from_the_goal(self):
         instance = self.grid_of({"id": "a", "start": [0, 1], "goal": [4, 1]})
         plan = self.with_c(a=cells((0, 1), (1, 1), (2, 1), (3, 1)))
         self.check(instance, plan, {1: "", 2: "", 3: "a", 4: "a", 5: "a"},
@@ -113,17 +114,17 @@ class Planted(PageTest):
         (self.folder / "r.roadmap.json").write_text(json.dumps(ROAD), encoding="utf-8")
         return self.instance({"roadmap": "r.roadmap.json", "agents": [{"id": "a", "start": a}, {"id": "b", "start": b}], "tasks": []})
 
-    def test_a_collision_on_a_road(self):
+    def test_vertex_collision_on_a_road(self):
         plan = self.plan({"a": [["A"], ["A", "B", 1], ["A", "B", 2], ["A", "B", 1], ["A"]],
                           "b": [["B"], ["A", "B", 3], ["A", "B", 2], ["A", "B", 3], ["B"]]})
         self.check(self.roads("A", "B"), plan, {0: "", 1: "", 2: "ab", 3: "", 4: ""}, (2, "a and b are both on A–B 2"))
 
-    def test_an_exchange_on_a_road(self):
+    def test_edge_collision_on_a_road(self):
         plan = self.plan({"a": [["C"], ["C", "D", 1], ["C", "D", 2], ["D"]],
                           "b": [["D"], ["C", "D", 2], ["C", "D", 1], ["C"]]})
         self.check(self.roads("C", "D"), plan, {0: "", 1: "", 1.5: "ab", 2: "ab", 3: ""}, (2, "a and b change places at C–D 1"))
 
-    def test_of_two_plans_only_the_wrong_one_is_red(self):
+    def test_only_the_invalid_of_two_plans_is_red(self):
         instance = self.grid_of({"id": "a", "start": [1, 1]}, {"id": "b", "start": [4, 2]})
         good = {"a": cells((1, 1), (2, 1), (3, 1)), "b": cells((4, 2), (3, 2), (2, 2))}
         bad = {"a": good["a"], "b": cells((4, 2), (4, 1), (3, 1))}
@@ -133,7 +134,7 @@ class Planted(PageTest):
         self.go(2)
         self.assertEqual((self.red(0), self.red(1)), ("", "ab"))
 
-    # As other programs write their plans.
+    # Plans in the formats of other programs.
 
     def other(self, text):
         (self.folder / "other.txt").write_text(text, encoding="utf-8")
@@ -142,22 +143,22 @@ class Planted(PageTest):
     def crossing(self):
         return self.grid(6, 4, [{"id": "a", "start": [0, 1], "goal": [4, 1]}, {"id": "b", "start": [3, 1], "goal": [0, 1]}])
 
-    def test_of_a_path_list_of_eecbs(self):
+    def test_fault_in_a_path_list_of_eecbs(self):
         plan = self.other("Agent 0: (1,0)->(1,1)->(1,2)->(1,3)->(1,4)->\nAgent 1: (1,3)->(1,2)->(1,1)->(1,0)->\n")
         self.check(self.crossing(), plan, {0: "", 1: "", 1.5: "ab", 2: "ab", 3: ""}, (2, "a and b change places at [1, 1]"))
 
-    def test_of_the_text_of_lacam3(self):
+    def test_fault_in_the_output_of_lacam3(self):
         plan = self.other("agents=2\nmap_file=m.map\nsolver=planner\nsolved=1\nsoc=8\nsoc_lb=7\nmakespan=4\nmakespan_lb=4\n"
                           "sum_of_loss=8\nsum_of_loss_lb=7\ncomp_time=1\nseed=0\n\nstarts=(0,1),(3,1),\ngoals=(4,1),(0,1),\n"
                           "solution=\n0:(0,1),(3,1),\n1:(1,1),(2,1),\n2:(2,1),(2,1),\n3:(3,1),(1,1),\n4:(4,1),(0,1),\n")
         self.check(self.crossing(), plan, {0: "", 1: "", 2: "ab", 3: "", 4: ""}, (2, "a and b are both on [2, 1]"))
 
-    def test_of_what_mapf_visualizer_reads(self):
+    def test_fault_in_the_input_of_mapf_visualizer(self):
         plan = self.other("solution=\n0:(0,1),(3,1),\n1:(1,1),(3,2),\n2:(2,1),(2,2),\n3:(2,2),(1,2),\n4:(4,1),(0,2),\n5:(4,1),(0,1),\n")
         self.check(self.crossing(), plan, {2: "", 3: "", 3.5: "a", 4: "a", 5: ""},
                    (4, "a goes from [2, 2] to [4, 1], which is not a possible step"))
 
-    def test_this_test_sees_robots(self):
+    def test_valid_plan_has_robots_without_red(self):
         instance = self.grid_of({"id": "a", "start": [0, 1]})
         self.open(self.page(instance, self.with_c(a=cells((0, 1), (1, 1)))), "#t=0")
         self.assertEqual(self.text(".verdict"), "✓ valid, checked by this page")

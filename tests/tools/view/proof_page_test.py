@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""grove view --proof in a browser: certificates as grove solve writes them, deep ones, and names that mean harm.
+"""Tests grove view --proof in a browser: certificates of grove solve, deep ones, and hostile names.
 
     proof_page_test.py GROVE
+
 """
 import json
 import re
@@ -24,14 +25,14 @@ class ProofPages(pages.PageTest):
         return self.folder / f"{certificate.name}.html"
 
     def solved_page(self, name):
-        """Of one of our own instances, with its plan: as README has it. The cost."""
+        """Opens the page of a solved instance with its plan and certificate, as README shows. Returns the cost."""
         instance = pages.DATA / f"{name}.cts.json"
         self.run_grove("solve", instance, "--omega", 0, "--threads", 1, "--quiet", "--proof", "c.proof", "-o", "p.json")
         self.browser.open(self.proof_page(instance, self.folder / "c.proof", "p.json"))
         return json.loads((self.folder / "p.json").read_text())["cost"]
 
     def written(self, instance, text):
-        """A certificate of this instance with these lines behind its head, plain."""
+        """Writes an uncompressed certificate of the instance: the head and these lines. Returns its path."""
         refused = self.folder / "none.proof"
         refused.write_text("grove-proof 1\ninstance 0\n")
         done = subprocess.run([self.grove, "view", instance, "--proof", refused], capture_output=True, text=True)
@@ -50,7 +51,7 @@ class ProofPages(pages.PageTest):
     def chosen_row(self):
         return self.text(".tree [aria-selected=true] .what")
 
-    def test_a_certificate_of_a_run(self):
+    def test_certificate_of_a_run_is_shown(self):
         cost = self.solved_page("rooms-32x32_n10_m30")
         self.assertRegex(self.text(".strip"), f"No plan costs less than {cost:,}\\s+"
                          r"proven by \d+ splits, \d+ leaves and \d+ lemmas\s+" f"p.json costs {cost:,}, so it is optimal")
@@ -66,12 +67,12 @@ class ProofPages(pages.PageTest):
         self.assert_silent()
 
     def every_split(self):
-        """What is said of each split, of lemmas too."""
+        """Returns the details of each split, also of lemmas."""
         return self.evaluate("""[...grove.app.certificate.lemmas, grove.app.certificate.theorem].flatMap((statement) =>
           (grove.app.show(statement), statement.steps).filter((step) => step.children.length > 0).map((step) =>
             (grove.app.select(step), document.querySelector(".details").textContent)))""")
 
-    def test_places_of_the_step_are_seen_on_the_map(self):
+    def test_places_of_the_step_are_marked_on_the_map(self):
         self.solved_page("rooms-32x32_n10_m30")
         for step in range(3):
             self.evaluate(f"grove.app.select(grove.app.statement.steps[{step}])")
@@ -81,7 +82,7 @@ class ProofPages(pages.PageTest):
                 self.assertEqual(tuple(colour), CHOSEN)
 
     def colours_of_places(self):
-        """At the left edges of the squares on what the step's constraints name."""
+        """Returns the colours at the left edges of the marked places of the constraints of the step."""
         return self.evaluate("""(() => {
           const {camera, element} = grove.stages[0];
           const canvas = element.querySelector("canvas");
@@ -96,7 +97,7 @@ class ProofPages(pages.PageTest):
           });
         })()""")
 
-    def test_the_tree_is_walked_by_keys_and_folded(self):
+    def test_keys_select_and_fold_the_tree(self):
         instance = self.corridor()
         certificate = self.written(instance, LEMMAS + "theorem 8\nsplit 0 bar 1 1 1 | 1 bar 1 1 1\nleaf\n"
                                    "later 0 3 1 4 0\nleaf 0\nleaf\n")
@@ -120,7 +121,7 @@ class ProofPages(pages.PageTest):
         self.assertEqual(self.texts(".tree .of .what"), ["b is not on [1, 0] at 1", "b costs more than 4"])
         self.assert_silent()
 
-    def test_a_lemma_opens_and_closes(self):
+    def test_lemma_opens_and_closes(self):
         instance = self.corridor()
         self.browser.open(self.proof_page(instance, self.written(instance, LEMMAS + "theorem 8\nleaf 0\n")))
         self.assertIn("the excess by lemma 0: together 8 or more", self.text(".details"))
@@ -137,7 +138,7 @@ class ProofPages(pages.PageTest):
         self.assertIn("All plans that satisfy its constraints", self.text(".tree"))
         self.assert_silent()
 
-    def test_what_needs_no_tree(self):
+    def test_proofs_without_a_tree_are_shown(self):
         instance = self.corridor()
         self.browser.open(self.proof_page(instance, self.written(instance, "theorem inf\njoint\n")))
         self.assertIn("There is no plan", self.text(".strip"))
@@ -147,13 +148,13 @@ class ProofPages(pages.PageTest):
         self.assertIn("proven by 3 prices", self.text(".strip"))
         self.assert_silent()
 
-    def test_a_split_that_is_none_is_said_to_be_none(self):
+    def test_invalid_split_is_reported(self):
         instance = self.corridor()
         self.browser.open(self.proof_page(instance, self.written(
             instance, "theorem 8\nsplit 0 bar 1 1 1 | 1 bar 2 1 1\nleaf\nleaf\n")))
         self.assertIn("docs/proof.md does not permit this split", self.text(".details"))
 
-    def test_the_deepest_that_is_shown(self):
+    def test_deep_certificate_is_shown(self):
         instance = self.corridor()
         proof = "theorem 8\n" + "split 0 bar 1 1 1 | 1 bar 1 1 1\nleaf\n" * 5000 + "leaf\n"
         seconds = self.browser.open(self.proof_page(instance, self.written(instance, proof)))
@@ -163,7 +164,7 @@ class ProofPages(pages.PageTest):
         print(f"5,000 splits, each below the one before: loaded in {seconds:.2f} s")
         self.assert_silent()
 
-    def test_names_are_no_markup(self):
+    def test_names_are_not_markup(self):
         instance = self.corridor(ALERT)
         self.browser.open(self.proof_page(instance, self.written(instance, LEMMAS + "theorem 8\nleaf 0\n")))
         self.press("lemma 0")

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""grove view --run in a browser: logs of real runs, large, hostile and growing ones.
+"""Tests grove view --run in a browser: logs of real runs, and large, hostile and growing logs.
 
     run_page_test.py GROVE [--pictures DIR]
+
 """
 
 import argparse
@@ -63,7 +64,7 @@ class Pages(unittest.TestCase):
         return seconds
 
     def quiet(self):
-        """No word on the console, no request, nobody else's script."""
+        """Asserts that the page has logged nothing, sent no request and run no foreign script."""
         self.browser.settle()
         self.assertEqual(self.browser.console, [])
         self.assertEqual(self.browser.requests, [])
@@ -76,7 +77,7 @@ class Pages(unittest.TestCase):
         if ARGUMENTS.pictures:
             self.browser.picture(ARGUMENTS.pictures / f"{name}.png")
 
-    def test_a_real_run(self):
+    def test_real_run_is_shown(self):
         self.grove("solve", DATA / "rooms-32x32_n10_m30.cts.json", "--omega", 0, "--threads", 1, "--without", "primal",
                    "--quiet", "--log", "log.jsonl", "--log-format", "jsonl", "--log-tree", 1000, "-o", "p.json")
         self.show((self.folder / "log.jsonl").read_text())
@@ -85,25 +86,25 @@ class Pages(unittest.TestCase):
         nodes = sum('"event":"node"' in line for line in (self.folder / "log.jsonl").read_text().splitlines())
         self.assertIn(f"{nodes} of {nodes} expansions", self.text(".tree"))
         self.picture("run")
-        self.walk_the_tree()
+        self.check_tree_keys()
         for size in ((390, 844), (2560, 1440)):
             self.browser.resize(*size)
             self.quiet()
             self.assertEqual(self.browser.evaluate("document.documentElement.scrollWidth <= innerWidth"), True)
             self.picture(f"run-{size[0]}")
 
-    def walk_the_tree(self):
+    def check_tree_keys(self):
         self.browser.evaluate("document.querySelector('.tree canvas').focus()")
         self.assertIn("Node 0, root of tree 0", self.text(".node"))
         self.browser.key("ArrowDown")
         self.assertNotIn("Node 0,", self.text(".node"))
-        self.browser.key("p")  # one expansion less
+        self.browser.key("p")  # one expansion back
         before = self.text(".tree .controls")
         self.browser.key("p")
         self.assertNotEqual(self.text(".tree .controls"), before)
         self.assertRegex(self.text(".node"), r"Expanded as number \d+ at .* by worker 0")
 
-    def test_a_moment_is_read_by_the_keyboard(self):
+    def test_arrow_keys_select_a_time(self):
         self.show(lines(HEADER, row(1), row(2, "incumbent", incumbent=36, source="tree"),
                         row(3, lower_bound=33, incumbent=33), SUMMARY))
         self.browser.evaluate("document.querySelector('.picture').focus()")
@@ -112,7 +113,7 @@ class Pages(unittest.TestCase):
         self.browser.key("ArrowLeft")
         self.assertIn("2 s: best plan 36, no plan costs less than 30, gap 20 %", self.text(".readout"))
 
-    def test_many_rows_and_ranks(self):
+    def test_large_log_is_shown(self):
         ranks = {"nodes": list(range(1000)), "open": [1] * 1000, "lower_bound": [30, None] * 500,
                  "memory_mb": [25.5] * 999 + [None], "low_level_calls": [7] * 1000, "branching_cost_queries": [8] * 1000}
         counts = {"event": "counts", "time_s": 99999, "counts": {"splits_vertex_edge": 5, "splits_target": 1},
@@ -125,7 +126,7 @@ class Pages(unittest.TestCase):
         self.assertEqual(self.browser.evaluate("document.querySelectorAll('.scroll tbody tr').length"), 1001)
         self.assertIn("The ranks hold the nodes", self.text("main"))
 
-    def test_hostile_logs(self):
+    def test_hostile_logs_run_no_script(self):
         hostile = {"event": "node", "time_s": 1, "node": 0, "worker": 0, "outcome": "split", "conflict": ALERT, "split": ALERT,
                    "children": [{"node": 1, "bound": 3, "cost": 3, "constraint": ALERT}]}
         root = {"event": "root", "time_s": 0, "node": 0, "tree": 0, "bound": 1e300, "cost": -7}
@@ -139,7 +140,7 @@ class Pages(unittest.TestCase):
             self.show(lines(HEADER, wrong))
             self.assertIn(words, self.text(".failure"))
 
-    def test_a_run_is_followed(self):
+    def test_live_run_is_followed(self):
         log = self.folder / "live.jsonl"
         command = [ARGUMENTS.grove, "view", "--run", log, "--follow"]
         with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
@@ -151,32 +152,32 @@ class Pages(unittest.TestCase):
 
     def follow(self, log, address):
         self.browser.call("Page.navigate", url=address[0])
-        self.comes("Waiting for the log to begin.")
+        self.wait_for_text("Waiting for the log to begin.")
         log.write_text(lines(HEADER, row(1, incumbent=None)))
-        self.comes("No plan yet; none costs less than 30.")
+        self.wait_for_text("No plan yet; none costs less than 30.")
         self.assertIn("Live.", self.text(".state"))
         half = json.dumps(row(2, incumbent=44))
         with log.open("a") as more:
             more.write(half[:20])
             more.flush()
-            before = len(self.browser.requests)  # when it asks once more it has dealt with the first answer
+            before = len(self.browser.requests)  # the second request shows that the first answer was processed
             self.browser.wait_until("more requests", lambda: len(self.browser.requests) >= before + 2)
             more.write(half[20:] + "\n")
-        self.comes("A plan of 44 steps")
+        self.wait_for_text("A plan of 44 steps")
         log.write_text(lines(HEADER | {"instance": "second.json"}, row(0.5, incumbent=31), SUMMARY | {"cost": 35}))
-        self.comes("second.json")
-        self.comes("The run has ended.")
+        self.wait_for_text("second.json")
+        self.wait_for_text("The run has ended.")
         self.assertEqual(self.browser.console, [])
         self.assertEqual([url for url in self.browser.requests if not url.startswith(address[0])], [])
-        self.serves_this_user_alone(int(address[1]), address[2])
+        self.check_access(int(address[1]), address[2])
         self.browser.call("Page.navigate", url="about:blank")
 
-    def comes(self, words):
+    def wait_for_text(self, words):
         self.browser.wait_until(words, lambda: words in self.text())
 
-    def serves_this_user_alone(self, port, token):
+    def check_access(self, port, token):
         listening = [line.split()[1] for line in Path("/proc/net/tcp").read_text().splitlines() if " 0A " in line]
-        self.assertIn(f"0100007F:{port:04X}", listening)  # 127.0.0.1, the bytes turned round
+        self.assertIn(f"0100007F:{port:04X}", listening)  # 127.0.0.1, in little-endian order
         self.assertNotIn(f"00000000:{port:04X}", listening)
         for host, path, expected in (("127.0.0.1", f"/{token}/", 200), ("localhost", f"/{token}/log?from=0", 200),
                                      ("127.0.0.1", f"/{token}/log?from=x", 200), ("evil.example", f"/{token}/", 403),

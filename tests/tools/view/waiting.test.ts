@@ -17,7 +17,7 @@ function shown(agents: AgentData[], plan: object[]): App {
 function waits(app: App): string[] {
   const name = (agent: number) => app.model.agents[agent].id;
   return app.viewed[0].waits.all.map((wait) =>
-    `${name(wait.agent)} ${wait.begin}-${wait.end} for ${wait.for.map(name).join(", ") || "nobody"}`);
+    `${name(wait.agent)} ${wait.begin}-${wait.end} for ${wait.for.map(name).join(", ") || "no robot"}`);
 }
 
 const kA: AgentData = { id: "a", start: 0 };
@@ -25,7 +25,7 @@ const kB: AgentData = { id: "b", start: 2 };
 
 test("a robot waits for one on its next place", () => {
   assert.deepEqual(waits(shown([kA, { id: "b", start: 1 }], [{ path: "@0;2.2E" }, { path: "@1;.2E" }])),
-    ["a 0-2 for b", "b 0-1 for nobody"]);
+    ["a 0-2 for b", "b 0-1 for no robot"]);
 });
 
 test("a robot waits for one that passes later", () => {
@@ -43,7 +43,7 @@ test("a robot waits for one that would swap with it", () => {
 
 test("waits may have no cause", () => {
   assert.deepEqual(waits(shown([kA, { id: "b", start: 11 }], [{ path: "@0;5.E" }, { path: "@11;3W" }])),
-    ["a 0-5 for nobody"]);
+    ["a 0-5 for no robot"]);
 });
 
 test("several causes are listed in order of time", () => {

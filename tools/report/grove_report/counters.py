@@ -6,23 +6,23 @@ from typing import NamedTuple
 from .metrics import by_line
 
 SPLITS = "splits_"
-KINDS = {"bar": "vertex or edge", "no_traversal": "corridor", "rest_by": "target", "no_rest_by": "cost",
-         "stop_is_not": "sequence"}
+KINDS = {"vertex_edge": "vertex or edge", "corridor": "corridor", "target": "target", "cost": "cost",
+         "sequence": "sequence"}
 LABELS = {
     "bypasses": "bypasses: another path of the same cost",
     "pair_expansions": "nodes in searches over pairs and groups of agents",
     "group_states": "joint states of pairs and groups",
     "joint_states": "joint states of all agents",
     "lagrangian_rounds": "rounds of the Lagrangian bound",
-    "prices_of_ranks": "Lagrangian subproblems that other ranks solved",
-    "joint_pairs": "nodes of joint MDDs",
+    "remote_pricings": "Lagrangian subproblems that other ranks solved",
+    "joint_mdd_nodes": "nodes of joint MDDs",
     "low_level_expanded": "labels of single-agent searches",
-    "prices": "costs with one more constraint (strong branching)",
-    "path_sets": "MDDs",
+    "branching_cost": "costs with one more constraint (strong branching)",
+    "mdd": "MDDs",
     "nodes_generated": "nodes generated", "nodes_evicted": "nodes evicted because memory was full",
     "primal_attempts": "primal: priority orders tried",
-    "primal_joint_steps": "primal: LaCAM steps",
-    "primal_neighborhoods": "primal: LNS iterations",
+    "primal_lacam_steps": "primal: LaCAM steps",
+    "primal_lns_iterations": "primal: LNS iterations",
     "primal_steps": "primal: work items",
     "primal_low_level_calls": "primal: single-agent searches",
     "primal_low_level_expanded": "primal: labels of single-agent searches"}
@@ -43,8 +43,8 @@ class Counters(NamedTuple):
 
     def hit_share(self, what):
         """Returns the share of cache hits among the queries for `what`. Returns None if there were no queries."""
-        asked = self.totals.get(f"{what}_asked")
-        return self.totals.get(f"{what}_known", 0) / asked if asked else None
+        queries = self.totals.get(f"{what}_queries")
+        return self.totals.get(f"{what}_hits", 0) / queries if queries else None
 
 
 def counters_by_line(rows):
@@ -71,8 +71,8 @@ def split_kinds(counters):
 
 def cache_names(counters):
     """Returns the names of all caches that any line has queried."""
-    return sorted({name.removesuffix("_asked") for each in counters.values() for name in each.totals
-                   if name.endswith("_asked")})
+    return sorted({name.removesuffix("_queries") for each in counters.values() for name in each.totals
+                   if name.endswith("_queries")})
 
 
 def label(name):
@@ -86,5 +86,5 @@ def label(name):
 def other_names(counters):
     """Returns the counters of all lines except splits and caches: those in LABELS first."""
     found = {name for each in counters.values() for name in each.totals
-             if not name.startswith(SPLITS) and not name.endswith(("_asked", "_known"))}
+             if not name.startswith(SPLITS) and not name.endswith(("_queries", "_hits"))}
     return [name for name in LABELS if name in found] + sorted(found - LABELS.keys())

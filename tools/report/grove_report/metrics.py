@@ -12,7 +12,7 @@ from typing import NamedTuple, Optional
 
 from .groups import grouped
 from .lines import line_of
-from .rows import CLAIMED, WRONG
+from .rows import CLAIMED, INVALID
 
 
 NO_PROMISE = ("", "inf")  # omegas without a guarantee
@@ -38,7 +38,7 @@ def within_omega(row):
 
 def has_plan(row):
     """Returns whether the row has a checked plan, even if the run ended at a limit."""
-    return row.cost is not None and row.status not in ("error", WRONG, CLAIMED)
+    return row.cost is not None and row.status not in ("error", INVALID, CLAIMED)
 
 
 def best_costs(rows, known=()):
@@ -75,7 +75,7 @@ class Measures(NamedTuple):
     seeds: int                     # maximum number of runs of an instance
     runs: int
     solved: int
-    wrong: int                     # runs with an invalid plan
+    invalid: int                   # runs with an invalid plan
     claimed: int                   # runs that report a cost without a plan
     within_omega: Optional[int]    # number of solved runs within omega; None: omega guarantees nothing
     success: float                 # share of an instance's runs that are solved, mean over instances
@@ -137,7 +137,7 @@ def measures(rows, best, common=frozenset()):
     common_s = over_seeds(shared, lambda row: row.runtime_s)
     return Measures(
         instances=len(runs), seeds=max(runs.values()), runs=len(rows), solved=len(solved),
-        wrong=sum(row.status == WRONG for row in rows), claimed=sum(row.status == CLAIMED for row in rows),
+        invalid=sum(row.status == INVALID for row in rows), claimed=sum(row.status == CLAIMED for row in rows),
         within_omega=None if rows[0].omega in NO_PROMISE else sum(map(within_omega, solved)),
         success=statistics.fmean(over_seeds(rows, lambda row: row.solved)),
         mean_runtime_s=statistics.fmean(runtimes), median_runtime_s=statistics.median(runtimes),

@@ -39,9 +39,8 @@ GLOSSARY = [
      "method with many failures mainly reflects its failures. Lower is better."),
     ("Seeds", "Runs that differ only in the seed are repetitions of one instance: means are taken over these first, "
      "then over instances. Success rate of an instance: the share of its runs that are solved."),
-    ("Claimed, wrong", "Of other solvers. Claimed: a run that reported a cost without a plan. Wrong: a run whose plan "
-     "is invalid, because agents collide, jump or do not arrive. Neither counts as solved, and its cost does not count "
-     "as known."),
+    ("Claimed, invalid", "Of other solvers. Claimed: a run that reported a cost without a plan. Invalid: a run in "
+     "whose plan agents collide, jump or do not arrive. Neither counts as solved, and its cost does not count as known."),
     ("Anytime", "A method that improves its plan until its time limit. Reaching the limit is not a failure: a run with "
      "a plan counts as solved, and its runtime is the time to its first plan."),
     ("SQR, solution quality ratio", "Root cost / cost of the plan, of solved runs. The root cost is the "
@@ -132,7 +131,7 @@ def _false_claims(report):
     numbers = ", ".join(f"{name}: {number} of a {kind}" for (name, kind), number in sorted(kinds.items()))
     return _box("alarm", [
         f"<h2>FALSE CLAIMS: {len(found)}</h2>",
-        _paragraph(f"Claims of solvers that contradict checked values ({numbers}). A wrong plan counts as a failure. "
+        _paragraph(f"Claims of solvers that contradict checked values ({numbers}). Invalid plans count as failures. "
                    "Costs are the recounted ones. No other result uses these claims."),
         _file(report, "All of them", "false_claims.csv"), _list(shown)])
 
@@ -143,7 +142,7 @@ def _errors(report):
     rows = [[word(report.lines.label(line)), Entry(str(number)), word(message or "(no message)")]
             for line, number, message in report.errors]
     return _box("note", ["<b>Runs that failed with an error</b>",
-                         _paragraph("These runs crashed or gave a wrong plan. They count as failures."),
+                         _paragraph("These runs crashed or gave an invalid plan. They count as failures."),
                          html_table(["method", "runs", "most frequent message"], rows)])
 
 
@@ -216,7 +215,7 @@ def _summary(problem, lines):
     best_solved = max(found.solved for found in measured) if comparable else None
     best_par2 = min(found.par2_s for found in measured) if comparable else None
     has_baselines = any(lines.is_baseline(line) for line in problem.lines)
-    claims = [(name, value) for name, value in (("wrong plans", lambda found: found.wrong),
+    claims = [(name, value) for name, value in (("invalid plans", lambda found: found.invalid),
                                               ("only claimed", lambda found: found.claimed))
             if any(map(value, measured))]
     header = ["method", "runs", "solved", *(name for name, _ in claims), WITHIN, "success rate", PAR2, MEDIAN, MEAN,

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Reads plans of classical MAPF from the plan files that grove bench kept.
 
-grove bench has checked these plans. Since files may have changed, the parts that need no map are checked again.
+grove bench has checked these plans; its verdict is in the row. Here a file only has to be a sequence of moves.
 """
 import json
 import re
@@ -55,21 +55,8 @@ def read_plan(path, agents):
     return paths
 
 
-def recounted(paths):
-    """Returns the sum of the times at which agents come to rest. Raises BadPlan if paths collide."""
-    for time in range(max(map(len, paths))):
-        here = [path[min(time, len(path) - 1)] for path in paths]
-        at = {cell: agent for agent, cell in enumerate(here)}
-        if len(at) < len(here):
-            raise BadPlan(f"two agents are on one cell at time {time}")
-        if time == 0:
-            before = here
-            continue
-        for agent, (old, new) in enumerate(zip(before, here)):
-            other = at.get(old)
-            if old != new and other is not None and before[other] == new:
-                raise BadPlan(f"agents {min(agent, other)} and {max(agent, other)} swap places at time {time}")
-        before = here
+def cost_of(paths):
+    """Returns the sum of the times at which agents come to rest."""
     return sum(len(path) - 1 for path in paths)
 
 

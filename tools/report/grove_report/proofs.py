@@ -9,7 +9,7 @@ from typing import NamedTuple, Optional
 from .groups import grouped, values_by
 from .lines import method_name
 from .metrics import best_bounds, best_costs, has_plan
-from .rows import CLAIMED, WRONG
+from .rows import CLAIMED, INVALID
 
 
 class Contradiction(NamedTuple):
@@ -82,8 +82,8 @@ def _checked(rows, plan, bound):
 def _false_claims_of(row, checked):
     """Yields (kind, claimed, checked, what) of each claim of a row that the checked plan or bound refutes."""
     plan, bound = checked.plan, checked.bound
-    if row.status == WRONG:
-        yield "plan", row.claimed_cost, None, row.error or "the plan is wrong"
+    if row.status == INVALID:
+        yield "plan", row.claimed_cost, None, row.error or "the plan is invalid"
     if row.claimed_cost is not None and has_plan(row) and row.claimed_cost < row.cost:
         yield ("cost", row.claimed_cost, row.cost,
                f"says that its plan costs {row.claimed_cost}; recounted: {row.cost}")

@@ -10,7 +10,7 @@ from . import anytime, curves, figures, metrics, proofs, tracker
 from .counters import counters_by_line
 from .groups import grouped, values_by
 from .lines import GROVE, Lines, families, line_of, method_name, omega_text, omega_value, seconds_text
-from .rows import PROBLEMS, UNSUITABLE, BadInput
+from .rows import PROBLEMS, UNSUPPORTED, BadInput
 from .speedup import ALL_MAPS, hard_instances, speedups
 from .style import style_of
 from .tables import csv_text
@@ -420,9 +420,9 @@ def _notes(results, rows, lines, problems):
                    "gaps. Totals are comparable only between methods with equally many runs.")
 
 
-def _unsuitable(rows):
+def _unsupported(rows):
     """Yields notes on instances that a method does not support."""
-    found = grouped([row for row in rows if row.status == UNSUITABLE], lambda row: row.method)
+    found = grouped([row for row in rows if row.status == UNSUPPORTED], lambda row: row.method)
     for method, group in sorted(found.items()):
         why = Counter(row.error for row in group).most_common(1)[0][0]
         yield (f"{method_name(method)} does not support {len(group)} of the instances, which are omitted for it: "
@@ -471,7 +471,7 @@ class Options(NamedTuple):
 def make_report(results, logs, options, folder):
     """Writes all figures and tables into `folder`, removes those of an earlier report, and returns the Report."""
     everything = [row for row in results.rows if not options.problems or row.problem in options.problems]
-    rows = [row for row in everything if row.status != UNSUITABLE]
+    rows = [row for row in everything if row.status != UNSUPPORTED]
     lines = Lines(rows, options.baselines)
     looks, output = Looks(lines), Output(folder)
     rows_of = grouped(rows, lambda row: row.problem)
@@ -488,6 +488,6 @@ def make_report(results, logs, options, folder):
     output.table("false_claims", proofs.FalseClaim._fields, false_claims)
     best_known, runs = _best_known(output, rows, options), _runs_figure(output, logs)
     output.remove_others()
-    notes = [*_notes(results, rows, lines, problems), *_unsuitable(everything)]
+    notes = [*_notes(results, rows, lines, problems), *_unsupported(everything)]
     return Report(results._replace(rows=rows), lines, problems, studies, contradictions, false_claims, best_known,
                   runs, logs, proofs.optimal_agreements(rows), _errors(rows, lines), notes, output.files)

@@ -10,9 +10,23 @@ from typing import NamedTuple, Optional
 from .tables import text_of_cell
 
 PROBLEMS = ("mg", "cts", "mixed", "mapf")
-WRONG, CLAIMED, UNSUITABLE = "wrong", "claimed", "unsuitable"  # other solvers: invalid plan; cost without plan
-STATUSES = ("optimal", "bounded", "feasible", "infeasible", "unknown", "error", WRONG, CLAIMED, UNSUITABLE)
+INVALID, CLAIMED, UNSUPPORTED = "invalid", "claimed", "unsupported"  # other solvers: invalid plan; cost without plan
+STATUSES = ("optimal", "bounded", "feasible", "infeasible", "unknown", "error", INVALID, CLAIMED, UNSUPPORTED)
 STATUSES_WITH_PLAN = ("optimal", "bounded", "feasible")
+
+
+# Counters in tables of before 0.1, and their present names.
+RENAMED_COUNTERS = {
+    "batches": "node_batches", "facts_sent": "learned_bounds_sent", "gain_configurations": "gain_lacam",
+    "gain_neighborhood": "gain_lns", "gain_priorities": "gain_prioritized", "helps": "assists",
+    "joint_pairs": "joint_mdd_nodes", "path_sets_asked": "mdd_queries", "path_sets_known": "mdd_hits",
+    "plans_configurations": "plans_lacam", "plans_neighborhood": "plans_lns", "plans_priorities": "plans_prioritized",
+    "prices_asked": "branching_cost_queries", "prices_known": "branching_cost_hits",
+    "prices_of_ranks": "remote_pricings", "primal_joint_steps": "primal_lacam_steps",
+    "primal_neighborhoods": "primal_lns_iterations", "silent_ranks": "unresponsive_ranks",
+    "splits_bar": "splits_vertex_edge", "splits_no_rest_by": "splits_cost", "splits_no_traversal": "splits_corridor",
+    "splits_rest_by": "splits_target", "splits_stop_is_not": "splits_sequence",
+    "trees_prepared_in_vain": "trees_prepared_unused"}
 
 
 class BadInput(Exception):
@@ -156,11 +170,16 @@ def _one_of(words):
     return read
 
 
+def _status(value):
+    """Reads a status; tables of before 0.1 have other words for two of them."""
+    return _one_of(STATUSES)({"wrong": INVALID, "unsuitable": UNSUPPORTED}.get(value, value))
+
+
 def _counts(value):
-    """Reads "bypasses=2 joint_pairs=77"."""
+    """Reads "bypasses=2 mdd_queries=77", with the present names of the counters."""
     try:
         pairs = [word.split("=") for word in value.split()]
-        return {_text(name): _integer(number) for name, number in pairs}
+        return {_text(RENAMED_COUNTERS.get(name, name)): _integer(number) for name, number in pairs}
     except (AttributeError, ValueError):
         raise ValueError("numbers as name=7, separated by blanks") from None
 
@@ -182,7 +201,7 @@ COLUMNS = {
     "map": (_text, NEEDED), "scenario": (_integer, None), "agents": (_integer, NEEDED),
     "tasks": (_integer, NEEDED), "problem": (_one_of(PROBLEMS), NEEDED), "omega": (_omega, ""),
     "seed": (_integer, None), "time_limit_s": (_positive, NEEDED), "solved": (_boolean, NEEDED),
-    "status": (_one_of(STATUSES), NEEDED), "cost": (_integer, None),
+    "status": (_status, NEEDED), "cost": (_integer, None),
     "lower_bound": (_integer, None), "gap": (_number, None), "root_cost": (_integer, None),
     "sqr": (_number, None), "runtime_s": (_number, NEEDED), "wall_s": (_number, None),
     "roots": (_integer, None), "rtsp_calls": (_integer, None), "nodes": (_integer, None),

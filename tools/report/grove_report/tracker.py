@@ -15,7 +15,7 @@ from typing import NamedTuple, Optional
 from .groups import grouped
 from .lines import line_of
 from .metrics import best_bounds, has_plan
-from .plans import BadPlan, motion_string, read_plan, recounted
+from .plans import BadPlan, cost_of, motion_string, read_plan
 from .rows import BadInput
 
 MAPS = frozenset("""\
@@ -67,7 +67,7 @@ def _best_plan(rows, left_out):
     for row in sorted(rows, key=lambda row: (row.cost, row.seed or 0)):
         try:
             paths = read_plan(Path(row.plan_file), row.agents)
-            cost = recounted(paths)
+            cost = cost_of(paths)
             if cost != row.cost:
                 raise BadPlan(f"costs {cost}; expected {row.cost} as in the row")
             return row.cost, [motion_string(path) for path in paths]

@@ -23,7 +23,7 @@ from .protocol import REACHED_BOX
 from .simulated import UNITS_PER_SPEED
 
 POLL = 0.03
-CLEAR_TO_BEGIN, CLEAR_TO_GO_ON = BODY + 1.0, BODY
+CLEAR_TO_BEGIN, CLEAR_TO_CONTINUE = BODY + 1.0, BODY
 BY_HAND = REACHED_BOX + 2       # distance below which a cube ignores a target, and noise, units
 ROLL_SPEED = 20
 UNHEARD = 1.5                   # a cube at rest may seem to be this far beyond the tolerance, units
@@ -161,7 +161,7 @@ class Driver:
             and distance(handle.mean, handle.place) <= self.grid.tolerance + UNHEARD
 
     async def stand_until(self, handle, may, state="waiting"):
-        """Waits until may(). A cube that is pushed aside in the meantime returns to its place."""
+        """Waits until may(). A cube that is pushed away in the meantime returns to its place."""
         while not may():
             if not self.fit(handle):
                 pass
@@ -187,12 +187,12 @@ class Driver:
                     return
                 if handle.at_rest and distance(handle.mean, goal) <= tolerance:
                     return
-                await self.go_on(handle, goal, far)
+                await self.continue_to(handle, goal, far)
             else:
                 await self.hold(handle)
             await self.poll(handle)
 
-    async def go_on(self, handle, goal, far):
+    async def continue_to(self, handle, goal, far):
         path = [goal, far] if far else [goal]
         if far and self.in_the_way(handle, path):
             path = [goal]
@@ -251,7 +251,7 @@ class Driver:
             await handle.roll(ROLL_SPEED if forward else -ROLL_SPEED, max(10, 10 * round(100 * seconds)))
 
     def in_the_way(self, handle, path):
-        least = CLEAR_TO_GO_ON if handle.command else CLEAR_TO_BEGIN
+        least = CLEAR_TO_CONTINUE if handle.command else CLEAR_TO_BEGIN
         lane = [handle.position, *path]
         return next((other for other in self.handles
                      if other is not handle and nearer(lane, other.lane(), least)), None)

@@ -269,9 +269,9 @@ class AgentCheck {
     }
     this.checkOverlaps();
     const { working } = this.agent;
-    const goesOn = (w: WorkTime) =>
+    const continues = (w: WorkTime) =>
       working !== null && w.task === working.task && w.begin === -working.done;
-    if (working && !this.plan.work.some(goesOn))
+    if (working && !this.plan.work.some(continues))
       this.report("work", 0,
         `does not continue ${this.model.tasks[working.task].name}, at which it starts`, -1);
   }

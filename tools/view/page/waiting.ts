@@ -62,7 +62,7 @@ export class Waits {
       crowd.advance(() => {});
       let left = 0;
       for (let i = 0; i < ghosts.length; ++i) {
-        if (this.goesOn(ghosts[i], time, crowd)) ghosts[left++] = ghosts[i];
+        if (this.continues(ghosts[i], time, crowd)) ghosts[left++] = ghosts[i];
         if (i % kGhostsAtOnce === kGhostsAtOnce - 1) yield;
       }
       ghosts.length = left;
@@ -72,7 +72,7 @@ export class Waits {
   }
 
   // Moves a ghost to `time`. Returns false if it has met a robot or has been followed long enough.
-  private goesOn(ghost: Ghost, time: number, crowd: Crowd): boolean {
+  private continues(ghost: Ghost, time: number, crowd: Crowd): boolean {
     const { wait } = ghost;
     const before = ghost.place;
     if (time + ghost.earlier > ghost.until) this.enter(ghost, ghost.run + 1);
