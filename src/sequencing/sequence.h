@@ -34,11 +34,11 @@ constexpr void for_each_stop(StopSet set, Visit visit) {
 // Stops in the order of their visits; complete if it holds all n.
 using Sequence = std::vector<Stop>;
 
-struct CostMatrix;  // Sum of two costs, each at most kNever; kNever absorbs.
+// Sum of two costs, each at most kNever; kNever absorbs.
 constexpr Time add_costs(Time a, Time b) {
   return std::min(a + (b - kNever), 0) + kNever;
 }
 
-// Defined in cost_matrix.h
+struct CostMatrix;  // cost_matrix.h
 
 }  // namespace grove::detail

@@ -45,13 +45,12 @@ struct Below : testing::RootFixture {
 };
 
 // Excess of the group if it is at most `max_excess`, else `max_excess` + 1. Returns nullopt if
-// there are too many combinations of paths, or constraints on sequences.
+// there are too many combinations of paths.
 std::optional<Cost> true_excess(Below& s, const std::vector<AgentIndex>& group, Time max_excess) {
   std::vector<std::vector<oracle::Way>> paths;
   Cost apart = 0;
   for (const AgentIndex agent : group) {
     const auto constraints = s.view.constraints(agent);
-    if (std::ranges::any_of(constraints, is_about_sequence)) return std::nullopt;
     auto all = oracle::ways_within(s.instance, agent, constraints,
                                    s.view.cost_of(agent) + max_excess, kMaxPaths);
     if (!all) return std::nullopt;

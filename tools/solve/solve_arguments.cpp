@@ -293,7 +293,7 @@ SolveOptions solve_options(const SolveArguments& a) {
   if (is_plain && !a.without.empty())
     throw CLI::ValidationError(
         options.policy == Policy::kFixed ? "--policy fixed" : "--method " + a.method,
-        "uses no techniques; found --with or --without");
+        "uses no techniques; found --without");
   if (a.rtsp != "auto" && options.policy != Policy::kFixed)
     throw CLI::ValidationError("--rtsp", fmt::format("requires --policy fixed; expected that, "
                                                      "or no --rtsp {}",
