@@ -12,7 +12,7 @@
 
 namespace grove::detail {
 
-// One of an agent's own tasks, as its index in Agent::tasks: 0 .. n-1.
+// A stop of an agent, as its position in Agent::stops: 0 .. n-1.
 using Stop = std::uint8_t;
 // A set of stops: bit s stands for stop s.
 using StopSet = std::uint64_t;
