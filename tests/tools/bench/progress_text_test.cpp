@@ -59,9 +59,9 @@ TEST(BenchSummary, ShowsOtherOutcomesOnlyIfPresent) {
   state.false_claims.assign(12, {"paper", "i", "claims a cost of 60, but its own paths cost 64"});
   const std::string said = summary_table(state);
   EXPECT_TRUE(said.starts_with(
-      "method  solved/run  median s  errors  wrong  claimed  refuted  unsuitable\n"
-      "auto           3/3      3.00       0      0        0        0           0\n"
-      "paper          0/4     60.00       1      1        2       12           1\n"))
+      "method  solved/run  median s  errors  invalid  claimed  refuted  unsupported\n"
+      "auto           3/3      3.00       0        0        0        0            0\n"
+      "paper          0/4     60.00       1        1        2       12            1\n"))
       << said;
   EXPECT_NE(said.find("\nrefuted: paper on i claims a cost of 60, but its own paths cost 64\n"),
             std::string::npos);
