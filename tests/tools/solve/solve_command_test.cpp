@@ -487,7 +487,7 @@ TEST_F(SolveCommand, WritesAJsonLog) {
     EXPECT_EQ(row["event"] == "incumbent", row.contains("source"));
     const json raised_by = row.value("raised_by", json::object());
     for (const auto& [what, gain] : raised_by.items()) {
-      EXPECT_THAT(what, AnyOf("sequences", "groups", "splits"));
+      EXPECT_THAT(what, AnyOf("individual", "wdg", "branching"));
       bound += std::int64_t(gain);
     }
     EXPECT_EQ(bound, row["lower_bound"]);  // each rise of the bound is logged
