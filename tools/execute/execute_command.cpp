@@ -36,7 +36,7 @@ constexpr std::size_t kMostStuck = 20;
 
 constexpr const char* kExecuteFooter =
     R"(Robots execute the plan along its passing order, not by the clock: each action starts as soon as the
-robot before it has left the place. So robots never collide and never block each other, whatever the
+robot before it has left the place. So robots never collide and never deadlock, whatever the
 delays. A robot that moves occupies both places until it has arrived, and a robot that follows it
 waits for that. So even without disturbances an execution may take longer than the plan.
 
