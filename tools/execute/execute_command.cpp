@@ -36,9 +36,9 @@ constexpr std::size_t kMostStuck = 20;
 
 constexpr const char* kExecuteFooter =
     R"(Robots execute the plan along its passing order, not by the clock: each action starts as soon as the
-robot before it has left the place. So robots never collide and never deadlock, whatever the
-delays. A robot that moves occupies both places until it has arrived, and a robot that follows it
-waits for that. So even without disturbances an execution may take longer than the plan.
+robot that uses the place before it has left. So robots never collide and never deadlock, whatever
+the delays. A robot that moves occupies both places until it has arrived, and a robot that follows
+it waits for that. So even without disturbances an execution may take longer than the plan.
 
 With --switch a robot that has waited for another one for some steps goes first where they meet
 next, if that reduces the expected sum of finish times. The order stays free of cycles. The table
@@ -46,7 +46,7 @@ then has both executions, with the same delays.
 
 Every execution is checked like a plan, from its paths. If robots fail (--fail), the others continue
 as far as they can, and the output lists which robot waits for which. With --runs, each execution
-has other delays; the table has the median and the worst value of each column, over the executions
+has different random delays; the table has the median and the worst value of each column, over the executions
 that end.
 
 --stop and --fail are independent of other delays; several stops of a robot add up. In the plan that
