@@ -148,6 +148,16 @@ class TheTree(unittest.TestCase):
         self.assertTrue(list(self.layer_sources("model")))
         self.assertIn("model", self.declared())
 
+    def test_readers_agree_on_renamed_counters(self):
+        """The plan reader, the run page and the report each map the old names of counters to the present ones."""
+        def pairs(file, pattern, begin, end):
+            text = (ROOT / file).read_text(encoding="utf-8").split(begin, 1)[1].split(end, 1)[0]
+            return dict(re.findall(pattern, text))
+        plans = pairs("src/io/plan_file.cpp", r'\{"(\w+)", "(\w+)"\}', "kRenamed{", "};")
+        self.assertGreater(len(plans), 20)
+        self.assertEqual(pairs("tools/view/run/renamed.ts", r'(\w+): "(\w+)"', "kCounters", "};"), plans)
+        self.assertEqual(pairs("tools/report/grove_report/rows.py", r'"(\w+)": "(\w+)"', "RENAMED_COUNTERS = {", "}"), plans)
+
     def test_every_tunable_is_used(self):
         names = re.findall(r"^GROVE_TUNABLE\(\w+, (\w+),",
                            (ROOT / "src/model/tunables.def").read_text(), re.M)
