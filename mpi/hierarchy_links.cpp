@@ -59,8 +59,8 @@ void ParentLink::send(const message::Message& message) {
   transport_.send(to_.rank, message::bytes_of(message, to_.level));
 }
 
-// A surplus is urgent if the number of open nodes has more than doubled since the last report.
-// Otherwise, while few ranks have nodes, the other ranks would wait a report interval per doubling.
+// A surplus is urgent if half of the open nodes, about what the rank can give away, has more than
+// doubled since the last report: while few ranks have nodes, the others wait for it.
 bool ParentLink::is_urgent(const message::Status& status) const {
   const bool has_more = !status.surplus.empty() && status.open / 2 > 2 * (said_.open / 2);
   return has_more || !status.taken.empty() || status.entrusted != said_.entrusted ||

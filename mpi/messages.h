@@ -99,7 +99,7 @@ struct ProcessStatistics {
 };
 
 // To the parent, after Terminate: the final statistics, and how many messages were sent directly to
-// each rank. The sender sends nothing more.
+// each rank. The sender sends nothing more to its parent.
 struct RankFinished {
   RunStatistics survey;
   std::map<std::int32_t, std::int64_t> messages;

@@ -29,7 +29,8 @@ Time last_arrival(const World& world, const Path& path) {
 
 namespace {
 
-// The work that begins with the step that ends at `time`. Returns nullopt if none begins then.
+// The work that begins with the step that ends at `time`, or, for time 0, the work in progress at
+// the start, whose begin is minus the steps that are done. Returns nullopt if there is none.
 // Precondition: the path does not wait between two states of the same work.
 std::optional<WorkTime> work_begun(const Instance& instance, const Path& path, Time time) {
   const World& world = instance.world();

@@ -133,8 +133,8 @@ TEST(PrimalSearch, FailedAgentIsPlannedBeforeItsBlockingAgents) {
   }
 }
 
-// Failed attempts are always continued, and each low-level search soon takes any path instead of a
-// best one.
+// A failed attempt is continued unless the same agent fails again. After one label each low-level
+// search accepts any path.
 TEST(PrimalSearch, EveryPlanIsValidWithMinimalLabelLimits) {
   Tuning tuning;
   tuning.pp_resume_labels = 0;

@@ -43,8 +43,8 @@ FileLock lock_folder(const std::filesystem::path& folder) {
   return lock;
 }
 
-// Whether the file is complete: plans are written without fsync, so a crash of the machine may
-// truncate one.
+// Whether the file is complete: incumbent files are synced to disk only after they are renamed, so
+// a crash of the machine may truncate one.
 bool is_whole(const std::filesystem::path& plan) {
   return read_text(plan).ends_with("}\n");
 }

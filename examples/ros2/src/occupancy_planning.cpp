@@ -6,7 +6,8 @@
 namespace grove_ros2 {
 namespace {
 
-// Transforms a pose from the map's frame to the frame of its origin, and back.
+// Transforms a position between the map's frame and the frame of the map's origin. The yaw is not
+// transformed.
 Pose2d from_origin(const Pose2d& origin, const Pose2d& pose) {
   const double x = pose.x - origin.x;
   const double y = pose.y - origin.y;

@@ -40,8 +40,9 @@ def _ratio(mine, other):
 
 
 def _sure(pairs, median):
-    """Returns whether the median depends on failures. A failed run would have taken longer than the limit, by an
-    unknown amount: the ratio of its pair is larger if the baseline failed, and smaller if the other method did."""
+    """Returns "exactly", "at least", "at most" or "about": how the median depends on failures. A failed run would have
+    taken longer than the limit, by an unknown amount: the ratio of its pair is larger if the baseline failed, and
+    smaller if the other method did."""
     highest = statistics.median(_ratio(*pair) if pair[0].solved else math.inf for pair in pairs)
     lowest = statistics.median(_ratio(*pair) if pair[1].solved else 0 for pair in pairs)
     return {(True, True): "exactly", (True, False): "at least",

@@ -211,7 +211,7 @@ class Driver:
 
     @staticmethod
     async def hold(handle):
-        """Stops the cube; repeats this until it is at rest, because a stop may be lost, too."""
+        """Sends a stop unless the cube is at rest or stopping. Callers repeat this, because messages may be lost."""
         stopping = handle.command is not None and handle.command.kind == "stop"
         if handle.seen_now and not stopping and not handle.at_rest:
             await handle.stop()
