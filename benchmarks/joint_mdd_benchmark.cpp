@@ -26,8 +26,8 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kMostNodes = 20'000;
-constexpr std::size_t kMostPairs = 20'000;
+constexpr std::size_t kMaxNodes = 20'000;
+constexpr std::size_t kMaxPairs = 20'000;
 
 double microseconds_of(const auto& call) {
   const auto begin = std::chrono::steady_clock::now();
@@ -71,7 +71,7 @@ class Agents {
     std::vector<double> times;
     for (Agent& a : agents_)
       times.push_back(microseconds_of([&] {
-        a.outcome = builder_.build(*a.goals, a.constraints, a.cost, kMostNodes, Limits(), a.paths);
+        a.outcome = builder_.build(*a.goals, a.constraints, a.cost, kMaxNodes, Limits(), a.paths);
       }));
     return times;
   }
@@ -83,9 +83,8 @@ class Agents {
       for (std::size_t j = i + 1; j < agents_.size(); ++j) {
         if (agents_[i].paths.empty() || agents_[j].paths.empty()) continue;
         Dependence answer{};
-        times.push_back(microseconds_of([&] {
-          answer = pair_.find(agents_[i].paths, agents_[j].paths, kMostPairs, Limits());
-        }));
+        times.push_back(microseconds_of(
+            [&] { answer = pair_.find(agents_[i].paths, agents_[j].paths, kMaxPairs, Limits()); }));
         ++answers[static_cast<std::size_t>(answer)];
       }
     return times;

@@ -13,13 +13,14 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kPause_s = 1e-3;   // between two sends, at the beginning; see pause_at()
-constexpr double kMostPauses = 10;  // pauses without sending whose bytes may be sent at once
-constexpr std::size_t kMostWaiting = 1000;
+constexpr double kPause_s = 1e-3;       // between two sends, at the beginning; see pause_at()
+constexpr double kMaxBurstPauses = 10;  // pauses without sending whose bytes may be sent at once
+constexpr std::size_t kMaxWaiting = 1000;
 // Bytes. A bound longer than the allowance of one call would block all others.
-constexpr std::size_t kLongest = 1000;
-constexpr double kLeastAtOnce = 16e3;  // bytes that may be saved up, for all log2(ranks) receivers
-constexpr double kFullRate_s = 1;      // after this time the rate falls as 1 / time
+constexpr std::size_t kMaxBoundBytes = 1000;
+constexpr double kMinBurstBytes =
+    16e3;                          // bytes that may be saved up, for all log2(ranks) receivers
+constexpr double kFullRate_s = 1;  // after this time the rate falls as 1 / time
 constexpr std::size_t kBytesOfSize = 1;  // bytes of the length field of a packed bound, about
 
 }  // namespace
@@ -30,7 +31,7 @@ void BoundBroadcast::add(const LearnedBound& fact) {
 
 void BoundBroadcast::add(double utility, std::string fact, int reach) {
   reach = std::min(reach, ranks_);
-  if (reach <= 1 || fact.size() > kLongest) return;
+  if (reach <= 1 || fact.size() > kMaxBoundBytes) return;
   const Piece piece{utility, std::make_shared<const std::string>(std::move(fact))};
   for (int n = reach; n > 1; n = (n + 1) / 2) add(piece, waiting_[n]);
 }
@@ -38,10 +39,10 @@ void BoundBroadcast::add(double utility, std::string fact, int reach) {
 void BoundBroadcast::add(const Piece& piece, Waiting& waiting) {
   waiting.push_back(piece);
   std::push_heap(waiting.begin(), waiting.end());
-  if (waiting.size() <= 2 * kMostWaiting) return;
-  std::nth_element(waiting.begin(), waiting.begin() + kMostWaiting, waiting.end(),
+  if (waiting.size() <= 2 * kMaxWaiting) return;
+  std::nth_element(waiting.begin(), waiting.begin() + kMaxWaiting, waiting.end(),
                    [](const Piece& a, const Piece& b) { return b < a; });
-  waiting.resize(kMostWaiting);
+  waiting.resize(kMaxWaiting);
   std::make_heap(waiting.begin(), waiting.end());
 }
 
@@ -50,7 +51,7 @@ std::vector<BoundBroadcast::OutgoingMessage> BoundBroadcast::due(double now) {
   if (waiting_.empty() || now < next_) return parcels;
   const double pause = pause_at(now, kPause_s);
   const double rate = rate_at(now);
-  const double most = std::max(kMostPauses * pause * rate, kLeastAtOnce);
+  const double most = std::max(kMaxBurstPauses * pause * rate, kMinBurstBytes);
   allowance_ = std::min(allowance_ + (now - last_) * rate, most);
   last_ = now;
   next_ = now + pause;

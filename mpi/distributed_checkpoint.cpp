@@ -28,7 +28,7 @@ namespace grove::detail {
 
 namespace {
 
-constexpr auto kLongestPause = std::chrono::milliseconds(500);
+constexpr auto kMaxPause = std::chrono::milliseconds(500);
 
 }  // namespace
 
@@ -71,7 +71,7 @@ void DistributedCheckpoint::handle(const message::SnapshotTaken& gathered) {
 // Otherwise a rank that has sent its snapshot, or waits for its request, would take rank 0 for
 // unresponsive.
 void DistributedCheckpoint::send_heartbeat() {
-  if (limits_.now() - said_ < kLongestPause) return;
+  if (limits_.now() - said_ < kMaxPause) return;
   children_.broadcast(message::Heartbeat{});
   said_ = limits_.now();
 }

@@ -35,13 +35,13 @@ inline double next_poll(double heard, double time, double max_poll_interval = kM
   return std::max(time, heard + interval);  // rounding must not make it earlier
 }
 
-constexpr double kLongestPause_s = 20e-3;
+constexpr double kMaxPause_s = 20e-3;
 
 // Minimum time between two messages that are not urgent, `time` after the beginning; `pause` is its
 // value at the beginning. All in seconds. Information that is late by a hundredth of the time so
 // far loses little, and each message wakes up its receiver.
 inline double pause_at(double time, double pause) {
-  return std::max(pause, std::min(time / 100, kLongestPause_s));
+  return std::max(pause, std::min(time / 100, kMaxPause_s));
 }
 
 }  // namespace grove::detail

@@ -6,14 +6,14 @@ namespace {
 
 // Bytes. Smaller arrays are not worth sharing: every host has that much memory, and the ranks would
 // only wait for one another.
-constexpr std::size_t kLeastShared = std::size_t{16} << 20;
+constexpr std::size_t kMinShared = std::size_t{16} << 20;
 
 }  // namespace
 
 SharedProblem::Need SharedProblem::need(const Instance& instance) {
   const ArrayLayout layout = array_layout(instance);
   const std::size_t bytes = SharedArrays::bytes(layout);
-  if (bytes < kLeastShared) return {};
+  if (bytes < kMinShared) return {};
   return {bytes, SharedArrays::zero_bytes(layout)};
 }
 

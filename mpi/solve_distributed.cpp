@@ -24,7 +24,7 @@ namespace {
 constexpr double kAccountInterval_s = 2;      // of statistics, which only observers need
 constexpr double kHeartbeatInterval_s = 0.3;  // while all ranks wait for a worker to end
 
-constexpr double kLeastNap_s = 1e-5;  // a shorter sleep would count as the same poll
+constexpr double kMinNap_s = 1e-5;  // a shorter sleep would count as the same poll
 
 void sleep(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
@@ -74,17 +74,17 @@ class Searching {
 };
 
 // Time since the last message. A time in which this process did not run counts at most
-// kMostAtOnce_s: messages that arrived in that time are not received yet.
+// kMaxInterval_s: messages that arrived in that time are not received yet.
 class ReceiveTimeout {
  public:
   void update(double now, bool heard) {
-    seconds_ = heard ? 0 : seconds_ + std::min(now - last_, kMostAtOnce_s);
+    seconds_ = heard ? 0 : seconds_ + std::min(now - last_, kMaxInterval_s);
     last_ = now;
   }
   double seconds() const { return seconds_; }
 
  private:
-  static constexpr double kMostAtOnce_s = 0.1;
+  static constexpr double kMaxInterval_s = 0.1;
 
   double seconds_ = 0;
   double last_ = 0;
@@ -135,7 +135,7 @@ std::optional<Solution> solve_distributed(const Problem& problem, const SolveOpt
           patience));
     const double rested = seconds();
     const double poll_interval = max_poll_interval(member.rank().ended());
-    if (!heard) sleep(next_poll(heard_at, rested + kLeastNap_s, poll_interval) - rested);
+    if (!heard) sleep(next_poll(heard_at, rested + kMinNap_s, poll_interval) - rested);
   }
   if (!member.coordinator()) return std::nullopt;
   if (options.proof != nullptr) member.rank().search().lagrangian().log_proof(*options.proof);

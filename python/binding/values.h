@@ -55,12 +55,12 @@ inline const char* name_of(Heading heading) {
 // Returns a description of a value for error messages: type and shape of an array, otherwise its
 // repr() or, if that is long, its type.
 inline std::string text_of_found(const py::handle& value) {
-  constexpr std::size_t kLongest = 60;
+  constexpr std::size_t kMaxTextLength = 60;
   if (py::hasattr(value, "dtype") && py::hasattr(value, "shape"))
     return "an array of " + std::string(py::str(value.attr("dtype"))) + " of shape " +
            std::string(py::str(value.attr("shape")));
   const std::string text = py::repr(value);
-  if (text.size() <= kLongest) return text;
+  if (text.size() <= kMaxTextLength) return text;
   return "a " + std::string(py::str(py::type::of(value).attr("__name__")));
 }
 

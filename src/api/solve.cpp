@@ -15,7 +15,7 @@
 namespace grove {
 namespace {
 
-constexpr int kMostThreads = 1024;
+constexpr int kMaxThreads = 1024;
 
 detail::Method method_of(const Options& options) {
   const std::optional<detail::Method> method = detail::parse_method(options.method);
@@ -25,9 +25,9 @@ detail::Method method_of(const Options& options) {
 }
 
 void require_numbers(const Options& options) {
-  if (options.threads < 1 || options.threads > kMostThreads)
+  if (options.threads < 1 || options.threads > kMaxThreads)
     throw InvalidArgument(
-        "/threads", fmt::format("found {}; expected from 1 to {}", options.threads, kMostThreads));
+        "/threads", fmt::format("found {}; expected from 1 to {}", options.threads, kMaxThreads));
   if (options.time_limit && !(*options.time_limit >= 0))
     throw InvalidArgument("/time_limit", "expected at least 0 seconds");
   if (!(options.progress_interval >= 0))
@@ -37,7 +37,7 @@ void require_numbers(const Options& options) {
 }  // namespace
 
 int default_threads() {
-  return std::min(detail::usable_cores(), kMostThreads);
+  return std::min(detail::usable_cores(), kMaxThreads);
 }
 
 // Rounded down to units of 10 MB, as the command line shows it.

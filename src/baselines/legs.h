@@ -17,7 +17,7 @@ namespace grove::detail {
 
 // Maximum number of labels: all that a 32-bit number can identify. A search that needs more throws
 // std::bad_alloc, as if memory were refused.
-inline constexpr std::size_t kMostLabels = std::numeric_limits<std::int32_t>::max();
+inline constexpr std::size_t kMaxLabels = std::numeric_limits<std::int32_t>::max();
 
 // Finds the legs of one agent. One thread at a time.
 class Legs {

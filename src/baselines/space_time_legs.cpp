@@ -49,7 +49,7 @@ std::int32_t SpaceTimeLegs::find(Cell from, Time time, Target target, const Limi
   first_ = std::min(time, static_from_);
   const auto rows = static_cast<std::size_t>(static_from_ - first_) + 1;
   const std::size_t needed = rows * static_cast<std::size_t>(world_.place_count());
-  if (needed > kMostLabels) throw std::bad_alloc();
+  if (needed > kMaxLabels) throw std::bad_alloc();
   if (labels_.size() < needed) labels_.resize(needed);
   queue_.reset(time);
   reach(from, time, kNone, target);

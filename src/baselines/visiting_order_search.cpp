@@ -82,7 +82,7 @@ std::int32_t VisitingOrderSearch::row_of(StopSet left) {
   const auto next = static_cast<std::uint32_t>(lefts_.size());
   const std::uint32_t row = rows_.insert(left, next);
   if (row == next) {
-    if (labels_.size() + targets_.size() > kMostLabels) throw std::bad_alloc();
+    if (labels_.size() + targets_.size() > kMaxLabels) throw std::bad_alloc();
     lefts_.push_back(left);
     labels_.resize(labels_.size() + targets_.size());
   }

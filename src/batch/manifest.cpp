@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostAgents = 1'000'000;
+constexpr int kMaxAgents = 1'000'000;
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
@@ -107,10 +107,10 @@ class ManifestReader {
   }
 
   int agent_count(std::string_view text) const {
-    const auto count = parse_number(text, 1, kMostAgents);
+    const auto count = parse_number(text, 1, kMaxAgents);
     if (!count)
       fail(fmt::format("found '{}'; expected a number of agents from 1 to {}", one_line(text),
-                       kMostAgents));
+                       kMaxAgents));
     return *count;
   }
 

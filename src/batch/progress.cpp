@@ -13,7 +13,7 @@ namespace {
 constexpr double kBarInterval_s = 0.2;
 constexpr double kLineInterval_s = 30;
 constexpr int kShortestBar = 10;
-constexpr int kLongestBar = 40;
+constexpr int kMaxBarLength = 40;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ std::string duration_text(double seconds) {
 }
 
 std::string with_bar(const ProgressText& text, int columns) {
-  const int room = std::min(columns - static_cast<int>(text.line.size()) - 3, kLongestBar);
+  const int room = std::min(columns - static_cast<int>(text.line.size()) - 3, kMaxBarLength);
   if (room < kShortestBar)
     return text.line.substr(0, static_cast<std::size_t>(std::max(0, columns)));
   const int filled =

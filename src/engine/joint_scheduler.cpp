@@ -15,11 +15,11 @@ namespace {
 
 constexpr double kMaxLog2States = 44;  // for instances with at most 2^44 joint states
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
 
 std::size_t most_bytes(const Limits& limits) {
   const auto limit = limits.memory_limit();
-  return limit ? std::min(kMostBytes, *limit / 4) : kMostBytes;
+  return limit ? std::min(kMaxBytes, *limit / 4) : kMaxBytes;
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ std::size_t most_bytes(const Limits& limits) {
 JointScheduler::JointScheduler(const Instance& instance, const Tuning& tuning, bool wanted)
     : instance_(instance),
       tuning_(tuning),
-      over_(!wanted || instance.agent_count() > EpeaStar::kMostAgents) {}
+      over_(!wanted || instance.agent_count() > EpeaStar::kMaxAgents) {}
 
 bool JointScheduler::due() const {
   if (over_ || others_ < tuning_.joint_start_work) return false;

@@ -22,7 +22,7 @@ namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kPatienceWithoutPlan = 10;  // factor on lagrangian_start_work without a plan
-constexpr double kMostHere = 4;  // Lagrangian work per unit of other work, on rank 0
+constexpr double kMaxLocalRatio = 4;  // Lagrangian work per unit of other work, on rank 0
 
 }  // namespace
 
@@ -42,7 +42,7 @@ bool LagrangianScheduler::due(bool has_plan) const {
   if (others < begin) return false;
   const double here = static_cast<double>(others);
   return static_cast<double>(own_) <= tuning_.lagrangian_max_share * here * ranks_ &&
-         (ranks_ == 1 || static_cast<double>(own_here_) <= kMostHere * here);
+         (ranks_ == 1 || static_cast<double>(own_here_) <= kMaxLocalRatio * here);
 }
 
 std::optional<LagrangianBound::Job> LagrangianScheduler::next() {

@@ -28,7 +28,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr int kMostTurnsInARound = 4;
+constexpr int kMaxTurnsPerRound = 4;
 constexpr auto kPause = std::chrono::microseconds(100);  // of a worker that must not park
 
 class WorkerPool {
@@ -115,13 +115,13 @@ struct Unit {
   bool is_primal() const { return turn.job == Worker::WorkItem::Job::kPrimal; }
 };
 
-// Chooses a round: up to kMostTurnsInARound items per worker. A worker gets no further item after
+// Chooses a round: up to kMaxTurnsPerRound items per worker. A worker gets no further item after
 // one that does not expand a node. More nodes per round would be a poorer choice of nodes. With
 // fewer, threads would wait for each other.
 std::vector<Unit> choose_round(std::span<const std::unique_ptr<Worker>> workers) {
   std::vector<Unit> units;
   std::vector<bool> continues(workers.size(), true);
-  for (int i = 0; i < kMostTurnsInARound; ++i)
+  for (int i = 0; i < kMaxTurnsPerRound; ++i)
     for (std::size_t w = 0; w < workers.size(); ++w) {
       if (!continues[w]) continue;
       auto turn = workers[w]->choose();

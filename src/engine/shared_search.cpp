@@ -27,10 +27,10 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kMostKnown = std::size_t{1} << 29;  // bytes of cached results
+constexpr std::size_t kMaxCacheBytes = std::size_t{1} << 29;  // bytes of cached results
 
 constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
-constexpr std::size_t kLeast = 64 << 10;  // bytes; smaller budgets gain nothing
+constexpr std::size_t kMinCacheBytes = 64 << 10;  // bytes; smaller budgets gain nothing
 
 // Bytes left below `limit`.
 std::size_t room(std::size_t limit) {
@@ -86,8 +86,8 @@ MemoryBudgets::MemoryBudgets(const Limits& limits, std::size_t most_for_nodes)
 void MemoryBudgets::cut(std::size_t nodes_hold, std::size_t expanders_hold) {
   const std::size_t held =
       std::min(nodes_hold, for_nodes_) + std::min(expanders_hold, for_expanders_);
-  for_nodes_ = std::min(for_nodes_, std::max(kLeast, held / 2));
-  for_expanders_ = std::min(for_expanders_, std::max(kLeast, held / 8 * 3));
+  for_nodes_ = std::min(for_nodes_, std::max(kMinCacheBytes, held / 2));
+  for_expanders_ = std::min(for_expanders_, std::max(kMinCacheBytes, held / 8 * 3));
 }
 
 void MemoryBudgets::memory_returned() {
@@ -109,7 +109,7 @@ SharedSearch::SharedSearch(const SolveOptions& options, const Limits& limits, Lo
       observer_(observer),
       lagrangian_(options.tuning),
       shares_(std::make_unique<MemoryBudgets>(limits, options.node_memory)),
-      most_known_(kMostKnown),
+      max_cache_bytes_(kMaxCacheBytes),
       known_(std::make_shared<SharedCache>()) {}
 
 SharedSearch::~SharedSearch() = default;
@@ -185,8 +185,8 @@ void SharedSearch::keep_within_memory() {
   } else if (pool_.bytes() > shares_->for_nodes()) {
     evict_to(shares_->for_nodes() / 8 * 7);
   }
-  most_known_ = std::min(kMostKnown, shares_->for_expanders());
-  if (known <= most_known_) return;
+  max_cache_bytes_ = std::min(kMaxCacheBytes, shares_->for_expanders());
+  if (known <= max_cache_bytes_) return;
   auto next = std::make_shared<SharedCache>(SharedCache::Successor{});
   const std::lock_guard lock_known(knowing_);  // the old memory is freed after it
   known_.swap(next);
@@ -200,7 +200,7 @@ std::shared_ptr<SharedCache> SharedSearch::memory() const {
 // Remote results may fill half of the cache; the other half is for local ones. A full cache is
 // replaced by an empty one.
 bool SharedSearch::has_room_for_facts() const {
-  return memory()->bytes() < most_known_ / 2;
+  return memory()->bytes() < max_cache_bytes_ / 2;
 }
 
 // The best open node stays. Evicting a leaf frees the ancestors that no other node shares.

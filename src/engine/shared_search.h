@@ -115,7 +115,7 @@ class SharedSearch {
   std::mutex keeping_;  // guards the budgets
   const std::unique_ptr<MemoryBudgets> shares_;
 
-  std::atomic<std::size_t> most_known_;  // max. bytes of cached results
+  std::atomic<std::size_t> max_cache_bytes_;  // max. bytes of cached results
   mutable std::mutex knowing_;
   std::shared_ptr<SharedCache>
       known_;  // under knowing_: GCC 11 has no std::atomic<std::shared_ptr>

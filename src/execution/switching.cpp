@@ -27,7 +27,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr Time kLongest =
+constexpr Time kMaxPatienceFactor =
     64;  // maximum wait, as a multiple of the patience, for a robot that may have failed
 
 // A robot's stay on a place.
@@ -236,7 +236,7 @@ class Switching {
       wait = {};
       return;
     }
-    if (wait.patience >= kLongest * patience_ && !is_anything_to_end()) return;
+    if (wait.patience >= kMaxPatienceFactor * patience_ && !is_anything_to_end()) return;
     wait.patience *= 2;
     wait.until = now_ + wait.patience;
     moments_.push(wait.until);

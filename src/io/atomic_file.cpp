@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kTemporary = ".grove-";
-constexpr auto kLongestPause = std::chrono::hours(1);  // between two writes to a temporary file
+constexpr auto kMaxPause = std::chrono::hours(1);  // between two writes to a temporary file
 
 // The path to write to: `path` with symbolic links resolved. Throws InputError if writing would
 // fail.
@@ -56,12 +56,12 @@ fs::path unused_name(const fs::path& folder) {
 }
 
 // True if the process that made the temporary file was killed: its lock is free. For a file of
-// another host it must also be older than kLongestPause.
+// another host it must also be older than kMaxPause.
 bool is_abandoned(const fs::path& path, int fd) {
   std::error_code error;
   const auto age = fs::file_time_type::clock::now() - fs::last_write_time(path, error);
   const bool is_ours = path.filename().string().ends_with(name_end());
-  return (is_ours || (!error && age > kLongestPause)) && lock(fd) == LockResult::kLocked;
+  return (is_ours || (!error && age > kMaxPause)) && lock(fd) == LockResult::kLocked;
 }
 
 // Removes the temporary files of killed processes in the folder. A process that has created a file

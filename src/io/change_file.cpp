@@ -16,7 +16,7 @@ NewTask read_task(const JsonValue& json, const Instance& instance) {
                                   : read_pose(instance.map(), {}, cell).place;
   task.agents = json.member("agents").texts();
   if (const auto duration = json.find("duration"))
-    task.duration = static_cast<Time>(duration->integer(0, InstanceBuilder::kLongest));
+    task.duration = static_cast<Time>(duration->integer(0, InstanceBuilder::kMaxDuration));
   return task;
 }
 

@@ -20,8 +20,8 @@ namespace {
 
 // The web page that displays executions has the same limits: tools/view/drive/log.ts.
 constexpr const char* kDriveFormat = "grove drive 1";
-constexpr double kFarthest = 1e7;     // cells or metres
-constexpr double kMostSeconds = 1e9;  // seconds
+constexpr double kFarthest = 1e7;    // cells or metres
+constexpr double kMaxSeconds = 1e9;  // seconds
 
 class DriveReader {
  public:
@@ -102,7 +102,7 @@ class DriveReader {
 
   static double seconds(const JsonValue& value, double least) {
     const double number = value.number();
-    if (number < least || number > kMostSeconds)
+    if (number < least || number > kMaxSeconds)
       value.fail_expected(fmt::format("seconds from {} on", least));
     return number;
   }

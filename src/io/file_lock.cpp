@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestHolder = 400;
+constexpr std::size_t kMaxHolderLength = 400;
 
 std::string who_i_am() {
   return fmt::format("process {} on host {}, since {:%F %T} UTC", ::getpid(), host_name(),
@@ -29,7 +29,7 @@ std::string who_i_am() {
 }
 
 std::string holder(const FileDescriptor& file) {
-  char text[kLongestHolder];
+  char text[kMaxHolderLength];
   const ssize_t size = ::pread(file.get(), text, sizeof text, 0);
   return size > 0 ? std::string(text, static_cast<std::size_t>(size)) : "it has just started";
 }
@@ -52,9 +52,9 @@ bool write_holder(const FileDescriptor& file) {
 
 // For example ".grove-plan.json.lock" for "plan.json".
 fs::path lock_file_of(const fs::path& output) {
-  constexpr std::size_t kLongestName = 200;  // file systems allow 255 bytes
+  constexpr std::size_t kMaxNameLength = 200;  // file systems allow 255 bytes
   std::string name = output.filename().string();
-  if (name.size() > kLongestName) name = fmt::format("{:016x}", std::hash<std::string>()(name));
+  if (name.size() > kMaxNameLength) name = fmt::format("{:016x}", std::hash<std::string>()(name));
   return output.parent_path() / fmt::format(".grove-{}.lock", name);
 }
 

@@ -8,7 +8,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kLongest = 400;
+constexpr std::size_t kMaxLineLength = 400;
 
 bool continues(char c) {
   return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
@@ -58,7 +58,7 @@ void fail_to_write(const std::filesystem::path& path, int error) {
 std::string one_line(std::string_view text) {
   std::string line;
   while (!text.empty()) {
-    if (line.size() >= kLongest) return line + "...";
+    if (line.size() >= kMaxLineLength) return line + "...";
     const std::size_t length = printable_length(text);
     line += length > 0 ? std::string(text.substr(0, length)) : escaped(text.front());
     text.remove_prefix(length > 0 ? length : 1);

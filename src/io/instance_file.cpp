@@ -50,7 +50,7 @@ Motion read_motion(const InstanceBuilder& builder, const JsonValue& agent) {
   if (builder.roadmap())
     motion->fail("agents can turn only on grids; expected no such key on a roadmap");
   const auto steps = agent.find("turn_steps");
-  return {steps ? static_cast<Time>(steps->integer(1, InstanceBuilder::kLongest)) : 1};
+  return {steps ? static_cast<Time>(steps->integer(1, InstanceBuilder::kMaxDuration)) : 1};
 }
 
 // Reads a start that may be on a road or within a turn.
@@ -84,7 +84,7 @@ std::optional<WorkBegun> read_working(const JsonValue& agent) {
   if (!working->json().is_object()) working->fail_expected("{\"task\": ID, \"done\": STEPS}");
   return WorkBegun{
       working->member("task").text(),
-      static_cast<Time>(working->member("done").integer(0, InstanceBuilder::kLongest))};
+      static_cast<Time>(working->member("done").integer(0, InstanceBuilder::kMaxDuration))};
 }
 
 void add_agent(InstanceBuilder& builder, const JsonValue& agent) {
@@ -102,7 +102,7 @@ void add_agent(InstanceBuilder& builder, const JsonValue& agent) {
 
 Time read_duration(const JsonValue& task) {
   const auto duration = task.find("duration");
-  return duration ? static_cast<Time>(duration->integer(0, InstanceBuilder::kLongest)) : 0;
+  return duration ? static_cast<Time>(duration->integer(0, InstanceBuilder::kMaxDuration)) : 0;
 }
 
 void add_task(InstanceBuilder& builder, const JsonValue& task) {

@@ -145,11 +145,11 @@ std::string singular(std::string_view key) {
   return text;
 }
 
-constexpr std::size_t kLeastBeginning = 3;  // shorter prefixes are too ambiguous
+constexpr std::size_t kMinPrefixLength = 3;  // shorter prefixes are too ambiguous
 
 // True for a prefix of sufficient length, such as "dur" of "duration".
 bool begins(const std::string& key, std::string_view known) {
-  return key.size() >= kLeastBeginning && folded(known).starts_with(key);
+  return key.size() >= kMinPrefixLength && folded(known).starts_with(key);
 }
 
 bool has_key(const JsonValue& object, const KnownKey& key) {

@@ -43,15 +43,15 @@ void add_steps(std::string& text, const Grid& grid, const Path& path) {
 }
 
 // YAML parsers search for the colon only within this number of characters.
-constexpr std::size_t kLongestKey = 1024;
+constexpr std::size_t kMaxKeyLength = 1024;
 
 std::string key_text(const Instance& instance, AgentIndex agent) {
   std::string key = yaml_text(instance.agent(agent).id);
-  if (key.size() > kLongestKey)
+  if (key.size() > kMaxKeyLength)
     throw NotRepresentable(
         fmt::format("agents/{}", agent),
         fmt::format("the id has {} bytes in YAML, where it is a key; expected at most {}",
-                    key.size(), kLongestKey),
+                    key.size(), kMaxKeyLength),
         Loss::kNothing);
   return key;
 }

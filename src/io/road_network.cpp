@@ -38,11 +38,11 @@ double exact_steps(const RoadNetwork& network, const Link& link, const StepScale
 Rounding rounded_up(const RoadNetwork& network, int index, const StepScale& scale) {
   const Link& link = network.links[index];
   const double exact = exact_steps(network, link, scale);
-  if (!(exact <= Roadmap::kMostPlaces))
+  if (!(exact <= Roadmap::kMaxPlaces))
     throw InputError(
         network.file, link.place,
         fmt::format("this edge takes {:.6g} steps; expected at most {}; use longer steps", exact,
-                    Roadmap::kMostPlaces));
+                    Roadmap::kMaxPlaces));
   const double tidy = without_noise(exact);
   const Time steps = std::max<Time>(1, static_cast<Time>(std::ceil(tidy)));
   return {tidy == steps ? -1 : index, tidy == steps ? tidy : exact, steps};
@@ -52,12 +52,12 @@ void require_room(const RoadNetwork& network, const Link& link, std::int64_t pla
                   const InputRules& rules) {
   require_memory(rules, network.file, link.place, places, "places of the roads up to this one",
                  kBytesPerPlace);
-  if (places > Roadmap::kMostPlaces)
+  if (places > Roadmap::kMaxPlaces)
     throw InputError(
         network.file, link.place,
         fmt::format(
             "the roads up to this one have more than {} places; expected fewer; use longer steps",
-            Roadmap::kMostPlaces));
+            Roadmap::kMaxPlaces));
 }
 
 // The one-way roads, grouped by their pair of vertices. In each group first one direction, then the

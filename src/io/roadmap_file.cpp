@@ -49,7 +49,7 @@ Time read_steps(const JsonValue& value) {
     value.fail_expected(
         "a whole number of steps, at least 1; 'grove convert --metres-per-step' converts lengths "
         "in GraphML or LIF to steps, rounded up");
-  return static_cast<Time>(value.integer(1, Roadmap::kMostPlaces));
+  return static_cast<Time>(value.integer(1, Roadmap::kMaxPlaces));
 }
 
 std::vector<Road> read_roads(const JsonValue& list, const Numbers& numbers, std::int64_t places,
@@ -63,9 +63,9 @@ std::vector<Road> read_roads(const JsonValue& list, const Numbers& numbers, std:
       edge.fail("from and to are the same vertex; expected two different ones");
     if (const auto one_way = edge.find("one_way")) road.one_way = one_way->boolean();
     places += road.steps - 1;
-    if (places > Roadmap::kMostPlaces)
+    if (places > Roadmap::kMaxPlaces)
       edge.fail(fmt::format("the roads up to this one have more than {} places; expected fewer",
-                            Roadmap::kMostPlaces));
+                            Roadmap::kMaxPlaces));
     require_memory(rules, file, edge.path(), places, "places of the roads up to this one",
                    kBytesPerPlace);
     roads.push_back(road);

@@ -22,9 +22,9 @@ enum class SolverInput : std::uint8_t {
 };
 
 // A pattern for a line with a result. The last line in which the expression is found counts. (Of a
-// line longer than kLongestLine only the beginning is searched: such a line is a path and not a
+// line longer than kMaxLineLength only the beginning is searched: such a line is a path and not a
 // claim, and libstdc++'s regular expressions are recursive.)
-inline constexpr std::size_t kLongestLine = 4096;
+inline constexpr std::size_t kMaxLineLength = 4096;
 struct LinePattern {
   std::string file;   // a template; empty: the standard output of the program
   std::string regex;  // ECMAScript

@@ -8,9 +8,9 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kMostEdits = 2;
+constexpr std::size_t kMaxEdits = 2;
 constexpr std::size_t kLettersPerEdit = 3;
-constexpr std::size_t kLongestWord = 64;  // longer words are not similar to any known word
+constexpr std::size_t kMaxWordLength = 64;  // longer words are not similar to any known word
 
 }  // namespace
 
@@ -35,12 +35,12 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
 
 std::optional<std::string_view> nearest_word(std::string_view word,
                                              const std::vector<std::string_view>& known) {
-  if (word.size() > kLongestWord) return std::nullopt;
+  if (word.size() > kMaxWordLength) return std::nullopt;
   std::optional<std::string_view> nearest;
-  std::size_t least = kMostEdits + 1;
+  std::size_t least = kMaxEdits + 1;
   for (const std::string_view other : known) {
     const std::size_t allowed =
-        std::min(kMostEdits, std::min(word.size(), other.size()) / kLettersPerEdit);
+        std::min(kMaxEdits, std::min(word.size(), other.size()) / kLettersPerEdit);
     const std::size_t edits = edit_distance(word, other);
     if (edits > allowed || edits >= least) continue;
     nearest = other;

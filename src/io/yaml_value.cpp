@@ -127,8 +127,8 @@ std::string YamlValue::text() const {
 
 Position YamlValue::position() const {
   if (!node_.IsSequence() || node_.size() != 2) fail_expected("a cell [x, y]");
-  constexpr int kMost = std::numeric_limits<int>::max();
-  return {element(0).integer(0, kMost), element(1).integer(0, kMost)};
+  constexpr int kMaxInt = std::numeric_limits<int>::max();
+  return {element(0).integer(0, kMaxInt), element(1).integer(0, kMaxInt)};
 }
 
 YamlDocument::YamlDocument(const std::filesystem::path& path, const InputRules& rules)

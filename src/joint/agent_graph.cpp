@@ -152,7 +152,7 @@ class AgentGraphMaker {
 
 std::optional<AgentGraph> AgentGraph::make(const Instance& instance, AgentIndex agent,
                                            std::size_t most_nodes) {
-  return AgentGraphMaker(instance, agent).make(std::min(most_nodes, kMostNodes));
+  return AgentGraphMaker(instance, agent).make(std::min(most_nodes, kMaxNodes));
 }
 
 }  // namespace grove::detail

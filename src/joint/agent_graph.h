@@ -21,7 +21,7 @@ namespace grove::detail {
 class AgentGraph {
  public:
   using Node = std::uint16_t;
-  static constexpr std::size_t kMostNodes = 1 << 12;  // more nodes: the instance is not small
+  static constexpr std::size_t kMaxNodes = 1 << 12;  // more nodes: the instance is not small
 
   struct Move {
     Node to;
@@ -30,7 +30,7 @@ class AgentGraph {
 
   // Returns nullopt if more than `most_nodes` nodes are reachable.
   static std::optional<AgentGraph> make(const Instance& instance, AgentIndex agent,
-                                        std::size_t most_nodes = kMostNodes);
+                                        std::size_t most_nodes = kMaxNodes);
 
   AgentIndex agent() const { return agent_; }
   // 0 if the agent cannot complete its stops even without other agents.

@@ -7,17 +7,17 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kMostEntries = std::size_t{1}
-                                     << 18;         // entries of a database made before the search
-constexpr std::int64_t kMostTableWork = 4'000'000;  // of these together; see search/work.h
-constexpr std::size_t kMostLateEntries = std::size_t{1} << 21;
-constexpr std::size_t kMostGroupedLate = 6;
+constexpr std::size_t kMaxEntries = std::size_t{1}
+                                    << 18;         // entries of a database made before the search
+constexpr std::int64_t kMaxTableWork = 4'000'000;  // of these together; see search/work.h
+constexpr std::size_t kMaxLateEntries = std::size_t{1} << 21;
+constexpr std::size_t kMaxGroupedLate = 6;
 
 }  // namespace
 
 void DatabaseGroups::plan() {
   const std::size_t size = agents_.size();
-  if (size < 3 || size > kMostGrouped) return;
+  if (size < 3 || size > kMaxGrouped) return;
   for (std::size_t a = 0; a < size; ++a)
     for (std::size_t b = a + 1; b < size; ++b) plan({a, b});
   for (std::size_t a = 0; a < size && size > 3; ++a)
@@ -28,10 +28,10 @@ void DatabaseGroups::plan() {
 
 void DatabaseGroups::plan(Members members) {
   const std::size_t entries = PatternDatabase::entries(agents_, members);
-  if (entries <= kMostEntries && planned_work_ + work_of(members) <= kMostTableWork) {
+  if (entries <= kMaxEntries && planned_work_ + work_of(members) <= kMaxTableWork) {
     planned_work_ += work_of(members);
     to_come_.push_back(std::move(members));
-  } else if (entries <= kMostLateEntries && agents_.size() <= kMostGroupedLate) {
+  } else if (entries <= kMaxLateEntries && agents_.size() <= kMaxGroupedLate) {
     late_.push_back(std::move(members));
   }
 }

@@ -48,10 +48,10 @@ class DatabaseGroups {
   std::int64_t work() const { return work_; }
 
  private:
-  static constexpr std::size_t kMostGrouped =
+  static constexpr std::size_t kMaxGrouped =
       8;  // agents; with more, finding the best grouping takes too long
   // Databases of disjoint groups, by number; unused entries hold count().
-  using Grouping = std::array<std::uint8_t, kMostGrouped / 2>;
+  using Grouping = std::array<std::uint8_t, kMaxGrouped / 2>;
   using Members = std::vector<std::size_t>;  // positions in agents_
 
   void plan(Members members);

@@ -360,7 +360,7 @@ EpeaStar::~EpeaStar() = default;
 std::unique_ptr<EpeaStar> EpeaStar::make(const Instance& instance, double most_bits,
                                          std::size_t most_bytes) try {
   const double states_bits = std::log2(instance.world().state_count());
-  if (instance.agent_count() > kMostAgents || instance.agent_count() * states_bits > most_bits)
+  if (instance.agent_count() > kMaxAgents || instance.agent_count() * states_bits > most_bits)
     return nullptr;
   std::vector<AgentGraph> agents;
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {

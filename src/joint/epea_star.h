@@ -20,14 +20,14 @@ namespace grove::detail {
 // plans. One thread at a time.
 class EpeaStar {
  public:
-  static constexpr int kMostAgents = 16;
+  static constexpr int kMaxAgents = 16;
 
-  // Returns nullptr if there are more than kMostAgents agents or more than 2^`most_bits` joint
+  // Returns nullptr if there are more than kMaxAgents agents or more than 2^`most_bits` joint
   // states, blocked cells included, or if there is no memory to begin with. `instance` must outlive
   // it. `most_bytes`: its memory limit.
   static std::unique_ptr<EpeaStar> make(const Instance& instance, double most_bits,
                                         std::size_t most_bytes);
-  // Searches the agents of these graphs: at least 1 and at most kMostAgents. `least` is a known
+  // Searches the agents of these graphs: at least 1 and at most kMaxAgents. `least` is a known
   // lower bound on their cost.
   EpeaStar(const Instance& instance, std::vector<AgentGraph> agents, std::size_t most_bytes,
            Cost least = 0);

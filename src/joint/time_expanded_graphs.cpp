@@ -23,7 +23,7 @@ namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kExpansionsPerPoll = 512;
-constexpr std::size_t kMostNumbers = std::numeric_limits<AgentGraph::Node>::max();
+constexpr std::size_t kMaxNumbers = std::numeric_limits<AgentGraph::Node>::max();
 
 }  // namespace
 
@@ -45,7 +45,7 @@ TimeExpandedGraphs::Outcome TimeExpandedGraphs::make(SequenceStages& goals,
   goals_ = &goals;
   most_cost_ = most_cost;
   // One number for each node and each state to rest in; there are at most as many of the latter.
-  most_nodes = std::min(most_nodes, kMostNumbers / 2);
+  most_nodes = std::min(most_nodes, kMaxNumbers / 2);
   start();
   for (Index node = 0; node < std::ssize(nodes_); ++node, ++looked_at_) {
     if (nodes_.size() > most_nodes) return Outcome::kTooLarge;

@@ -34,13 +34,13 @@
 namespace grove::detail {
 namespace {
 
-constexpr int kMostStops = 10;
-constexpr std::size_t kMostMarkBytes = std::size_t{1} << 26;  // marks of one agent's search
+constexpr int kMaxStops = 10;
+constexpr std::size_t kMaxMarkBytes = std::size_t{1} << 26;  // marks of one agent's search
 constexpr std::size_t kBytesOfMark = 16;
 constexpr std::int64_t kFirstLabels = 2000;  // expected labels of an agent before its first job
 constexpr std::int64_t kStepsPerWork = 32;   // path steps counted per unit of work
 constexpr int kRoundsPerList = 4;            // rounds so far per round until the next dual solution
-constexpr double kLeastWay = 0.02 * Penalties::kUnit;  // shorter ways gain nothing
+constexpr double kMinDistance = 0.02 * Penalties::kUnit;  // shorter ways gain nothing
 
 }  // namespace
 
@@ -50,8 +50,8 @@ std::unique_ptr<LagrangianBound> LagrangianBound::make(const Instance& instance,
   const auto states = static_cast<std::size_t>(instance.world().state_count());
   for (const Agent& agent : instance.agents()) {
     const std::size_t stops_of_agent = agent.stops.size();
-    if (stops_of_agent > kMostStops) return nullptr;
-    if ((states << stops_of_agent) * kBytesOfMark > kMostMarkBytes) return nullptr;
+    if (stops_of_agent > kMaxStops) return nullptr;
+    if ((states << stops_of_agent) * kBytesOfMark > kMaxMarkBytes) return nullptr;
   }
   return std::unique_ptr<LagrangianBound>(new LagrangianBound(instance, stops, tuning));
 }
@@ -317,7 +317,7 @@ void LagrangianBound::move_multipliers(Cost cutoff, Cost known) {
   const double hoped = static_cast<double>(best_) + ascent_.way();
   const bool is_futile = rounds_ > tuning_.lagrangian_min_rounds &&
                          hoped < static_cast<double>(known) * Penalties::kUnit;
-  const bool is_over = squares <= 0 || ascent_.way() < kLeastWay || is_futile;
+  const bool is_over = squares <= 0 || ascent_.way() < kMinDistance || is_futile;
   phase_ = is_over ? Phase::kEnded : Phase::kPricing;
   begin_pricing();
 }

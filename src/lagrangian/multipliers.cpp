@@ -10,7 +10,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr Time kMostTime = 1 << 24;  // limit of the times of a row; real ones are far below
+constexpr Time kMaxTime = 1 << 24;  // limit of the times of a row; real ones are far below
 
 // As in SplitMix64.
 std::uint64_t mix(std::uint64_t x) {
@@ -138,7 +138,7 @@ void Multipliers::learn(const MultiplierUpdate& news) {
     const std::int64_t more = unfolded(read(news.charges, at));
     if (id >= rows_.size()) throw std::invalid_argument("multipliers: unknown row");
     const std::int64_t charge = multipliers_[id] + more;
-    if (charge < 0 || charge > PenalizedSearch::kMostPrice)
+    if (charge < 0 || charge > PenalizedSearch::kMaxPenaltyCost)
       throw std::invalid_argument("multiplier out of range");
     set_multiplier(static_cast<RowId>(id), static_cast<Amount>(charge));
   }
@@ -151,7 +151,7 @@ bool Multipliers::is_possible(const RelaxedRow& row) const {
   const auto is_place = [&](std::int32_t place) {
     return place >= 0 && place < world_.place_count();
   };
-  const auto is_time = [](Time time) { return time >= 0 && time < kMostTime; };
+  const auto is_time = [](Time time) { return time >= 0 && time < kMaxTime; };
   if (!is_time(row.time) || !is_time(row.time_b)) return false;
   switch (row.kind) {
     case RelaxedRow::Kind::kPlace:

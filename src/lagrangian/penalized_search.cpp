@@ -32,8 +32,8 @@ ScaledCost PenalizedSearch::search(SequenceStages& goals, std::span<const Amount
                                    Path* path) {
   goals_ = &goals;
   on_finish_ = on_finish;
-  below_ =
-      std::min({below, kMostPrice, ScaledCost{goals.cost_to_go().beyond()} * Penalties::kUnit});
+  below_ = std::min(
+      {below, kMaxPenaltyCost, ScaledCost{goals.cost_to_go().beyond()} * Penalties::kUnit});
   best_.reset();
   labels_.clear();
   rests_.clear();
@@ -170,7 +170,7 @@ PenalizedSearch::Amount PenalizedSearch::rest_from(Place place, Time time) {
     std::vector<Amount> from(static_cast<std::size_t>(std::max(penalties_.end(), 1)));
     for (Time t = penalties_.end() - 1; t > 0; --t)
       from[t - 1] = std::min<Amount>(from[t] + penalties_.of(t, penalties_.staying(place)),
-                                     static_cast<Amount>(kMostPrice));
+                                     static_cast<Amount>(kMaxPenaltyCost));
     rests_.emplace_back(place, std::move(from));
     rests = &rests_.back().second;
   }

@@ -26,7 +26,7 @@ constexpr ScaledCost kNoCost = -1;  // no cost is known
 // finish time. One thread at a time; reuse it, because it holds the workspace.
 class PenalizedSearch {
  public:
-  static constexpr ScaledCost kMostPrice = ScaledCost{1} << 30;
+  static constexpr ScaledCost kMaxPenaltyCost = ScaledCost{1} << 30;
 
   // `penalties` must outlive this, and may change between searches.
   explicit PenalizedSearch(const Penalties& penalties);
@@ -35,7 +35,7 @@ class PenalizedSearch {
   // the penalty by finish time, 0 beyond its end. If the search ends within the label limit and
   // `limits`, and finds a path below the cutoff, the bound is exact and `*path` (unless `path` is
   // nullptr) becomes such a path; else it is unchanged. The cutoff is the least of `below`,
-  // kMostPrice, and beyond() of the costs to go.
+  // kMaxPenaltyCost, and beyond() of the costs to go.
   ScaledCost search(SequenceStages& goals, std::span<const Penalties::Amount> on_finish,
                     ScaledCost below, std::int64_t label_limit, const Limits& limits, Path* path);
 

@@ -59,14 +59,14 @@ class Penalties {
     return layer;
   }
   Amount of(Time arrival, Arc arc) const { return at(arrival)[arc]; }
-  // Adds to a penalty. Throws std::overflow_error if the penalty would exceed kMost.
+  // Adds to a penalty. Throws std::overflow_error if the penalty would exceed kMaxPenalty.
   void add(Time arrival, Arc arc, Amount amount);
   // There are no penalties at this time or later.
   Time end() const { return static_cast<Time>(pages_of_time_.size()); }
 
  private:
   static constexpr std::size_t kOnPage = 64;
-  static constexpr Amount kMost = 1 << 28;
+  static constexpr Amount kMaxPenalty = 1 << 28;
 
   const World& world_;
   const State* first_move_;  // the moves of state 0, which are the first of all

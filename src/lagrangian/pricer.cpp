@@ -9,7 +9,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::int64_t kMostLabels = std::int64_t{1} << 23;
+constexpr std::int64_t kMaxLabels = std::int64_t{1} << 23;
 
 }  // namespace
 
@@ -38,9 +38,9 @@ ScaledCost Pricer::first_price(AgentIndex agent, const Limits& limits, Path& pat
   const ScaledCost least = ScaledCost{least_cost(goals(agent), limits)} * Penalties::kUnit;
   ScaledCost price = 0;
   for (ScaledCost more = Penalties::kUnit; path.empty(); more *= 4) {
-    const ScaledCost below = std::min(least + more, PenalizedSearch::kMostPrice);
+    const ScaledCost below = std::min(least + more, PenalizedSearch::kMaxPenaltyCost);
     price = price_below(below, agent, limits, path);
-    if (price < below || below == PenalizedSearch::kMostPrice) break;
+    if (price < below || below == PenalizedSearch::kMaxPenaltyCost) break;
   }
   return price;
 }
@@ -51,7 +51,7 @@ ScaledCost Pricer::price_below(ScaledCost below, AgentIndex agent, const Limits&
   CostToGo& cost_to_go = goals.cost_to_go();
   if (ScaledCost{cost_to_go.beyond()} * Penalties::kUnit < below)
     cost_to_go.widen(static_cast<Time>(below / Penalties::kUnit), limits);
-  return search_.search(goals, multipliers_.on_finish(agent), below, kMostLabels, limits, &path);
+  return search_.search(goals, multipliers_.on_finish(agent), below, kMaxLabels, limits, &path);
 }
 
 }  // namespace grove::detail

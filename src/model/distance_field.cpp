@@ -13,7 +13,7 @@ namespace {
 // With fewer states in total, starting a thread costs more than it saves.
 constexpr std::size_t kStatesForThreads = std::size_t{1} << 20;
 // Worlds with more states have no fields of ports.
-constexpr State kMostStatesWithPorts = 1 << 16;
+constexpr State kMaxStatesWithPorts = 1 << 16;
 
 std::vector<State> states_on(const World& world, Place place) {
   std::vector<State> states;
@@ -30,7 +30,7 @@ class Targets {
                                                            : add(instance.states_visiting(task)));
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
       of_agents.push_back(to_rest(agent));
-    if (instance.world().kind_count() > 1 && instance.world().state_count() <= kMostStatesWithPorts)
+    if (instance.world().kind_count() > 1 && instance.world().state_count() <= kMaxStatesWithPorts)
       add_ports();
   }
 

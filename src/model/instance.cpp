@@ -175,9 +175,9 @@ TaskIndex InstanceBuilder::add_task(std::string id, Place place,
   require_new_id(id, !task_by_id_.contains(id));
   if (instance_.is_on_grid()) passable_cell("cell", instance_.grid().position(place));
   Task task{std::move(id), place, {}, duration};
-  if (duration < 0 || duration > kLongest)
+  if (duration < 0 || duration > kMaxDuration)
     throw InstanceError("duration",
-                        fmt::format("found {} steps; expected 0 to {}", duration, kLongest));
+                        fmt::format("found {} steps; expected 0 to {}", duration, kMaxDuration));
   if (agent_ids.empty()) throw InstanceError("agents", "expected at least one agent");
 
   for (std::size_t k = 0; k < agent_ids.size(); ++k) {

@@ -185,7 +185,7 @@ class InstanceBuilder {
                      Time duration = 0);
 
   // The maximum duration of a task or a quarter turn, in steps.
-  static constexpr Time kLongest = 1 << 16;
+  static constexpr Time kMaxDuration = 1 << 16;
 
   // Throws InstanceError. Field "agents" or "agents/<i>/working/...": there are no agents, or an
   // agent is at work on a task that is not its own, is not on its start, or is complete. Field

@@ -137,8 +137,8 @@ MotionWorld::Parts MotionWorld::parts(const Map& map, std::span<const Motion> mo
   std::int64_t count = count_bases(places, motions);
   const std::int64_t bases = count;
   for (const Job& job : jobs) count += job.duration + 1;
-  if (count > kMostStates)
-    throw std::invalid_argument(fmt::format("a world has at most {} states", kMostStates));
+  if (count > kMaxStates)
+    throw std::invalid_argument(fmt::format("a world has at most {} states", kMaxStates));
 
   Parts parts;
   parts.kinds.push_back({});

@@ -84,7 +84,7 @@ class MotionWorld : public World {
 
   // The maximum number of states. States are 32-bit numbers, and there are tables with several
   // numbers for each state.
-  static constexpr std::int64_t kMostStates = std::int64_t{1} << 28;
+  static constexpr std::int64_t kMaxStates = std::int64_t{1} << 28;
 
  private:
   struct Parts;

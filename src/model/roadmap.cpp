@@ -18,9 +18,9 @@ void require_roads_between(const std::vector<Road>& roads, std::size_t vertices)
       throw std::invalid_argument(
           "a road must join two different vertices and take at least one step");
     places += road.steps - 1;
-    if (places > Roadmap::kMostPlaces)
+    if (places > Roadmap::kMaxPlaces)
       throw std::invalid_argument(
-          fmt::format("a roadmap has at most {} places", Roadmap::kMostPlaces));
+          fmt::format("a roadmap has at most {} places", Roadmap::kMaxPlaces));
   }
 }
 

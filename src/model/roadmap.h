@@ -47,10 +47,10 @@ class Roadmap : public World {
   };
 
   // Throws std::invalid_argument if there is no vertex, a road has less than one step or an unknown
-  // vertex, an id is empty or repeated, or there are more than kMostPlaces places.
+  // vertex, an id is empty or repeated, or there are more than kMaxPlaces places.
   Roadmap(std::vector<Vertex> vertices, std::vector<Road> roads);
 
-  static constexpr Place kMostPlaces = 1 << 26;
+  static constexpr Place kMaxPlaces = 1 << 26;
 
   const std::vector<Vertex>& vertices() const { return vertices_; }
   const std::vector<Road>& roads() const { return roads_; }

@@ -27,10 +27,10 @@ class BasicBucketQueue {
   struct Entry {
     std::int32_t slot = 0;
     Time time = 0;
-    std::uint16_t conflicts = 0;  // at most kMostConflicts
+    std::uint16_t conflicts = 0;  // at most kMaxConflicts
     Progress progress = 0;
   };
-  static constexpr std::uint16_t kMostConflicts = 1023;
+  static constexpr std::uint16_t kMaxConflicts = 1023;
 
   BasicBucketQueue() {
     current_.fill(kNone);
@@ -70,8 +70,8 @@ class BasicBucketQueue {
   Time window_used_ = 0;  // lists of window_ from here on are empty
   int level_ = 0;         // lists of current_ before this one are empty
   int levels_used_ = 0;   // and those from here on
-  std::array<std::int32_t, kMostConflicts + 1> current_;  // heads by conflicts
-  std::array<std::int32_t, kWindow> window_;              // heads by layer - window_begin_
+  std::array<std::int32_t, kMaxConflicts + 1> current_;  // heads by conflicts
+  std::array<std::int32_t, kWindow> window_;             // heads by layer - window_begin_
   std::int32_t beyond_ = kNone;
   std::vector<Node> pool_;
 };
@@ -92,7 +92,7 @@ inline void BasicBucketQueue<Progress>::reset(Time first) {
 template <class Progress>
 inline void BasicBucketQueue<Progress>::push(Time layer, const Entry& entry) {
   GROVE_ASSERT(layer >= layer_, "layers never grow smaller");
-  GROVE_ASSERT(entry.conflicts <= kMostConflicts, "conflicts are counted up to a limit");
+  GROVE_ASSERT(entry.conflicts <= kMaxConflicts, "conflicts are counted up to a limit");
   pool_.push_back({entry, layer, kNone});
   place(static_cast<std::int32_t>(pool_.size() - 1));
 }

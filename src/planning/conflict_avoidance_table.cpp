@@ -10,7 +10,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::int64_t kMostWaitConflicts = 1 << 20;
+constexpr std::int64_t kMaxWaitConflicts = 1 << 20;
 constexpr int kFirstBits = 10;
 constexpr std::size_t kSparsity = 4;  // slots per key
 
@@ -134,7 +134,7 @@ int ConflictAvoidanceTable::conflicts_of_waiting(Place place, Time first, Time l
   if (last > first_rest_[place])
     for (const Rest& rest : rests_)
       if (rest.place == place) count += std::max(0, last - std::max(first - 1, rest.since));
-  return static_cast<int>(std::min(count, kMostWaitConflicts));
+  return static_cast<int>(std::min(count, kMaxWaitConflicts));
 }
 
 int ConflictAvoidanceTable::conflicts_of_resting(Place place, Time time) const {

@@ -46,7 +46,7 @@ namespace grove::detail {
 class FixedOrderGoals {
  public:
   using Progress = std::uint8_t;
-  static constexpr int kMostGoals = 255;
+  static constexpr int kMaxGoals = 255;
 
   // `goals` must outlive the search and have at most 255 goals. Returns false if a quick test
   // proves that there is no path.

@@ -37,8 +37,8 @@ class LabelPlanes {
       const std::size_t tight =
           static_cast<std::size_t>(slots) + static_cast<std::size_t>(slots) / 8 + kSpare;
       capacity_ = std::max(tight, capacity_ + capacity_ / 2);
-      planes_per_piece_ = std::clamp<std::size_t>(kPieceBytes / (capacity_ * sizeof(Label)), 1,
-                                                  kMostPlanesPerPiece);
+      planes_per_piece_ =
+          std::clamp<std::size_t>(kPieceBytes / (capacity_ * sizeof(Label)), 1, kMaxPlanesPerPiece);
     }
     if (++stamp_ == 0) {
       release_memory();
@@ -82,7 +82,7 @@ class LabelPlanes {
   // Memory is allocated in pieces of one or more planes, with mmap, because the allocator would
   // clear memory that it has used before.
   static constexpr std::size_t kPieceBytes = std::size_t{16} << 20;
-  static constexpr std::size_t kMostPlanesPerPiece = 16;
+  static constexpr std::size_t kMaxPlanesPerPiece = 16;
   // If searches have touched more groups than this, the memory is released. A label that is the
   // only one on its page costs two hundred times its size.
   static constexpr std::int64_t kGroupsKept = (std::int64_t{128} << 20) / 4096;

@@ -232,7 +232,7 @@ std::uint16_t SafeIntervalSearch<Goals>::conflicts_on_arrival(const Entry& from,
   int count = from.conflicts + others_->conflicts(from_place, place, time);
   if (time > from.time + 1)
     count += others_->conflicts_of_waiting(from_place, from.time + 1, time - 1);
-  return static_cast<std::uint16_t>(std::min<int>(count, Queue::kMostConflicts));
+  return static_cast<std::uint16_t>(std::min<int>(count, Queue::kMaxConflicts));
 }
 
 template <class Goals>

@@ -70,12 +70,11 @@ void SingleStopBound::reach(int slot, State state, Time time, bool visited) {
   earliest = time;
   const Time to_go = this->to_go(state, visited);
   if (to_go >= kNever) return;
-  queue_.push(
-      std::max(least_, time + to_go),
-      {.slot = slot,
-       .time = time,
-       .conflicts = static_cast<std::uint16_t>(std::min<Time>(to_go, Queue::kMostConflicts)),
-       .progress = static_cast<std::uint8_t>(visited)});
+  queue_.push(std::max(least_, time + to_go),
+              {.slot = slot,
+               .time = time,
+               .conflicts = static_cast<std::uint16_t>(std::min<Time>(to_go, Queue::kMaxConflicts)),
+               .progress = static_cast<std::uint8_t>(visited)});
 }
 
 }  // namespace grove::detail

@@ -59,7 +59,7 @@ constexpr int kRepairExplorationPeriod = 10;
 // Failed iterations per agent before worse plans are accepted.
 constexpr std::int64_t kRecordDeviationStart = 1;
 
-constexpr std::int64_t kMostFirstLabels = std::int64_t{1} << 40;
+constexpr std::int64_t kMaxFirstLabels = std::int64_t{1} << 40;
 
 }  // namespace
 
@@ -131,7 +131,7 @@ bool LargeNeighborhoodSearch::find(AgentIndex agent, Cost cutoff, RepairOperator
       .known_sequences = true};
   const std::int64_t before = low_level_.expanded();
   if (low_level_.find(agent, query, limits, path_) != PathOutcome::kFound) {
-    if (repair.found <= 0 && repair.first_labels < kMostFirstLabels) repair.first_labels *= 2;
+    if (repair.found <= 0 && repair.first_labels < kMaxFirstLabels) repair.first_labels *= 2;
     return false;
   }
   if (repair.priced)

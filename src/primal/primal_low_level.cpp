@@ -11,7 +11,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::int64_t kMostPricedLabels = 1 << 18;
+constexpr std::int64_t kMaxPricedLabels = 1 << 18;
 
 }  // namespace
 
@@ -73,7 +73,7 @@ void PrimalLowLevel::improve(AgentIndex agent, const ReservationTable& others, T
                              const Limits& limits, Path& path) {
   const Multipliers& multipliers = prices_->multipliers;
   priced_->improve(goals(agent), multipliers.on_finish(agent), others, latest,
-                   multipliers.price(agent, path), kMostPricedLabels, limits, path);
+                   multipliers.price(agent, path), kMaxPricedLabels, limits, path);
 }
 
 Plan PrimalLowLevel::plan(const std::vector<Path>& paths) {

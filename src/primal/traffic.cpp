@@ -49,7 +49,8 @@ void Traffic::update_edge_costs() {
       const double congestion_cost = (tuning_.vertex_congestion_weight * there_[place] +
                                       tuning_.contraflow_weight * moving_[back]) /
                                      usual_;
-      edge_cost_[back] = static_cast<Time>(kStep * (1 + std::min(congestion_cost, kMostDearness)));
+      edge_cost_[back] =
+          static_cast<Time>(kStep * (1 + std::min(congestion_cost, kMaxCongestionCost)));
     }
 }
 

@@ -36,9 +36,9 @@ class Traffic {
  private:
   using Move = std::size_t;         // index of a move between places, grouped by its origin
   static constexpr Time kStep = 8;  // cost of a step without traffic
-  static constexpr double kMostDearness = 60;
+  static constexpr double kMaxCongestionCost = 60;
   static constexpr std::size_t kBuckets = 512;  // more than any edge cost
-  static_assert(kStep * (1 + kMostDearness) < kBuckets);
+  static_assert(kStep * (1 + kMaxCongestionCost) < kBuckets);
 
   Move move(Place from, Place to) const;
   template <class Visit>

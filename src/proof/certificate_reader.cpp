@@ -17,7 +17,7 @@ namespace grove::detail {
 namespace {
 
 constexpr std::uint64_t kTimes = std::uint64_t{1} << 31;
-constexpr std::uint64_t kMostAgents = std::uint64_t{1} << 20;  // if there is no instance
+constexpr std::uint64_t kMaxAgents = std::uint64_t{1} << 20;  // if there is no instance
 constexpr std::string_view kDigits = "0123456789abcdef";
 constexpr std::size_t kSumDigits = 16;
 
@@ -28,7 +28,7 @@ class Reader {
         lines_(std::move(bytes)),
         instance_(instance),
         visitor_(visitor),
-        agents_(instance ? static_cast<std::uint64_t>(instance->agent_count()) : kMostAgents),
+        agents_(instance ? static_cast<std::uint64_t>(instance->agent_count()) : kMaxAgents),
         places_(instance ? static_cast<std::uint64_t>(instance->world().place_count()) : kTimes),
         tasks_(instance ? static_cast<std::uint64_t>(instance->task_count()) : kTimes) {}
 
@@ -62,7 +62,7 @@ class Reader {
       case LineStream::Next::kEndless:
         fail("the file ends within it", "a line, ended by LF");
       case LineStream::Next::kTooLong:
-        fail("it is too long", fmt::format("at most {} bytes", LineStream::kLongest));
+        fail("it is too long", fmt::format("at most {} bytes", LineStream::kMaxLineLength));
     }
     words_ = lines_.line();
     visitor_.line(lines_.line());

@@ -13,7 +13,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 24;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 24;
 
 std::string text_of(const std::filesystem::path& path) {
   CertificateBytes bytes(path);
@@ -21,11 +21,11 @@ std::string text_of(const std::filesystem::path& path) {
   char block[1 << 16];
   while (const std::size_t count = bytes.read(block, sizeof block)) {
     text.append(block, count);
-    if (text.size() > kMostBytes)
+    if (text.size() > kMaxBytes)
       throw InputError(path.string(), "",
                        fmt::format("is too large to be shown; expected a certificate of at "
                                    "most {} bytes, uncompressed",
-                                   kMostBytes));
+                                   kMaxBytes));
   }
   return text;
 }

@@ -22,7 +22,7 @@ namespace {
 
 // If a leaf names more lemmas than this, all are assumed to be needed, because each lemma is
 // compared with each other one.
-constexpr std::size_t kMostNames = 1000;
+constexpr std::size_t kMaxNames = 1000;
 constexpr std::int64_t kNoSteps = 0;
 
 }  // namespace
@@ -50,7 +50,7 @@ void LemmaTable::add(TableLemma lemma) {
 
 LemmaTable::Leaf LemmaTable::leaf(std::span<const LemmaNumber> named, Cost bound) const {
   Leaf leaf{worth_naming(named), false};
-  if (leaf.names.size() > kMostNames) return leaf;
+  if (leaf.names.size() > kMaxNames) return leaf;
   // Lemmas with most constraints are removed first.
   std::ranges::stable_sort(leaf.names, {},
                            [&](LemmaNumber name) { return lemmas_[name].constraints.size(); });

@@ -22,7 +22,7 @@ LineStream::Next LineStream::next() {
       return Next::kLine;
     }
     seen = size_ - begin_;
-    if (seen > kLongest) return Next::kTooLong;
+    if (seen > kMaxLineLength) return Next::kTooLong;
     if (!take_more()) return seen == 0 ? Next::kNone : Next::kEndless;
   }
 }

@@ -16,7 +16,7 @@ using ByteSource = std::function<std::size_t(char* buffer, std::size_t size)>;
 // Buffers the current line and some text after it.
 class LineStream {
  public:
-  static constexpr std::size_t kLongest = std::size_t{1} << 22;
+  static constexpr std::size_t kMaxLineLength = std::size_t{1} << 22;
   enum class Next : std::uint8_t { kLine, kNone, kEndless, kTooLong };
 
   explicit LineStream(ByteSource source);

@@ -25,7 +25,7 @@ enum PartKind : std::int64_t {
   kJoint = 5,
   kTree = 6
 };
-constexpr std::int64_t kMostNumbers = std::int64_t{1} << 28;  // maximum length of an entry
+constexpr std::int64_t kMaxNumbers = std::int64_t{1} << 28;  // maximum length of an entry
 
 using Numbers = std::vector<std::int64_t>;
 
@@ -277,7 +277,7 @@ void read_proof_part(const std::filesystem::path& path, ProofLog& log) {
   };
   Numbers numbers;
   for (std::int64_t head[2]; read(head, 2);) {
-    if (head[0] < kSplit || head[0] > kTree || head[1] < 0 || head[1] > kMostNumbers)
+    if (head[0] < kSplit || head[0] > kTree || head[1] < 0 || head[1] > kMaxNumbers)
       refuse_part(path);
     numbers.resize(static_cast<std::size_t>(head[1]));
     if (!read(numbers.data(), numbers.size())) break;

@@ -23,7 +23,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr Cost kMostSearched = 256;
+constexpr Cost kMaxCoveringCost = 256;
 constexpr std::int64_t kCallsPerPoll = 256;
 
 // A statement over the agents 0 .. count - 1 of its component.
@@ -46,7 +46,7 @@ class Component {
 
   Cost solve() {
     Cost sum = greedy();
-    while (sum <= kMostSearched && !fulfil(sum) && steps_ > 0) ++sum;
+    while (sum <= kMaxCoveringCost && !fulfil(sum) && steps_ > 0) ++sum;
     return sum;
   }
 

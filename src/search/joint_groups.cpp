@@ -35,7 +35,7 @@ constexpr std::size_t kMaxAgentGraphNodes = 32'000;
 
 constexpr std::int64_t kStatesAtOnce = 16;
 constexpr std::int64_t kTimedNodesPerWork = 2;  // see work.h
-constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 28;
 
 }  // namespace
 
@@ -72,7 +72,7 @@ JointGroups::Outcome JointGroups::solve_up_to(Cost most, const NodeView& view,
     if (made == TimeExpandedGraphs::Outcome::kStopped) return Outcome::kStopped;
     if (made == TimeExpandedGraphs::Outcome::kTooLarge) return Outcome::kAborted;
   }
-  EpeaStar search(instance_, std::move(graphs), kMostBytes, apart + known.excess);
+  EpeaStar search(instance_, std::move(graphs), kMaxBytes, apart + known.excess);
   const Cost cutoff = apart + most + 1;
   const std::int64_t most_work = abort_at_ - work();
   auto outcome = EpeaStar::Outcome::kWorking;

@@ -11,7 +11,7 @@ constexpr std::size_t kChunk = std::size_t{1} << 18;
 void* NodePool::allocate(std::size_t bytes) {
   const std::lock_guard lock(mutex_);
   void* memory =
-      bytes > kMostSmall ? large_.allocate(bytes) : take_small((bytes + kStep - 1) / kStep);
+      bytes > kMaxSmallBytes ? large_.allocate(bytes) : take_small((bytes + kStep - 1) / kStep);
   bytes_ += bytes;
   ++made_;
   made_bytes_ += bytes;
@@ -39,7 +39,7 @@ void* NodePool::take_small(std::size_t size_class) {
 void NodePool::release(void* memory, std::size_t bytes) {
   const std::lock_guard lock(mutex_);
   bytes_ -= bytes;
-  if (bytes > kMostSmall) return large_.deallocate(memory, bytes);
+  if (bytes > kMaxSmallBytes) return large_.deallocate(memory, bytes);
   Free*& head = free_[(bytes + kStep - 1) / kStep];
   head = new (memory) Free{head};
 }

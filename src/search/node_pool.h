@@ -37,7 +37,7 @@ class NodePool {
 
  private:
   static constexpr std::size_t kStep = 8;
-  static constexpr std::size_t kMostSmall = 1024;
+  static constexpr std::size_t kMaxSmallBytes = 1024;
   struct Free {
     Free* next;
   };
@@ -48,7 +48,7 @@ class NodePool {
   std::vector<std::unique_ptr<std::byte[]>> chunks_;
   std::byte* rest_ = nullptr;  // of the last chunk
   std::size_t rest_bytes_ = 0;
-  std::array<Free*, kMostSmall / kStep + 1> free_{};  // by size / kStep
+  std::array<Free*, kMaxSmallBytes / kStep + 1> free_{};  // by size / kStep
   std::pmr::unsynchronized_pool_resource large_;
   std::size_t bytes_ = 0;
   std::uint64_t made_ = 0;

@@ -22,7 +22,7 @@ std::uint64_t unsigned_of(std::int64_t number) {
   return static_cast<std::uint64_t>(number) << 1 ^ static_cast<std::uint64_t>(number >> 63);
 }
 
-constexpr std::size_t kMostBytes = 10;  // per number
+constexpr std::size_t kMaxBytes = 10;  // per number
 
 char* put(std::uint64_t number, char* to) {
   for (; number >= 0x80; number >>= 7) *to++ = static_cast<char>(number | 0x80);
@@ -41,7 +41,7 @@ std::uint64_t near_or(std::int32_t value, std::int32_t near, std::int32_t far) {
 void pack(std::span<const Constraint> constraints, std::string& bytes) {
   Constraint last{.cell = 0};
   for (const Constraint& c : constraints) {
-    std::array<char, 4 * kMostBytes> packed;
+    std::array<char, 4 * kMaxBytes> packed;
     char* end = packed.data();
     const auto kind = static_cast<std::uint64_t>(c.kind);
     end = put(unsigned_of(std::int64_t{c.cell} - last.cell) * kKinds + kind, end);

@@ -27,7 +27,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kMostSearched = 7;  // nodes: 5,040 configurations
+constexpr std::size_t kMaxSearchedNodes = 7;  // nodes: 5,040 configurations
 
 std::vector<AgentIndex> those_on(const std::vector<PebbleNode>& nodes,
                                  const PebbleConfiguration& arrangement) {
@@ -186,7 +186,7 @@ class OneFreeReach : public ReachableConfigurations {
     if (!are_the_same(a, b)) return false;
     if (a == b) return true;
     if (block.is_ring()) return are_in_the_same_order(a, b);
-    if (block.nodes.size() > kMostSearched) return !block.is_bipartite || is_even(a, b);
+    if (block.nodes.size() > kMaxSearchedNodes) return !block.is_bipartite || is_even(a, b);
     PebbleConfiguration from = start_;
     PebbleConfiguration to = then;
     from[block.nodes.front()] = to[block.nodes.front()] = kNoAgent;
@@ -236,7 +236,7 @@ class FullReach : public ReachableConfigurations {
     if (!are_the_same(a, b)) return false;
     if (a == b) return true;
     if (region.is_ring) return are_in_the_same_order(a, b);
-    if (region.nodes.size() > kMostSearched) return !region.has_odd_rings_only || is_even(a, b);
+    if (region.nodes.size() > kMaxSearchedNodes) return !region.has_odd_rings_only || is_even(a, b);
     return SmallPart(board_, region.nodes).leads(start_, then);
   }
 

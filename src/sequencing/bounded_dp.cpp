@@ -71,7 +71,7 @@ class BoundedDp : public RtspSolver {
 
  private:
   using End = SequenceDag::End;
-  static constexpr std::size_t kMostCanonicalStates = std::size_t{1} << 21;
+  static constexpr std::size_t kMaxCanonicalStates = std::size_t{1} << 21;
 
   // Bound by the relaxation only. Exact for complete classes; kNever for classes without a next
   // stop.
@@ -102,7 +102,7 @@ class BoundedDp : public RtspSolver {
                            .relaxation = relaxation_,
                            .passed = &*passed_,
                            .work = class_,
-                           .most_states = kMostCanonicalStates});
+                           .most_states = kMaxCanonicalStates});
     too_large_ = end == End::kTooLarge;
     return end == End::kBuilt;
   }

@@ -9,7 +9,7 @@ namespace grove::detail {
 namespace {
 
 // Keeps the distances to an agent's ports below 16 MB.
-constexpr int kMostPortStates = 1 << 20;
+constexpr int kMaxPortStates = 1 << 20;
 
 }  // namespace
 
@@ -41,7 +41,7 @@ CostMatrix port_matrix(const Instance& instance, AgentIndex agent,
   const World& world = instance.world();
   const int n = static_cast<int>(who.stops.size());
   const bool apply = who.kind > 0 && distances.has_ports() && n > 0 &&
-                     world.state_count() <= kMostPortStates / n &&
+                     world.state_count() <= kMaxPortStates / n &&
                      instance.pose_of(who.start).steps == 0;
   if (!apply) return cost_matrix(instance, agent, distances);
 

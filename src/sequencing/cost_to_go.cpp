@@ -123,9 +123,9 @@ class CostToGo::Graph : public Store {
     if (direct_) {
       scope.direct = direct_.get();
       scope.work = work_;
-      scope.most_states = kMostDirectStates;
+      scope.most_states = kMaxDirectStates;
     } else if (make_direct_) {
-      scope.most_states = kMostStates;
+      scope.most_states = kMaxStates;
     }
     SequenceDag built(0);
     const End end = SequenceDag::build(scope, reach, limits, built);
@@ -176,9 +176,9 @@ class CostToGo::Ordered : public Store {
   std::shared_ptr<const Store> widened(Time, const Limits&) const override { return nullptr; }
 
  private:
-  static constexpr int kMostPorts = 4;
+  static constexpr int kMaxPorts = 4;
   static constexpr int kNone = -1;
-  using PortCosts = std::array<Time, kMostPorts>;
+  using PortCosts = std::array<Time, kMaxPorts>;
 
   PortCosts to_end(int stop) const {
     PortCosts costs;
@@ -276,7 +276,7 @@ bool CostToGo::widen(Time reach, const Limits& limits) {
     return false;
   }
   if (resets_) {
-    if (widened_.size() == kMostWidenedKept) widened_.pop_back();
+    if (widened_.size() == kMaxWidenedKept) widened_.pop_back();
     widened_.insert(widened_.begin(), {store_, reach, wider});
   }
   store_ = std::move(wider);

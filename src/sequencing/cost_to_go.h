@@ -26,7 +26,7 @@ class CostToGo {
   using MakeDirectLegs = std::function<CostMatrix()>;
 
   // A table, if one is used, is built in `table` if it has room, or read from there. With `direct`,
-  // a graph that grows beyond kMostStates is replaced by a graph of the routes of an agent that
+  // a graph that grows beyond kMaxStates is replaced by a graph of the routes of an agent that
   // visits each stop that it passes.
   explicit CostToGo(CostMatrix matrix, SharedArray table = {}, MakeDirectLegs direct = {});
   // Returns the costs to go of one class of sequences, because a graph by direct legs is valid for
@@ -58,7 +58,7 @@ class CostToGo {
 
   // Extends the store. Afterwards beyond() > `reach`, and never less than before. Returns false and
   // changes nothing if a limit of the run was reached, or if the graph had more than
-  // kMostDirectStates states. Requires `reach` < kNever.
+  // kMaxDirectStates states. Requires `reach` < kNever.
   bool widen(Time reach, const Limits& limits);
 
   // Undoes widen() since mark(), or since the beginning, because the results of a search depend on
@@ -67,8 +67,8 @@ class CostToGo {
   // Makes the present state the one that reset() restores.
   void mark() { marked_ = store_; }
 
-  static constexpr std::size_t kMostStates = std::size_t{1} << 15;  // about 0.1 s
-  static constexpr std::size_t kMostDirectStates = std::size_t{1} << 16;
+  static constexpr std::size_t kMaxStates = std::size_t{1} << 15;  // about 0.1 s
+  static constexpr std::size_t kMaxDirectStates = std::size_t{1} << 16;
 
  private:
   class Store;
@@ -83,7 +83,7 @@ class CostToGo {
     Time reach;
     std::shared_ptr<const Store> to;
   };
-  static constexpr std::size_t kMostWidenedKept = 4;
+  static constexpr std::size_t kMaxWidenedKept = 4;
 
   std::shared_ptr<const Store> store_;
   std::shared_ptr<const Store> marked_;

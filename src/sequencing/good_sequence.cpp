@@ -10,7 +10,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::ptrdiff_t kLongestMove = 3;
+constexpr std::ptrdiff_t kMaxSegment = 3;
 
 class LocalSearch {
  public:
@@ -68,7 +68,7 @@ class LocalSearch {
   // Makes the first change that lowers the cost. Returns false if there is none.
   bool move_a_piece() {
     const std::ptrdiff_t n = std::ssize(sequence_);
-    for (std::ptrdiff_t size = 1; size <= std::min(kLongestMove, n - 1); ++size)
+    for (std::ptrdiff_t size = 1; size <= std::min(kMaxSegment, n - 1); ++size)
       for (std::ptrdiff_t begin = 0; begin + size <= n; ++begin) {
         const std::ptrdiff_t end = begin + size;
         const std::int64_t gain = leg(begin - 1, begin) + leg(end - 1, end) - leg(begin - 1, end);

@@ -17,7 +17,7 @@
 
 namespace grove::detail {
 
-inline constexpr int kMostTableStops = 26;  // 3.5 GB of 16-bit entries; no caller needs more
+inline constexpr int kMaxTableStops = 26;  // 3.5 GB of 16-bit entries; no caller needs more
 
 // Marks an unreachable state. Twice this value still fits, so no sum overflows; every true cost is
 // below it.
@@ -52,9 +52,9 @@ class HeldKarpTable {
   // large.
   static std::size_t entries(int stops, int ports) {
     const int width = stops * ports;
-    return stops > kMostTableStops || width > kMostLanes * kLanes
+    return stops > kMaxTableStops || width > kMaxLanes * kLanes
                ? 0
-               : (std::size_t{1} << stops) * width + kMostLanes * kLanes;
+               : (std::size_t{1} << stops) * width + kMaxLanes * kLanes;
   }
 
   // Builds the table, in `shared` if it has room. Returns false, and builds nothing, if a limit was
@@ -89,7 +89,7 @@ class HeldKarpTable {
 
  private:
   static constexpr int kLanes = 8;
-  static constexpr int kMostLanes = 7;                  // 14 stops of four ports
+  static constexpr int kMaxLanes = 7;                   // 14 stops of four ports
   static constexpr std::uint32_t kPollInterval = 4096;  // rows, together about 0.2 ms
 
   bool allocate(std::size_t entries) {
@@ -106,7 +106,7 @@ class HeldKarpTable {
   // Selects the least number of vectors that hold a row.
   template <int kPorts, int kCount = 1>
   bool fill_lanes(Entry* table, const CostMatrix& matrix, const Limits& limits) const {
-    if constexpr (kCount < kMostLanes)
+    if constexpr (kCount < kMaxLanes)
       if (stops_ * kPorts > kCount * kLanes)
         return fill_lanes<kPorts, kCount + 1>(table, matrix, limits);
     return fill_wide<kPorts, kCount * kLanes>(table, matrix, limits);

@@ -55,11 +55,11 @@ namespace {
 constexpr int kSteps = 400;
 constexpr std::int64_t kScale = 256;
 // Cost of a leg that does not exist. It is far above any sum of real legs and potentials (65 legs
-// of 2^30 steps times kScale are below 2^45, potentials are kept within kMostPotential), and 130
+// of 2^30 steps times kScale are below 2^45, potentials are kept within kMaxPotential), and 130
 // times kNoLeg fits into 64 bits.
 constexpr std::int64_t kNoLeg = std::int64_t{1} << 54;
 constexpr std::int64_t kSurelyNoWay = kNoLeg / 2;
-constexpr std::int64_t kMostPotential = std::int64_t{1} << 43;
+constexpr std::int64_t kMaxPotential = std::int64_t{1} << 43;
 
 // Rounds up: the true cost is an integer.
 Time to_cost(std::int64_t fixed_point) {
@@ -278,7 +278,7 @@ void OneTreeRelaxation::climb() {
                         const std::vector<int>& before, int count, double by) {
     for (int i = 0; i < count; ++i)
       what[i] = std::clamp(what[i] + std::lround(by * (0.7 * now[i] + 0.3 * before[i])),
-                           -kMostPotential, kMostPotential);
+                           -kMaxPotential, kMaxPotential);
   };
   for (int k = 0; k < kSteps && best < kSurelyNoWay; ++k, step *= shrink) {
     const std::int64_t bound = bound_and_excess(excess);

@@ -59,7 +59,7 @@ class RtspSolver {
 
 enum class RtspBackend : std::uint8_t {
   kAuto,       // Held-Karp table if it is small, else bounded dynamic programming
-  kHeldKarp,   // for n up to 26 (kMostTableStops): 2^n * n table entries
+  kHeldKarp,   // for n up to 26 (kMaxTableStops): 2^n * n table entries
   kBoundedDp,  // sequence graph within a cost limit that grows on demand
   kCbc,        // integer program with subtour cuts
 };
@@ -86,9 +86,9 @@ inline constexpr int kTableStops = 14;
 std::unique_ptr<RtspSolver> make_held_karp(const CostMatrix& matrix, const Limits& limits);
 // Largest number of states in a graph of all sequences, about 0.2 s. Larger graphs hold only
 // canonical sequences.
-inline constexpr std::size_t kMostGraphStates = std::size_t{1} << 16;
+inline constexpr std::size_t kMaxGraphStates = std::size_t{1} << 16;
 std::unique_ptr<RtspSolver> make_bounded_dp(const CostMatrix& matrix, const Limits& limits,
-                                            std::size_t most_states = kMostGraphStates);
+                                            std::size_t most_states = kMaxGraphStates);
 std::unique_ptr<RtspSolver> make_cbc_rtsp(const CostMatrix& matrix, const Limits& limits);
 
 // Returns a proven lower bound on every complete sequence of `matrix`, by relaxation: spanning

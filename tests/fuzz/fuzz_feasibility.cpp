@@ -35,7 +35,7 @@ class TinyInstances {
   void test_seed(std::uint64_t seed) {
     crowd_ = tiny_crowd(seed);
     const Instance instance = crowd_.build();
-    const std::set<Places> all = oracle::arrangements_from_starts(instance, kMost);
+    const std::set<Places> all = oracle::arrangements_from_starts(instance, kMaxStates);
     if (all.empty()) return;
     ++crowds_;
     seed_ = seed;
@@ -55,7 +55,7 @@ class TinyInstances {
   }
 
  private:
-  static constexpr std::size_t kMost = 50'000;
+  static constexpr std::size_t kMaxStates = 50'000;
   static constexpr int kOrders = 10;
 
   static Places places(const Instance& instance) {

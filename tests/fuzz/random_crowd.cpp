@@ -17,18 +17,18 @@ namespace {
 
 // --- tiny instances ---
 
-constexpr int kMostPlaces = 9;
-constexpr double kMostArrangements = 20'000;
+constexpr int kMaxPlaces = 9;
+constexpr double kMaxArrangements = 20'000;
 
 // The vertices are the cells of one row.
 TinyInstance tiny_roads(Random& random) {
   TinyInstance crowd;
-  const int vertices = random.between(3, kMostPlaces - 1);
+  const int vertices = random.between(3, kMaxPlaces - 1);
   crowd.rows = {std::string(static_cast<std::size_t>(vertices), '.')};
   int places = vertices;
   const auto add = [&](int a, int b) {
     Time steps = random.percent(15) ? random.between(2, 3) : 1;
-    if (places + steps - 1 > kMostPlaces) steps = 1;
+    if (places + steps - 1 > kMaxPlaces) steps = 1;
     places += steps - 1;
     crowd.roads.push_back({{a, 0}, {b, 0}, steps, false});
   };
@@ -53,7 +53,7 @@ TinyInstance tiny_board(Random& random) {
   TinyInstance crowd;
   do {
     crowd.rows = random_map(static_cast<Shape>(random.below(kShapeCount)), random);
-  } while (place_count(crowd) > kMostPlaces);
+  } while (place_count(crowd) > kMaxPlaces);
   return crowd;
 }
 
@@ -62,7 +62,7 @@ int agents_that_fit(int places, int free) {
   const auto arrangements = [&] {
     return std::exp(std::lgamma(places + 1) - std::lgamma(places - agents + 1));
   };
-  while (agents > 1 && arrangements() > kMostArrangements) --agents;
+  while (agents > 1 && arrangements() > kMaxArrangements) --agents;
   return agents;
 }
 

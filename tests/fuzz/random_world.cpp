@@ -9,7 +9,7 @@ namespace grove::detail::fuzz {
 namespace {
 
 // Approximate limit on the joint states of an instance, to keep the oracle fast.
-constexpr double kMostJointStates = 4e6;
+constexpr double kMaxJointStates = 4e6;
 
 Heading random_heading(Random& random) {
   return static_cast<Heading>(random.below(4));
@@ -97,8 +97,8 @@ class Decorator {
       for (int a = 0; a < agents(); ++a) product *= states(a);
       return product;
     };
-    while (joint() > kMostJointStates && instance_.tasks.size() > 1) drop_task();
-    while (joint() > kMostJointStates && agents() > 1) drop_last_agent();
+    while (joint() > kMaxJointStates && instance_.tasks.size() > 1) drop_task();
+    while (joint() > kMaxJointStates && agents() > 1) drop_last_agent();
   }
 
   void drop_task() {

@@ -17,10 +17,10 @@
 namespace grove::detail {
 namespace epea_star_test {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 28;
 
 std::unique_ptr<EpeaStar> search_of(const Instance& instance) {
-  return EpeaStar::make(instance, 64, kMostBytes);
+  return EpeaStar::make(instance, 64, kMaxBytes);
 }
 
 fuzz::TinyInstance tiny_instance(std::uint64_t seed) {
@@ -94,8 +94,8 @@ TEST(EpeaStar, EndsAsTooLargeWithoutMemory) {
 
 TEST(EpeaStar, RefusesTooManyJointStates) {
   const Instance instance = fuzz::random_puzzle(39).build();
-  EXPECT_FALSE(EpeaStar::make(instance, 20, kMostBytes));
-  EXPECT_TRUE(EpeaStar::make(instance, 40, kMostBytes));
+  EXPECT_FALSE(EpeaStar::make(instance, 20, kMaxBytes));
+  EXPECT_TRUE(EpeaStar::make(instance, 40, kMaxBytes));
 }
 
 // Long enough that larger pattern databases are built during the search. kOptimum comes from a

@@ -19,9 +19,9 @@ namespace time_expanded_graphs_test {
 
 using oracle::Way;
 using Constraints = std::vector<Constraint>;
-constexpr std::size_t kMostWays = 1500;
+constexpr std::size_t kMaxWays = 1500;
 constexpr std::size_t kPlenty = 30'000;
-constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 28;
 
 // A tiny random instance of any kind, and random constraints on its agents.
 class Fuzzer {
@@ -98,7 +98,7 @@ struct Member {
 std::optional<Member> member(Fuzzer& fuzzer, AgentIndex agent, Time delta_f) {
   Member m{.agent = agent, .constraints = {}, .most = 0, .ways = {}};
   for (Time most = 0; m.ways.empty(); ++most) {
-    const auto ways = oracle::ways_within(fuzzer.instance(), agent, m.constraints, most, kMostWays);
+    const auto ways = oracle::ways_within(fuzzer.instance(), agent, m.constraints, most, kMaxWays);
     if (!ways || most > 12) return std::nullopt;
     m.ways = *ways;
   }
@@ -106,7 +106,7 @@ std::optional<Member> member(Fuzzer& fuzzer, AgentIndex agent, Time delta_f) {
     m.constraints.push_back(
         fuzzer.constraint(m.ways[fuzzer.below(static_cast<int>(m.ways.size()))]));
   m.most = static_cast<Time>(m.ways.front().size()) - 1 + delta_f;
-  const auto ways = oracle::ways_within(fuzzer.instance(), agent, m.constraints, m.most, kMostWays);
+  const auto ways = oracle::ways_within(fuzzer.instance(), agent, m.constraints, m.most, kMaxWays);
   if (!ways) return std::nullopt;
   m.ways = *ways;
   return m;
@@ -151,7 +151,7 @@ TEST(TimeExpandedGraphs, LetJointSearchFindOptimumUnderConstraints) {
     }
     if (ways.size() < 2) continue;
     const auto least = oracle::least_together(fuzzer.instance(), ways);
-    EpeaStar search(fuzzer.instance(), std::move(graphs), kMostBytes);
+    EpeaStar search(fuzzer.instance(), std::move(graphs), kMaxBytes);
     auto outcome = EpeaStar::Outcome::kWorking;
     while (outcome == EpeaStar::Outcome::kWorking) {
       outcome = search.run(3, kInfiniteCost, {});

@@ -45,7 +45,7 @@ class Reference {
   // The least price of a path that respects the reservations of `others` and finishes at `latest`
   // or earlier.
   ScaledCost price(const ReservationTable& others, Time latest = kHorizon) const {
-    constexpr ScaledCost kNo = PenalizedSearch::kMostPrice;
+    constexpr ScaledCost kNo = PenalizedSearch::kMaxPenaltyCost;
     std::vector<ScaledCost> paid(graph_.count(), kNo);
     std::vector<ScaledCost> moved(graph_.count(), kNo);  // if it arrived by a move
     if (graph_.count() == 0) return kNo;
@@ -121,8 +121,9 @@ TEST(PenalizedSearch, FindsTheLeastPrice) {
       const ScaledCost least =
           Reference(*graph, penalties, on_finish).price(ReservationTable(known.instance.world()));
       Path path;
-      ASSERT_EQ(search.search(goals, on_finish, PenalizedSearch::kMostPrice, 1 << 20, {}, &path),
-                least);
+      ASSERT_EQ(
+          search.search(goals, on_finish, PenalizedSearch::kMaxPenaltyCost, 1 << 20, {}, &path),
+          least);
       ASSERT_FALSE(path.empty());
       ASSERT_EQ(paid_by(path, penalties, on_finish), least);
       // No path costs less than the least price.
@@ -156,8 +157,8 @@ TEST(PenalizedSearch, ImprovesPathAroundReservations) {
       const ScaledCost least = Reference(*graph, penalties, on_finish).price(others, latest);
       Path path;
       const bool found = search.improve(goals, on_finish, others, latest,
-                                        PenalizedSearch::kMostPrice, 1 << 20, {}, path);
-      ASSERT_EQ(found, least < PenalizedSearch::kMostPrice);
+                                        PenalizedSearch::kMaxPenaltyCost, 1 << 20, {}, path);
+      ASSERT_EQ(found, least < PenalizedSearch::kMaxPenaltyCost);
       ++(found ? improved : infeasible);
       if (found) {
         ASSERT_EQ(paid_by(path, penalties, on_finish), least);
@@ -190,10 +191,10 @@ TEST(PenalizedSearch, IsNeverAboveTheLeastPriceWhenCutShort) {
       SequenceStages goals(known.stops.of(agent), SequenceClass{});
       if (least_cost(goals, {}) >= kNever) continue;
       const ScaledCost least =
-          search.search(goals, {}, PenalizedSearch::kMostPrice, 1 << 20, {}, nullptr);
+          search.search(goals, {}, PenalizedSearch::kMaxPenaltyCost, 1 << 20, {}, nullptr);
       for (const std::int64_t labels : {1, 5, 20, 100}) {
         const ScaledCost price =
-            search.search(goals, {}, PenalizedSearch::kMostPrice, labels, {}, nullptr);
+            search.search(goals, {}, PenalizedSearch::kMaxPenaltyCost, labels, {}, nullptr);
         EXPECT_LE(price, least);
         EXPECT_GE(price, ScaledCost{least_cost(goals, {})} * Penalties::kUnit);
         cut_short += price < least;

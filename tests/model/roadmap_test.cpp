@@ -80,7 +80,7 @@ TEST(Roadmap, RefusesInvalidRoadmaps) {
   EXPECT_THROW(Roadmap(two, {{0, 2, 1, false}}), std::invalid_argument);
   EXPECT_THROW(Roadmap(two, {{0, 0, 3, false}}), std::invalid_argument);
   EXPECT_THROW(Roadmap(two, {{0, 1, 0, false}}), std::invalid_argument);
-  EXPECT_THROW(Roadmap(two, {{0, 1, Roadmap::kMostPlaces, false}}), std::invalid_argument);
+  EXPECT_THROW(Roadmap(two, {{0, 1, Roadmap::kMaxPlaces, false}}), std::invalid_argument);
 }
 
 }  // namespace roadmap_test

@@ -82,7 +82,7 @@ class CheckpointTester : public RunObserver {
   void on_checkpoint(const CheckpointReport& report) override {
     if (!report.failure.empty()) throw std::runtime_error(report.failure);
     is_there_ = true;
-    if (reopened_ < kMostReopened && dice_.percent(60)) reopen();
+    if (reopened_ < kMaxReopened && dice_.percent(60)) reopen();
     if (dice_.percent(50)) kill_in_ = dice_.pick<int>({1, 20, 1000});
   }
 
@@ -110,7 +110,7 @@ class CheckpointTester : public RunObserver {
   const std::vector<std::string>& wrong() const { return wrong_; }
 
  private:
-  static constexpr int kMostReopened = 8;
+  static constexpr int kMaxReopened = 8;
 
   // Without the primal search, which would find the optimum even if its node is missing.
   void reopen() {

@@ -237,7 +237,7 @@ class ManyStops {
 
  private:
   static constexpr int kSide = 9;
-  static constexpr std::size_t kMostSequences = 100;
+  static constexpr std::size_t kMaxSequences = 100;
 
   // A vertex constraint on a cell of its path; sometimes for ever if the agent need not visit it.
   Constraint bar(const Agent& agent) {
@@ -264,7 +264,7 @@ class ManyStops {
     const Limits limits;
     const CostMatrix& matrix = agent.stops.cost_to_go().matrix();
     KBestSequences best(make_rtsp_solver(RtspBackend::kAuto, matrix, limits), matrix, limits);
-    for (std::size_t rank = 0; rank < kMostSequences && best.resolve(rank, cost - 1) < cost; ++rank)
+    for (std::size_t rank = 0; rank < kMaxSequences && best.resolve(rank, cost - 1) < cost; ++rank)
       EXPECT_GE(agent.fixed_cost(best.sequence(rank)).value_or(kNever), cost);
   }
 

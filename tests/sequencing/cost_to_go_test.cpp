@@ -109,7 +109,7 @@ class GraphTest : public ::testing::Test {
     StopSet left = matrix.all();
     for (Stop stop : work.prefix) left &= ~(StopSet{1} << stop);
     const Time exact = table.best(work, kNever).cost;
-    if (exact >= cost_to_go.beyond() || ++visited_ > kMostVisited) return;
+    if (exact >= cost_to_go.beyond() || ++visited_ > kMaxVisited) return;
     if (!work.prefix.empty()) {
       ASSERT_EQ(cost + cost_to_go.cost_to_go(left, work.prefix.back()), exact);
     }
@@ -121,7 +121,7 @@ class GraphTest : public ::testing::Test {
     }
   }
 
-  static constexpr int kMostVisited = 2000;
+  static constexpr int kMaxVisited = 2000;
   int visited_ = 0;
 };
 

@@ -42,7 +42,7 @@ std::string text_of(const fs::path& path) {
 }
 
 std::string_view beginning(std::string_view line) {
-  return line.substr(0, kLongestLine);
+  return line.substr(0, kMaxLineLength);
 }
 
 std::optional<double> number_in(const std::string& text) {
@@ -88,7 +88,7 @@ std::vector<batch::TracePoint> improving_points(std::vector<batch::TracePoint> t
   std::vector<batch::TracePoint> better;
   for (const batch::TracePoint& point : trace)
     if (better.empty() || point.cost < better.back().cost) better.push_back(point);
-  thin_out(better, kMostTracePoints);
+  thin_out(better, kMaxTracePoints);
   return better;
 }
 

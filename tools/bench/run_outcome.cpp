@@ -93,7 +93,7 @@ std::vector<batch::TracePoint> trace_of_log(const std::filesystem::path& log) {
                      .cost = row.value("incumbent", Cost{0}),
                      .lower_bound = row.value("lower_bound", Cost{0})});
   }
-  batch::thin_out(trace, kMostTracePoints);
+  batch::thin_out(trace, kMaxTracePoints);
   return trace;
 }
 

@@ -30,7 +30,7 @@ bool is_verified(batch::Outcome& outcome, const ChildEnd& end,
 inline constexpr const char* kTimeLimit = "time limit";  // as text of an error
 
 // Maximum number of points of a trace.
-inline constexpr std::size_t kMostTracePoints = 200;
+inline constexpr std::size_t kMaxTracePoints = 200;
 
 // Returns the incumbents of a run, read from its JSON log (--log-format jsonl); from a truncated
 // log as many as it has, without a log none.

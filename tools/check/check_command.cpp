@@ -17,7 +17,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kMostViolations = 20;
+constexpr std::size_t kMaxViolations = 20;
 
 constexpr const char* kCheckFooter =
     R"(Recomputes every path, visit, conflict and cost with code of its own, and compares status, cost,
@@ -62,8 +62,8 @@ void print_violations(const std::string& file, const std::vector<Violation>& vio
   for (const Violation& violation : violations)
     say_on_stderr(fmt::format("{}: {}: {}", one_line(file), violation.json_pointer,
                               one_line(violation.message)));
-  if (violations.size() >= kMostViolations)
-    say_on_stderr(fmt::format("{}: stopped after {} violations", one_line(file), kMostViolations));
+  if (violations.size() >= kMaxViolations)
+    say_on_stderr(fmt::format("{}: stopped after {} violations", one_line(file), kMaxViolations));
 }
 
 LoadedInstance load_before_plan(const InstanceArguments& instance) {
@@ -81,7 +81,7 @@ void run(const CheckArguments& arguments) {
   const LoadedInstance loaded = load_before_plan(arguments.instance);
   const std::string plan = arguments.plan == "-" ? "/dev/stdin" : arguments.plan;
   const ClaimedPlan claimed = read_plan_of_any_tool(plan, loaded.instance);
-  const auto violations = check(loaded.instance, claimed.solution, kMostViolations);
+  const auto violations = check(loaded.instance, claimed.solution, kMaxViolations);
   if (violations.empty()) return print_verdict(claimed);
   print_violations(plan, violations);
   throw CommandFailed(kExitBadInput);

@@ -13,8 +13,8 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kLeastCell = 1e-3;
-constexpr double kMostCell = 1e3;
+constexpr double kMinCellSize = 1e-3;
+constexpr double kMaxCellSize = 1e3;
 constexpr double kFarthest = 1e7;
 
 double parse_coordinate(const std::string& text, std::string_view number) {
@@ -33,7 +33,7 @@ Point parse_point(const std::string& text) {
 }  // namespace
 
 void FrameArguments::add_to(CLI::App& command) {
-  add_number(command, "--cell-size", cell_size_, kLeastCell, kMostCell,
+  add_number(command, "--cell-size", cell_size_, kMinCellSize, kMaxCellSize,
              "distance between neighbouring cells, metres; default: 1")
       ->default_str("")
       ->type_name("METRES");

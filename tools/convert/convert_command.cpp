@@ -94,8 +94,8 @@ Examples:
   grove convert plant.lif.json plant.roadmap.json --metres-per-step 0.5 --merge-lanes)";
 
 // Range of metres per step and of seconds per step.
-constexpr double kLeastScale = 1e-6;
-constexpr double kMostScale = 1e6;
+constexpr double kMinScale = 1e-6;
+constexpr double kMaxScale = 1e6;
 
 // Refuses options without an effect.
 void require_use(bool given, bool used, const std::string& option, const std::string& when) {
@@ -180,11 +180,11 @@ void run(const ConvertArguments& arguments) {
 }
 
 void add_options_of_roads(CLI::App& command, ConvertArguments& arguments) {
-  add_number(command, "--metres-per-step", arguments.metres_per_step, kLeastScale, kMostScale,
+  add_number(command, "--metres-per-step", arguments.metres_per_step, kMinScale, kMaxScale,
              "roads: distance that a robot moves per step, metres")
       ->type_name("D")
       ->default_str("");
-  add_number(command, "--seconds-per-step", arguments.seconds_per_step, kLeastScale, kMostScale,
+  add_number(command, "--seconds-per-step", arguments.seconds_per_step, kMinScale, kMaxScale,
              "roads: duration of a step, seconds; if both are given, each road takes the larger "
              "number of steps. Plans: duration of a step, seconds; default: 1")
       ->type_name("S")

@@ -17,7 +17,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kMostSlow = 1000;
+constexpr double kMaxSlowFactor = 1000;
 
 double factor_of(const std::string& option, const std::string& text, const std::string& number) {
   std::size_t read = 0;
@@ -26,7 +26,7 @@ double factor_of(const std::string& option, const std::string& text, const std::
     factor = std::stod(number, &read);
   } catch (const std::exception&) {
   }
-  if (read != number.size() || !(factor >= 1 && factor <= kMostSlow))
+  if (read != number.size() || !(factor >= 1 && factor <= kMaxSlowFactor))
     refuse(option, text, "ROBOT=FACTOR, a factor from 1 to 1000");
   return factor;
 }

@@ -32,7 +32,7 @@ namespace {
 
 constexpr IntegerRange kRuns{1, 1'000'000};
 constexpr IntegerRange kDelaySteps{1, 1'000'000};
-constexpr std::size_t kMostStuck = 20;
+constexpr std::size_t kMaxStuckShown = 20;
 
 constexpr const char* kExecuteFooter =
     R"(Robots execute the plan along its passing order, not by the clock: each action starts as soon as the
@@ -184,15 +184,15 @@ class Execution {
                                    unfinished_, a_.runs, first_stuck_seed_);
     fmt::print("{}{} of {} robots do not reach their end:\n", which, first_stuck_.size(),
                order_.agent_count());
-    for (std::size_t i = 0; i < std::min(first_stuck_.size(), kMostStuck); ++i) {
+    for (std::size_t i = 0; i < std::min(first_stuck_.size(), kMaxStuckShown); ++i) {
       const BlockedRobot& s = first_stuck_[i];
       if (s.agent == s.waits_for)
         fmt::print("  {} has failed\n", id(s.agent));
       else
         fmt::print("  {} waits for {}\n", id(s.agent), id(s.waits_for));
     }
-    if (first_stuck_.size() > kMostStuck)
-      fmt::print("  and {} more\n", first_stuck_.size() - kMostStuck);
+    if (first_stuck_.size() > kMaxStuckShown)
+      fmt::print("  and {} more\n", first_stuck_.size() - kMaxStuckShown);
   }
 
   void print() {

@@ -12,7 +12,7 @@ namespace {
 
 // "0-10" or "5".
 Extras::Range parse_durations(const std::string& option, const std::string& text) {
-  const IntegerRange steps{0, InstanceBuilder::kLongest};
+  const IntegerRange steps{0, InstanceBuilder::kMaxDuration};
   const std::size_t dash = text.find('-', 1);
   const std::int64_t least = parse_integer(option, text.substr(0, dash), steps);
   const std::int64_t most =
@@ -30,7 +30,7 @@ void ExtrasArguments::add_to(CLI::App& command) {
   command.add_flag("--turning", turning_,
                    "let agents move only forward, with time for each quarter turn; draw their "
                    "headings at the start");
-  add_integer(command, "--turn-steps", turn_steps_, {1, InstanceBuilder::kLongest},
+  add_integer(command, "--turn-steps", turn_steps_, {1, InstanceBuilder::kMaxDuration},
               "with --turning: duration of a quarter turn, steps");
   command.add_flag("--goal-headings", goal_headings_,
                    "with --turning: draw headings at the destinations as well");

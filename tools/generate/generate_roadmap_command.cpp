@@ -94,12 +94,12 @@ void run(const CLI::App& command, const RoadmapArguments& arguments) {
 }
 
 void add_planar_options(CLI::App& command, RoadmapArguments& arguments) {
-  constexpr double kLongestSide = 10'000;
+  constexpr double kMaxSide = 10'000;
   const auto add = [&](CLI::Option* option) { option->group(kOnlyPlanar); };
   add(add_integer(command, "--vertices", arguments.vertices, {2, 10'000}, "number of vertices"));
-  add(add_number(command, "--width", arguments.width, 1, kLongestSide,
+  add(add_number(command, "--width", arguments.width, 1, kMaxSide,
                  "extent from west to east, metres"));
-  add(add_number(command, "--height", arguments.height, 1, kLongestSide,
+  add(add_number(command, "--height", arguments.height, 1, kMaxSide,
                  "extent from south to north, metres"));
   add(add_integer(command, "--one-way", arguments.one_way, {0, 100},
                   "share of one-way roads, percent"));
@@ -107,8 +107,8 @@ void add_planar_options(CLI::App& command, RoadmapArguments& arguments) {
 }
 
 void add_warehouse_options(CLI::App& command, RoadmapArguments& arguments) {
-  constexpr double kLeastSpacing = 0.1;
-  constexpr double kMostSpacing = 1000;
+  constexpr double kMinSpacing = 0.1;
+  constexpr double kMaxSpacing = 1000;
   const auto add = [&](CLI::Option* option) { option->group(kOnlyWarehouse); };
   add(add_integer(command, "--aisles", arguments.aisles, {2, 1000}, "number of aisles, even"));
   add(add_integer(command, "--slots", arguments.slots, {1, 1000}, "number of slots per aisle"));
@@ -116,9 +116,9 @@ void add_warehouse_options(CLI::App& command, RoadmapArguments& arguments) {
                   "number of cross aisles, including those at the ends"));
   add(add_integer(command, "--bays", arguments.bays, {0, 100},
                   "number of parking bays between two aisles, at either end of the aisles"));
-  add(add_number(command, "--aisle-spacing", arguments.aisle_spacing, kLeastSpacing, kMostSpacing,
+  add(add_number(command, "--aisle-spacing", arguments.aisle_spacing, kMinSpacing, kMaxSpacing,
                  "distance between aisles, metres"));
-  add(add_number(command, "--slot-spacing", arguments.slot_spacing, kLeastSpacing, kMostSpacing,
+  add(add_number(command, "--slot-spacing", arguments.slot_spacing, kMinSpacing, kMaxSpacing,
                  "distance between slots, between lanes, and from a lane to a bay, metres"));
 }
 

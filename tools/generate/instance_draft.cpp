@@ -12,7 +12,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr int kMostAgentsPerTask = 3;
+constexpr int kMaxAgentsPerTask = 3;
 
 std::string agent_id(int i) {
   return fmt::format("a{}", i);
@@ -41,7 +41,7 @@ bool InstanceDraft::has_task_on(Place place) const {
 
 void InstanceDraft::add_task(Place place, std::vector<int> able) {
   random_.shuffle(able);
-  const std::size_t count = 1 + random_.below(kMostAgentsPerTask);
+  const std::size_t count = 1 + random_.below(kMaxAgentsPerTask);
   able.resize(std::min(able.size(), count));
   std::ranges::sort(able);
   tasks_.push_back({place, std::move(able)});

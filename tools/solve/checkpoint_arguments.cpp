@@ -19,7 +19,7 @@ namespace grove::detail {
 namespace {
 
 constexpr double kShortestInterval_s = 0.1;  // so that the search makes progress
-constexpr double kLongestInterval_s = 1e9;
+constexpr double kMaxInterval_s = 1e9;
 
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
@@ -69,7 +69,7 @@ void add_checkpoint_options(CLI::App& app, CheckpointArguments& a) {
                      "the end (even after the time limit), so that a later run can resume; also "
                      "write the best plan there, before it is announced")
           ->type_name("DIR");
-  add_number(app, "--checkpoint-interval", a.interval_s, kShortestInterval_s, kLongestInterval_s,
+  add_number(app, "--checkpoint-interval", a.interval_s, kShortestInterval_s, kMaxInterval_s,
              "interval between two checkpoints, seconds")
       ->type_name("S")
       ->needs(checkpoint);

@@ -22,8 +22,8 @@ namespace grove::detail {
 namespace {
 
 constexpr const char* kLoopback = "127.0.0.1";
-constexpr std::streamoff kMostAtOnce = 4 << 20;  // maximum size of an answer, bytes
-constexpr std::streamsize kBeginning = 4096;     // bytes by which a log is recognised
+constexpr std::streamoff kMaxAnswerBytes = 4 << 20;  // maximum size of an answer, bytes
+constexpr std::streamsize kBeginning = 4096;         // bytes by which a log is recognised
 constexpr auto kPause = std::chrono::milliseconds(100);
 constexpr auto kMoment = std::chrono::milliseconds(1);
 
@@ -47,7 +47,7 @@ class GrowingFile {
     check_for_restart(file, size);
     Part part{std::to_string(number_), "", 0, size};
     if (name == part.name) part.end = std::min(from, size);
-    part.text.resize(static_cast<std::size_t>(std::min(size - part.end, kMostAtOnce)));
+    part.text.resize(static_cast<std::size_t>(std::min(size - part.end, kMaxAnswerBytes)));
     file.seekg(part.end);
     file.read(part.text.data(), static_cast<std::streamsize>(part.text.size()));
     part.text.resize(part.text.rfind('\n') + 1);  // npos + 1 is 0

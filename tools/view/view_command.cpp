@@ -69,9 +69,9 @@ Examples:
   grove view hall.cts.json hall.plan.json --proof hall.proof)";
 
 constexpr IntegerRange kWidths{16, 10'000};
-constexpr std::size_t kMostPlans = 2;  // on one page
+constexpr std::size_t kMaxPlans = 2;  // on one page
 constexpr IntegerRange kPorts{0, 65'535};
-constexpr std::int64_t kMostSplits = 5000;  // of a certificate on a page
+constexpr std::int64_t kMaxSplits = 5000;  // of a certificate on a page
 
 struct ViewArguments {
   InstanceArguments instance;
@@ -185,7 +185,7 @@ void show_drive(const ViewArguments& arguments, const Instance& instance, const 
 
 void show_proof(const ViewArguments& arguments, const Instance& instance,
                 const std::vector<NamedPlan>& plans) {
-  const CertificateText certificate = read_certificate(arguments.proof, instance, kMostSplits);
+  const CertificateText certificate = read_certificate(arguments.proof, instance, kMaxSplits);
   const bool may_follow = certificate.may_follow;
   const Instance spoken_of = may_follow ? instance : instance.without_following();
   for (const NamedPlan& plan : plans)
@@ -230,9 +230,9 @@ void run(const ViewArguments& arguments, const PictureMaker& maker) {
   for (const NamedPlan& plan : plans) warn_if_invalid(loaded.instance, plan, warnings);
   if (arguments.wants_pictures() && plans.size() > 1)
     warnings.push_back("pictures show only the first plan");
-  if (plans.size() > kMostPlans)
+  if (plans.size() > kMaxPlans)
     warnings.push_back(fmt::format("a page shows {} plans; {} and later ones are left out",
-                                   kMostPlans, one_line(plans[kMostPlans].name)));
+                                   kMaxPlans, one_line(plans[kMaxPlans].name)));
   print_warnings(warnings);
   if (arguments.wants_pictures()) write_pictures(maker, arguments.pictures, loaded.instance, plans);
   if (!page_file(arguments).empty()) write_page(arguments, loaded.instance, plans);

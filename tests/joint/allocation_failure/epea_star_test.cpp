@@ -10,7 +10,7 @@
 namespace grove::detail {
 namespace epea_star_memory_test {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 28;
 
 struct End {
   EpeaStar::Outcome outcome = EpeaStar::Outcome::kTooLarge;
@@ -18,7 +18,7 @@ struct End {
 };
 
 End run_to_the_end(const Instance& instance) {
-  const auto search = EpeaStar::make(instance, 64, kMostBytes);
+  const auto search = EpeaStar::make(instance, 64, kMaxBytes);
   if (!search) return {};
   End end{EpeaStar::Outcome::kWorking};
   while (end.outcome == EpeaStar::Outcome::kWorking)

@@ -8,7 +8,7 @@ namespace grove::detail::testing {
 namespace {
 
 constexpr int kNoAgent = -1;
-constexpr double kLongestStep_s = 0.001;
+constexpr double kMaxStep_s = 0.001;
 constexpr double kNoEnd_s = 1000;
 
 }  // namespace
@@ -49,7 +49,7 @@ void SimulatedRanks::run_rank(int rank, const std::function<void(int rank)>& bod
 
 void SimulatedRanks::pause(int rank) {
   std::unique_lock lock(mutex_);
-  now_ += std::uniform_real_distribution<double>(0, kLongestStep_s)(random_);
+  now_ += std::uniform_real_distribution<double>(0, kMaxStep_s)(random_);
   if (now_ > kNoEnd_s) throw std::runtime_error("the ranks do not end");
   if (on_time) on_time(now_);
   pass_turn();

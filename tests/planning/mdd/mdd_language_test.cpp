@@ -32,8 +32,8 @@ using testing::grid_of;
 using testing::instance_of;
 
 constexpr std::size_t kPlenty = 1'000'000;
-constexpr std::size_t kMostReadings = 20'000;  // of one pair of graphs
-constexpr Time kLongest = 60;
+constexpr std::size_t kMaxReadings = 20'000;  // of one pair of graphs
+constexpr Time kMaxCost = 60;
 
 // State of an agent in the time-expanded graph, besides the time.
 struct AgentState {
@@ -164,7 +164,7 @@ class SideBySide {
       : reference_(reference), useful_(useful), graph_(graph) {}
 
   // Describes the first difference; empty if the graphs have the same paths. Reads at most
-  // kMostReadings pairs.
+  // kMaxReadings pairs.
   std::string difference() {
     const auto first = graph_.layer(0);
     std::map<Cell, Reading> begin;
@@ -176,7 +176,7 @@ class SideBySide {
     for (Time time = 1; time <= graph_.cost(); ++time) {
       std::set<Reading> next;
       for (const Reading& reading : now) {
-        if (++readings_ > kMostReadings) return {};
+        if (++readings_ > kMaxReadings) return {};
         std::map<Cell, Reading> there;
         for (const AgentState& m : reading.first)
           for (const AgentState& step : reference_.steps(m, time))
@@ -194,7 +194,7 @@ class SideBySide {
     }
     return {};
   }
-  bool complete() const { return readings_ <= kMostReadings; }
+  bool complete() const { return readings_ <= kMaxReadings; }
 
  private:
   using Reading = std::pair<std::set<AgentState>, std::set<Mdd::NodeId>>;
@@ -242,17 +242,17 @@ class Fuzzer {
     FreeOrderSipp search(grid);
     for (int round = 0; round < 6; ++round) {
       TimeExpanded reference(problem_);
-      const std::optional<Time> least = reference.least_cost(kLongest);
+      const std::optional<Time> least = reference.least_cost(kMaxCost);
       Path path;
       const auto outcome = search.find(
-          goals, {.constraints = problem_.constraints, .cutoff = kLongest}, Limits(), path);
+          goals, {.constraints = problem_.constraints, .cutoff = kMaxCost}, Limits(), path);
       ASSERT_EQ(outcome == PathOutcome::kFound, least.has_value());
       if (least) {
         ASSERT_EQ(static_cast<Time>(path.size()) - 1, *least);
       }
       for (Time more = -2; more <= 4; ++more) {
         const Time cost = least ? *least + more : below(20);
-        if (cost > kLongest) break;
+        if (cost > kMaxCost) break;
         check(reference, builder, goals, cost);
         if (::testing::Test::HasFatalFailure()) return;
       }

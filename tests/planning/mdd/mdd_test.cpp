@@ -163,7 +163,7 @@ class Fuzzer {
   int collides = 0;
 
  private:
-  static constexpr Time kLongest = 9;
+  static constexpr Time kMaxCost = 9;
 
   int below(int bound) { return static_cast<int>(random_() % static_cast<unsigned>(bound)); }
 
@@ -187,11 +187,11 @@ class Fuzzer {
   Paths check(Agent& agent) {
     const std::optional<Time> least = free_reference_cost(agent.problem);
     if (!least) {
-      EXPECT_EQ(agent.build(below(kLongest)), Outcome::kNone);
+      EXPECT_EQ(agent.build(below(kMaxCost)), Outcome::kNone);
       return {};
     }
     const Time cost = *least + std::max(0, below(5) - 2);
-    if (cost > kLongest) return {};
+    if (cost > kMaxCost) return {};
     const Paths all = Walks(agent.problem, cost).found();
     EXPECT_EQ(agent.build(cost), all.empty() ? Outcome::kNone : Outcome::kBuilt);
     EXPECT_TRUE(paths_of(agent.graph) == all);

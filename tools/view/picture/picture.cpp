@@ -28,11 +28,11 @@ struct Free {
 using Surface = std::unique_ptr<cairo_surface_t, Free>;
 using Context = std::unique_ptr<cairo_t, Free>;
 
-constexpr int kGap = 12;            // pixels between two moments
-constexpr int kMostPixels = 30000;  // maximum width and height: cairo's limit
-constexpr int kCaption = 20;        // height of a caption, below each moment
-constexpr int kLegend = 26;         // height of the legend, at the bottom
-constexpr int kLeastWithLegend = 640;
+constexpr int kGap = 12;           // pixels between two moments
+constexpr int kMaxPixels = 30000;  // maximum width and height: cairo's limit
+constexpr int kCaption = 20;       // height of a caption, below each moment
+constexpr int kLegend = 26;        // height of the legend, at the bottom
+constexpr int kMinWidthWithLegend = 640;
 
 cairo_status_t append(void* text, const unsigned char* bytes, unsigned length) {
   static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), length);
@@ -52,11 +52,11 @@ struct Strip {
         caption(captioned && drawing.has_plan() ? kCaption : 0),
         columns(std::min<int>(static_cast<int>(count), 4)),
         rows((static_cast<int>(count) + columns - 1) / columns),
-        legend(captioned && whole_width() >= kLeastWithLegend ? kLegend : 0) {
-    if (whole_width() > kMostPixels || whole_height() > kMostPixels)
+        legend(captioned && whole_width() >= kMinWidthWithLegend ? kLegend : 0) {
+    if (whole_width() > kMaxPixels || whole_height() > kMaxPixels)
       throw std::invalid_argument(
           fmt::format("found a picture of {} x {} pixels; expected at most {} in width and height",
-                      whole_width(), whole_height(), kMostPixels));
+                      whole_width(), whole_height(), kMaxPixels));
   }
   int whole_width() const { return columns * (panel_width + kGap) - kGap; }
   int row_height() const { return panel_height + caption + kGap; }
@@ -275,7 +275,7 @@ class GifWriter {
   std::vector<GifByteType> last_;
 };
 
-constexpr int kMostFrames = 2000;
+constexpr int kMaxFrames = 2000;
 constexpr double kFramesPerSecond = 20;
 constexpr int kRestAtTheEnd = 150;  // pause at the end, hundredths of a second
 
@@ -283,7 +283,7 @@ constexpr int kRestAtTheEnd = 150;  // pause at the end, hundredths of a second
 // be too many frames.
 int frames_per_step(Time end, double steps_per_second) {
   const int wanted = static_cast<int>(std::lround(kFramesPerSecond / steps_per_second));
-  const int allowed = end > 0 ? kMostFrames / end : 1;
+  const int allowed = end > 0 ? kMaxFrames / end : 1;
   return std::clamp(std::min(wanted, allowed), 1, 20);
 }
 
