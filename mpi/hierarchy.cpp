@@ -6,7 +6,7 @@
 namespace grove::detail {
 namespace {
 
-int least_levels(int ranks, std::int64_t children) {
+int min_levels(int ranks, std::int64_t children) {
   int levels = 1;
   for (std::int64_t below = children; below < ranks; below *= children) ++levels;
   return levels;
@@ -14,10 +14,10 @@ int least_levels(int ranks, std::int64_t children) {
 
 }  // namespace
 
-Hierarchy::Hierarchy(int ranks, std::int64_t most_children) : ranks_(ranks), strides_{1} {
-  const int levels = least_levels(ranks, most_children);
+Hierarchy::Hierarchy(int ranks, std::int64_t max_children) : ranks_(ranks), strides_{1} {
+  const int levels = min_levels(ranks, max_children);
   int children = 2;
-  while (least_levels(ranks, children) > levels) ++children;
+  while (min_levels(ranks, children) > levels) ++children;
   for (int level = 1; level < levels; ++level) strides_.push_back(strides_.back() * children);
   strides_.push_back(ranks);
 }

@@ -21,9 +21,9 @@ struct Endpoint {
 // top coordinator, on rank 0. Immutable: any thread may read it.
 class Hierarchy {
  public:
-  // Uses the minimum number of levels with at most `most_children` children per coordinator, and
-  // then the minimum number of children. `ranks` >= 1, `most_children` >= 2.
-  Hierarchy(int ranks, std::int64_t most_children);
+  // Uses the minimum number of levels with at most `max_children` children per coordinator, and
+  // then the minimum number of children. `ranks` >= 1, `max_children` >= 2.
+  Hierarchy(int ranks, std::int64_t max_children);
 
   int ranks() const { return ranks_; }
   // Number of coordinator levels, >= 1.

@@ -46,17 +46,17 @@ void count_messages(const SimulatedRun& run, ScalingRow& row) {
 }
 
 void weigh_loads(const SimulatedRun& run, ScalingRow& row) {
-  double most_s = 0;
+  double max_s = 0;
   std::int64_t working = 0;
   for (const SimulatedRun::Rank& rank : run.ranks) {
-    most_s = std::max(most_s, rank.worker.busy_s);
+    max_s = std::max(max_s, rank.worker.busy_s);
     if (rank.worker.turns == 0) continue;
     ++working;
     row.first_node_s += rank.worker.first_turn_s;
   }
   row.first_node_s = ratio(row.first_node_s, static_cast<double>(working));
   row.ranks_without_node = row.ranks - working;
-  row.max_over_mean = ratio(most_s * row.ranks, row.expanding_s);
+  row.max_over_mean = ratio(max_s * row.ranks, row.expanding_s);
   row.idle_share = 1 - ratio(row.expanding_s, run.wall_s * row.ranks);
 }
 

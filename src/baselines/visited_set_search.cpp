@@ -84,14 +84,14 @@ void VisitedSetSearch::reach(Cell cell, Time time, StopSet left, std::int32_t pa
   } else {
     labels_.push_back({left, time, cell, parent});
   }
-  const Time onward = least_cost(cell, left);
+  const Time onward = min_cost(cell, left);
   if (onward >= kNever) return;
   queue_.push(std::max(queue_.layer(), time + onward),
               {.slot = static_cast<std::int32_t>(id), .time = time});
 }
 
 // Lower bound on the cost from there.
-Time VisitedSetSearch::least_cost(Cell cell, StopSet left) {
+Time VisitedSetSearch::min_cost(Cell cell, StopSet left) {
   if (left == 0 && stops_->destination()) return stops_->to_rest(cell);
   Time nearest = kNever;
   for (int stop = 0; stop < stops_->count(); ++stop)

@@ -35,7 +35,7 @@ class VisitedSetSearch : public BaselineSearch {
   void prepare(const AgentStops& stops, std::span<const Constraint> constraints);
   PathOutcome run(Time cutoff, const Limits& limits, Path& path);
   void reach(Cell cell, Time time, StopSet left, std::int32_t parent);
-  Time least_cost(Cell cell, StopSet left);
+  Time min_cost(Cell cell, StopSet left);
   bool is_finish(const Label& label) const;
   void write_path(std::int32_t finish, Path& path) const;
 

@@ -96,7 +96,7 @@ class Chooser {
     for (Time reach = kFirstReach;; reach *= 2) {
       for (Ends& ends : ends_)
         if (!ends.widen(reach, limits_)) return std::nullopt;
-      const auto assignment = least_cost_assignment(costs());
+      const auto assignment = min_cost_assignment(costs());
       if (is_best(assignment)) return assignment ? finish(chosen, *assignment) : std::nullopt;
     }
   }

@@ -17,7 +17,7 @@ constexpr double kMaxLog2States = 44;  // for instances with at most 2^44 joint 
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
 
-std::size_t most_bytes(const Limits& limits) {
+std::size_t max_bytes(const Limits& limits) {
   const auto limit = limits.memory_limit();
   return limit ? std::min(kMaxBytes, *limit / 4) : kMaxBytes;
 }
@@ -36,7 +36,7 @@ bool JointScheduler::due() const {
 }
 
 Cost JointScheduler::step(Cost cutoff, const Limits& limits) {
-  if (!search_) search_ = EpeaStar::make(instance_, kMaxLog2States, most_bytes(limits));
+  if (!search_) search_ = EpeaStar::make(instance_, kMaxLog2States, max_bytes(limits));
   over_ = search_ == nullptr;
   if (over_) return 0;
   auto outcome = EpeaStar::Outcome::kWorking;

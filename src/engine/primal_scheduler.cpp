@@ -37,7 +37,7 @@ void PrimalScheduler::add_tree_work(std::int64_t work, TreeOutlook outlook) {
   tree_ += work;
   const bool beside = outlook.is_behind || outlook.gap_is_large;
   const double ratio = beside ? std::max(ratio_, tuning_.primal_min_share_dominated) : ratio_;
-  credit_ += std::min(ratio, most_ratio(outlook.gap_is_large)) * static_cast<double>(work);
+  credit_ += std::min(ratio, max_ratio(outlook.gap_is_large)) * static_cast<double>(work);
 }
 
 bool PrimalScheduler::may_begin() const {
@@ -66,7 +66,7 @@ double PrimalScheduler::ratio_with_plan(const PrimalSearch& primal) const {
   return std::clamp(kMaxPrimalShare * x * x * x, kMinPrimalShare, kMaxPrimalShare);
 }
 
-double PrimalScheduler::most_ratio(bool gap_is_large) const {
+double PrimalScheduler::max_ratio(bool gap_is_large) const {
   if (gap_is_large) return kMaxPrimalShare;
   const double part =
       static_cast<double>(tree_) / static_cast<double>(tuning_.primal_full_share_work);

@@ -29,7 +29,7 @@ class PrimalScheduler {
 
  private:
   double ratio_with_plan(const PrimalSearch& primal) const;
-  double most_ratio(bool gap_is_large) const;
+  double max_ratio(bool gap_is_large) const;
 
   const std::int64_t agents_;
   const Tuning tuning_;

@@ -55,8 +55,8 @@ std::size_t room(std::size_t limit) {
 // room, so there are few cuts. If this does not suffice, the limit stops the run.
 class MemoryBudgets {
  public:
-  // `limits` must outlive this. `most_for_nodes`: initial budget for nodes, in bytes.
-  MemoryBudgets(const Limits& limits, std::size_t most_for_nodes);
+  // `limits` must outlive this. `node_bytes`: initial budget for nodes, in bytes.
+  MemoryBudgets(const Limits& limits, std::size_t node_bytes);
 
   // True if the process is near its limit despite the current budgets.
   bool is_short() const {  // last_resident() may be older than the last cut
@@ -78,8 +78,8 @@ class MemoryBudgets {
   std::size_t for_expanders_;
 };
 
-MemoryBudgets::MemoryBudgets(const Limits& limits, std::size_t most_for_nodes)
-    : limits_(limits), alarm_(kNoLimit), for_nodes_(most_for_nodes), for_expanders_(kNoLimit) {
+MemoryBudgets::MemoryBudgets(const Limits& limits, std::size_t node_bytes)
+    : limits_(limits), alarm_(kNoLimit), for_nodes_(node_bytes), for_expanders_(kNoLimit) {
   if (const auto limit = limits.memory_limit()) alarm_ = *limit - room(*limit) / 8;
 }
 

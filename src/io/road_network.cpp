@@ -119,8 +119,8 @@ SteppedRoads in_steps(const RoadNetwork& network, const StepScale& scale, const 
     require_room(network, link, places, rules);
     result.roads.push_back({link.from, link.to, rounding.steps, link.one_way});
     if (rounding.link < 0) continue;
-    if (rounding.absolute() > result.most_absolute.absolute()) result.most_absolute = rounding;
-    if (rounding.relative() > result.most_relative.relative()) result.most_relative = rounding;
+    if (rounding.absolute() > result.max_absolute.absolute()) result.max_absolute = rounding;
+    if (rounding.relative() > result.max_relative.relative()) result.max_relative = rounding;
   }
   return result;
 }

@@ -49,8 +49,8 @@ struct Rounding {
 // The roads of a network in steps, one for each link, and the largest rounding errors.
 struct SteppedRoads {
   std::vector<Road> roads;
-  Rounding most_absolute;
-  Rounding most_relative;
+  Rounding max_absolute;
+  Rounding max_relative;
 };
 
 // The number of steps of a road is metres / metres_per_step or seconds / seconds_per_step; if the

@@ -27,13 +27,13 @@ class AgentGraphMaker {
   AgentGraphMaker(const Instance& instance, AgentIndex agent)
       : instance_(instance), world_(instance.world()), agent_(agent) {}
 
-  std::optional<AgentGraph> make(std::size_t most_nodes) {
+  std::optional<AgentGraph> make(std::size_t max_nodes) {
     const std::vector<TaskIndex>& stops = instance_.agent(agent_).stops;
     const Visited all = stops.empty() ? 0 : ~Visited{0} >> (64 - stops.size());
     const State start = instance_.agent(agent_).start;
     number({start, without_visited(start, all), false});
     for (std::size_t node = 0; node < nodes_.size(); ++node) {
-      if (nodes_.size() > most_nodes) return std::nullopt;
+      if (nodes_.size() > max_nodes) return std::nullopt;
       connect(nodes_[node]);
     }
     compute_costs();
@@ -151,8 +151,8 @@ class AgentGraphMaker {
 };
 
 std::optional<AgentGraph> AgentGraph::make(const Instance& instance, AgentIndex agent,
-                                           std::size_t most_nodes) {
-  return AgentGraphMaker(instance, agent).make(std::min(most_nodes, kMaxNodes));
+                                           std::size_t max_nodes) {
+  return AgentGraphMaker(instance, agent).make(std::min(max_nodes, kMaxNodes));
 }
 
 }  // namespace grove::detail

@@ -28,9 +28,9 @@ class AgentGraph {
     Time delta_f;  // increase over the least individual cost from here
   };
 
-  // Returns nullopt if more than `most_nodes` nodes are reachable.
+  // Returns nullopt if more than `max_nodes` nodes are reachable.
   static std::optional<AgentGraph> make(const Instance& instance, AgentIndex agent,
-                                        std::size_t most_nodes = kMaxNodes);
+                                        std::size_t max_nodes = kMaxNodes);
 
   AgentIndex agent() const { return agent_; }
   // 0 if the agent cannot complete its stops even without other agents.

@@ -53,11 +53,11 @@ constexpr std::int64_t kMadePerWork = 2;  // joint states; see search/work.h
 class EpeaStar::Search {
  public:
   // `tables`: use pattern databases. `least`: known lower bound on all plans.
-  Search(const Instance& instance, std::vector<AgentGraph> agents, std::size_t most_bytes,
+  Search(const Instance& instance, std::vector<AgentGraph> agents, std::size_t max_bytes,
          bool tables, Cost least)
       : instance_(instance),
         agents_(std::move(agents)),
-        most_bytes_(most_bytes),
+        max_bytes_(max_bytes),
         groups_(instance, agents_),
         from_on_(static_cast<std::size_t>(instance.world().place_count()), kNoAgent),
         to_on_(from_on_) {
@@ -80,7 +80,7 @@ class EpeaStar::Search {
         return Outcome::kEnded;
       }
       if (lower_bound_ >= cutoff) return Outcome::kEnded;
-      if (++states_ % kStatesPerPoll == 0 && (limits.stop_requested() || bytes() > most_bytes_))
+      if (++states_ % kStatesPerPoll == 0 && (limits.stop_requested() || bytes() > max_bytes_))
         return Outcome::kTooLarge;
       if (is_final(state))
         paths_ = paths_to(state);
@@ -309,7 +309,7 @@ class EpeaStar::Search {
 
   const Instance& instance_;
   const std::vector<AgentGraph> agents_;
-  const std::size_t most_bytes_;
+  const std::size_t max_bytes_;
   DatabaseGroups groups_;
   std::int32_t alone_ = 0;   // sum of individual costs at the start
   std::vector<Node> nodes_;  // by state, then agent
@@ -345,32 +345,32 @@ class EpeaStar::Search {
 
 namespace {
 
-std::size_t most_nodes_within(double bits) {
+std::size_t max_nodes_within(double bits) {
   return static_cast<std::size_t>(std::exp2(std::clamp(bits, 0.0, 12.0)));
 }
 
 }  // namespace
 
 EpeaStar::EpeaStar(std::unique_ptr<Search> search) : search_(std::move(search)) {}
-EpeaStar::EpeaStar(const Instance& instance, std::vector<AgentGraph> agents, std::size_t most_bytes,
+EpeaStar::EpeaStar(const Instance& instance, std::vector<AgentGraph> agents, std::size_t max_bytes,
                    Cost least)
-    : search_(std::make_unique<Search>(instance, std::move(agents), most_bytes, false, least)) {}
+    : search_(std::make_unique<Search>(instance, std::move(agents), max_bytes, false, least)) {}
 EpeaStar::~EpeaStar() = default;
 
-std::unique_ptr<EpeaStar> EpeaStar::make(const Instance& instance, double most_bits,
-                                         std::size_t most_bytes) try {
+std::unique_ptr<EpeaStar> EpeaStar::make(const Instance& instance, double max_bits,
+                                         std::size_t max_bytes) try {
   const double states_bits = std::log2(instance.world().state_count());
-  if (instance.agent_count() > kMaxAgents || instance.agent_count() * states_bits > most_bits)
+  if (instance.agent_count() > kMaxAgents || instance.agent_count() * states_bits > max_bits)
     return nullptr;
   std::vector<AgentGraph> agents;
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
-    auto graph = AgentGraph::make(instance, agent, most_nodes_within(most_bits));
+    auto graph = AgentGraph::make(instance, agent, max_nodes_within(max_bits));
     if (!graph) return nullptr;
-    most_bits -= std::log2(std::max<std::size_t>(graph->count(), 1));
+    max_bits -= std::log2(std::max<std::size_t>(graph->count(), 1));
     agents.push_back(std::move(*graph));
   }
   return std::unique_ptr<EpeaStar>(
-      new EpeaStar(std::make_unique<Search>(instance, std::move(agents), most_bytes, true, 0)));
+      new EpeaStar(std::make_unique<Search>(instance, std::move(agents), max_bytes, true, 0)));
 } catch (const std::bad_alloc&) {
   return nullptr;
 }

@@ -22,14 +22,14 @@ class EpeaStar {
  public:
   static constexpr int kMaxAgents = 16;
 
-  // Returns nullptr if there are more than kMaxAgents agents or more than 2^`most_bits` joint
+  // Returns nullptr if there are more than kMaxAgents agents or more than 2^`max_bits` joint
   // states, blocked cells included, or if there is no memory to begin with. `instance` must outlive
-  // it. `most_bytes`: its memory limit.
-  static std::unique_ptr<EpeaStar> make(const Instance& instance, double most_bits,
-                                        std::size_t most_bytes);
+  // it. `max_bytes`: its memory limit.
+  static std::unique_ptr<EpeaStar> make(const Instance& instance, double max_bits,
+                                        std::size_t max_bytes);
   // Searches the agents of these graphs: at least 1 and at most kMaxAgents. `least` is a known
   // lower bound on their cost.
-  EpeaStar(const Instance& instance, std::vector<AgentGraph> agents, std::size_t most_bytes,
+  EpeaStar(const Instance& instance, std::vector<AgentGraph> agents, std::size_t max_bytes,
            Cost least = 0);
   ~EpeaStar();
 

@@ -6,8 +6,8 @@
 // could rest and waits pays for it, as in any agent graph. A deadline for coming to rest (kRestBy)
 // limits the cost where states are places; elsewhere the slots express it.
 //
-// Claim: the paths of the graph to rest are exactly the paths that cost `most_cost` or less.
-// Proof: a node is dropped only if its distance to the end leads beyond `most_cost`. The cost-to-go
+// Claim: the paths of the graph to rest are exactly the paths that cost `max_cost` or less.
+// Proof: a node is dropped only if its distance to the end leads beyond `max_cost`. The cost-to-go
 // table is extended until it covers all sequences within the cost, so no stage of such a path is
 // unknown. A path that counts each stop as early as possible passes all stages that matter
 // (mdd.cpp).
@@ -31,24 +31,24 @@ TimeExpandedGraphs::TimeExpandedGraphs(const World& world) : world_(world), inte
 
 TimeExpandedGraphs::Outcome TimeExpandedGraphs::make(SequenceStages& goals,
                                                      std::span<const Constraint> constraints,
-                                                     Time most_cost, std::size_t most_nodes,
+                                                     Time max_cost, std::size_t max_nodes,
                                                      const Limits& limits, AgentGraph& graph) {
   intervals_.assign(constraints);
-  if (world_.states_are_places()) most_cost = std::min(most_cost, intervals_.latest_rest());
+  if (world_.states_are_places()) max_cost = std::min(max_cost, intervals_.latest_rest());
   graph = AgentGraph();
   graph.agent_ = goals.stops().agent();
   graph.first_move_.push_back(0);
-  if (most_cost < 0 || !goals.plausible()) return Outcome::kMade;
+  if (max_cost < 0 || !goals.plausible()) return Outcome::kMade;
   CostToGo& cost_to_go = goals.cost_to_go();
-  if (cost_to_go.beyond() <= most_cost && !cost_to_go.widen(most_cost, limits))
+  if (cost_to_go.beyond() <= max_cost && !cost_to_go.widen(max_cost, limits))
     return Outcome::kStopped;
   goals_ = &goals;
-  most_cost_ = most_cost;
+  max_cost_ = max_cost;
   // One number for each node and each state to rest in; there are at most as many of the latter.
-  most_nodes = std::min(most_nodes, kMaxNumbers / 2);
+  max_nodes = std::min(max_nodes, kMaxNumbers / 2);
   start();
   for (Index node = 0; node < std::ssize(nodes_); ++node, ++looked_at_) {
-    if (nodes_.size() > most_nodes) return Outcome::kTooLarge;
+    if (nodes_.size() > max_nodes) return Outcome::kTooLarge;
     if (looked_at_ % kExpansionsPerPoll == 0 && limits.stop_requested()) return Outcome::kStopped;
     expand(node);
   }
@@ -68,7 +68,7 @@ void TimeExpandedGraphs::start() {
   const StageId first = goals_->first_stage();
   if (slot < 0 || first == SequenceStages::kOutside) return;
   goals_->on_arrival(first, state, [&](StageId stage) {
-    if (goals_->distance(stage, state) <= most_cost_) first_stages_.push_back(stage);
+    if (goals_->distance(stage, state) <= max_cost_) first_stages_.push_back(stage);
   });
   if (!first_stages_.empty()) nodes_.push_back({slot, first, 0});
 }
@@ -95,7 +95,7 @@ void TimeExpandedGraphs::expand(std::int32_t slot, StageId stage, Time time) {
 void TimeExpandedGraphs::reach(std::int32_t slot, StageId stage, Time time) {
   const auto key = static_cast<std::uint64_t>(slot) << 32 | static_cast<std::uint32_t>(stage);
   const auto [at, is_new] = next_.try_emplace(key, -1);
-  if (is_new && goals_->distance(stage, intervals_.state_of(slot)) <= most_cost_ - time) {
+  if (is_new && goals_->distance(stage, intervals_.state_of(slot)) <= max_cost_ - time) {
     at->second = static_cast<Index>(nodes_.size());
     nodes_.push_back({slot, stage, time});
   }

@@ -21,7 +21,7 @@ class TimeExpandedGraphs {
  public:
   enum class Outcome : std::uint8_t {
     kMade,
-    kTooLarge,  // more than `most_nodes` nodes, or more than can be numbered (32,767)
+    kTooLarge,  // more than `max_nodes` nodes, or more than can be numbered (32,767)
     kStopped,   // a limit was reached
   };
 
@@ -29,10 +29,10 @@ class TimeExpandedGraphs {
   explicit TimeExpandedGraphs(const World& world);
 
   // Makes the graph of the paths that realize a sequence of the class of `goals`, satisfy
-  // `constraints` (none of them about the sequence), and cost at most `most_cost`. The graph has no
+  // `constraints` (none of them about the sequence), and cost at most `max_cost`. The graph has no
   // node if there is no such path. Extends the cost-to-go table of `goals` as needed.
-  Outcome make(SequenceStages& goals, std::span<const Constraint> constraints, Time most_cost,
-               std::size_t most_nodes, const Limits& limits, AgentGraph& graph);
+  Outcome make(SequenceStages& goals, std::span<const Constraint> constraints, Time max_cost,
+               std::size_t max_nodes, const Limits& limits, AgentGraph& graph);
   // Nodes expanded so far, over all calls.
   std::int64_t nodes() const { return looked_at_; }
 
@@ -66,7 +66,7 @@ class TimeExpandedGraphs {
   std::int64_t looked_at_ = 0;
   // Of the current call.
   SequenceStages* goals_ = nullptr;
-  Time most_cost_ = 0;
+  Time max_cost_ = 0;
 };
 
 }  // namespace grove::detail

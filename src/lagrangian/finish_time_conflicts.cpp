@@ -85,7 +85,7 @@ FinishTimeConflicts::OfAgent& FinishTimeConflicts::of(AgentIndex agent, const Li
   OfAgent& of_agent = agents_[agent];
   if (!of_agent.goals) {
     of_agent.goals = std::make_unique<SequenceStages>(stops_.of(agent), SequenceClass{});
-    of_agent.least = least_cost(*of_agent.goals, limits);
+    of_agent.least = min_cost(*of_agent.goals, limits);
   }
   return of_agent;
 }

@@ -185,7 +185,7 @@ Path PenalizedSearch::path_to(const Label& label) const {
   return path;
 }
 
-Time least_cost(SequenceStages& goals, const Limits& limits) {
+Time min_cost(SequenceStages& goals, const Limits& limits) {
   CostToGo& cost_to_go = goals.cost_to_go();
   for (;;) {
     const SequenceStages::StageId stage = goals.first_stage();

@@ -107,6 +107,6 @@ class PenalizedSearch {
 
 // The least cost of a path of the agent; only a lower bound if a limit was reached. Widens the
 // costs to go until they contain a sequence of that cost.
-Time least_cost(SequenceStages& goals, const Limits& limits);
+Time min_cost(SequenceStages& goals, const Limits& limits);
 
 }  // namespace grove::detail

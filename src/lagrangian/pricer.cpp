@@ -35,7 +35,7 @@ SequenceStages& Pricer::goals(AgentIndex agent) {
 // First value of an agent: no path is known whose cost could be the cutoff. The cutoff rises from
 // just above the least cost, because hardly any value is much higher.
 ScaledCost Pricer::first_price(AgentIndex agent, const Limits& limits, Path& path) {
-  const ScaledCost least = ScaledCost{least_cost(goals(agent), limits)} * Penalties::kUnit;
+  const ScaledCost least = ScaledCost{min_cost(goals(agent), limits)} * Penalties::kUnit;
   ScaledCost price = 0;
   for (ScaledCost more = Penalties::kUnit; path.empty(); more *= 4) {
     const ScaledCost below = std::min(least + more, PenalizedSearch::kMaxPenaltyCost);

@@ -223,14 +223,14 @@ DistanceFields::FieldPtr DistanceFields::field_to(Place place, const DistanceFie
   return found == known->to_place_.end() ? nullptr : found->second;
 }
 
-Time least_from(const World& world, Place place, int kind, DistanceView distances) {
+Time min_distance_from(const World& world, Place place, int kind, DistanceView distances) {
   const StateRange bases = world.bases(place, kind);
   Time least = distances[bases.first];
   for (State s = bases.first + 1; s < bases.end; ++s) least = std::min(least, distances[s]);
   return least;
 }
 
-Time most_from(const World& world, Place place, int kind, DistanceView distances) {
+Time max_distance_from(const World& world, Place place, int kind, DistanceView distances) {
   const StateRange bases = world.bases(place, kind);
   Time most = distances[bases.first];
   for (State s = bases.first + 1; s < bases.end; ++s) most = std::max(most, distances[s]);

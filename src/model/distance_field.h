@@ -137,8 +137,8 @@ class DistanceFields {
 };
 
 // The minimum of the distances from the base states of one kind on a place.
-Time least_from(const World& world, Place place, int kind, DistanceView distances);
+Time min_distance_from(const World& world, Place place, int kind, DistanceView distances);
 // The maximum of the same distances.
-Time most_from(const World& world, Place place, int kind, DistanceView distances);
+Time max_distance_from(const World& world, Place place, int kind, DistanceView distances);
 
 }  // namespace grove::detail

@@ -53,7 +53,7 @@ int longest_row(const CsrArray& rows) {
 
 World::World(CsrArray moves)
     : places_(moves.count()),
-      most_moves_(longest_row(moves)),
+      max_moves_(longest_row(moves)),
       first_working_(moves.count()),
       moves_(std::move(moves)) {
   CsrArray back = reversed(moves_);
@@ -67,14 +67,14 @@ World::World(CsrArray moves)
 World::World(CsrArray moves, Place row_width)
     : places_(moves.count()),
       row_width_(row_width),
-      most_moves_(longest_row(moves)),
+      max_moves_(longest_row(moves)),
       first_working_(moves.count()),
       moves_(std::move(moves)) {}
 
 World::World(const World& ground, std::vector<Kind> kinds, std::vector<Work> work, CsrArray moves)
     : places_(ground.place_count()),
       row_width_(ground.row_width()),
-      most_moves_(longest_row(moves)),
+      max_moves_(longest_row(moves)),
       is_symmetric_(false),
       has_other_neighbors_(true),
       first_working_(moves.count() - static_cast<State>(work.size())),
@@ -101,7 +101,7 @@ World::World(const World& ground, std::vector<Kind> kinds, std::vector<Work> wor
     for (const Place there : ground.neighbors(here)) neighbors_.add(there);
     neighbors_.end_row();
   }
-  most_states_on_a_place_ = bases_on_a_place_ + longest_row(working_);
+  max_states_on_a_place_ = bases_on_a_place_ + longest_row(working_);
 }
 
 int World::kind_of_base(State state) const {

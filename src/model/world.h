@@ -97,7 +97,7 @@ class World {
   int states_on(Place place) const {
     return states_are_places() ? 1 : bases_on_a_place_ + static_cast<int>(working_[place].size());
   }
-  int most_states_on_a_place() const { return most_states_on_a_place_; }
+  int max_states_on_a_place() const { return max_states_on_a_place_; }
   int rank_on_place(State state) const { return state < places_ ? 0 : rank_of(state); }
   // Calls visit(state) for each state on `place`, in order of rank.
   template <class Visit>
@@ -135,7 +135,7 @@ class World {
   // The number of cells in a row if the places are the cells of a grid; else 0.
   Place row_width() const { return row_width_; }
   // The maximum number of moves from one state.
-  int most_moves() const { return most_moves_; }
+  int max_moves() const { return max_moves_; }
 
   // A name for messages, for example "[3, 4]".
   virtual std::string name(State state) const = 0;
@@ -163,9 +163,9 @@ class World {
 
   Place places_;
   Place row_width_ = 0;
-  int most_moves_ = 0;
+  int max_moves_ = 0;
   int bases_on_a_place_ = 1;
-  int most_states_on_a_place_ = 1;
+  int max_states_on_a_place_ = 1;
   bool is_symmetric_ = true;
   bool has_other_neighbors_ = false;
   State first_working_;

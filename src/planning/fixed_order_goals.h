@@ -54,7 +54,7 @@ class FixedOrderGoals {
 
   Time first_rest() const { return first_rest_; }
   // Lower bound on the cost of a path that is in the state at `time` with this progress.
-  Time least_cost(Progress progress, State state, Time time) const {
+  Time min_cost(Progress progress, State state, Time time) const {
     return time + stages_[progress].to_goal[state] + stages_[progress].after_goal;
   }
   template <class Reach>
@@ -64,7 +64,7 @@ class FixedOrderGoals {
     reach(progress);
   }
   Time layer(Progress progress, State state, Time time) const {
-    const Time cost = least_cost(progress, state, time);
+    const Time cost = min_cost(progress, state, time);
     return cost > stages_[progress].latest ? kDropped : cost;
   }
   bool may_end(Progress progress, State state) const {
@@ -72,7 +72,7 @@ class FixedOrderGoals {
   }
   Time put_off(Progress progress, State state, Time time, Time layer) const {
     const Stage& stage = stages_[progress];
-    if (stage.gate_until <= layer || least_cost(progress, state, time) < stage.gate_from)
+    if (stage.gate_until <= layer || min_cost(progress, state, time) < stage.gate_from)
       return layer;
     return stage.gate_until < kNever ? stage.gate_until : kDropped;
   }

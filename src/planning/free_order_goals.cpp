@@ -55,7 +55,7 @@ bool FreeOrderGoals::misses_deadline(Progress stage, State state, Time time) con
 }
 
 Time FreeOrderGoals::put_off_by_gates(Progress id, State state, Time time, Time layer) {
-  const Time until = gates_.least_cost(*goals_, id, state, time);
+  const Time until = gates_.min_cost(*goals_, id, state, time);
   Time put_off = kDropped;
   if (until > cap_) {
     over_ |= until < kNever;

@@ -102,9 +102,9 @@ class FreeOrderGoals {
     if (only_rest_ == AgentStops::kNoStop) return distance;
     return std::max(distance, goals_->stops().distance(state, only_rest_));
   }
-  Time layer_of(Time least_cost, Time to_go) const {
-    if (greed_percent_ == 0) return least_cost;
-    return std::max(least_cost, first_rest_) +
+  Time layer_of(Time min_cost, Time to_go) const {
+    if (greed_percent_ == 0) return min_cost;
+    return std::max(min_cost, first_rest_) +
            static_cast<Time>(std::int64_t{to_go} * greed_percent_ / 100);
   }
 

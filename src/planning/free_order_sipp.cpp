@@ -226,11 +226,11 @@ std::optional<PathOutcome> FreeOrderSipp::Workspace::find_within(Time cap) {
 std::optional<PathOutcome> FreeOrderSipp::Workspace::doubt() {
   if (doubt_at_ == kNotAgain) return std::nullopt;
   doubt_at_ = kNotAgain;
-  const Time least_cost =
-      visit_check_.least_cost(goals().stops(), search_.goals().first_rest(), *limits_);
+  const Time min_cost =
+      visit_check_.min_cost(goals().stops(), search_.goals().first_rest(), *limits_);
   if (limits_->stop_requested()) return PathOutcome::kStopped;
-  if (least_cost >= kNever) return PathOutcome::kInfeasible;
-  return least_cost > latest_ ? std::optional(above_) : std::nullopt;
+  if (min_cost >= kNever) return PathOutcome::kInfeasible;
+  return min_cost > latest_ ? std::optional(above_) : std::nullopt;
 }
 
 // Recomputes the costs of the legs, at most once per call. Returns true if the search must restart

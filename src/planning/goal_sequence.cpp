@@ -27,7 +27,7 @@ GoalSequence::GoalSequence(const Instance& instance, const DistanceFields& dista
 
   after_goal_.assign(goals_.size(), 0);
   for (int k = size() - 2; k >= 0; --k) {
-    const Time leg = least_from(world, goals_[k], who.kind, to_goal_[k + 1]);
+    const Time leg = min_distance_from(world, goals_[k], who.kind, to_goal_[k + 1]);
     after_goal_[k] = leg >= kNever ? kNever : std::min(kNever, leg + after_goal_[k + 1]);
   }
 }

@@ -89,7 +89,7 @@ class JointMddSearch::Workspace {
     for (auto& seen : seen_) seen.assign(world.place_count(), 0);
   }
 
-  Dependence find(const Mdd& a, const Mdd& b, std::size_t most_pairs, const Limits& limits);
+  Dependence find(const Mdd& a, const Mdd& b, std::size_t max_pairs, const Limits& limits);
   std::int64_t pairs() const { return expanded_; }
 
  private:
@@ -107,7 +107,7 @@ class JointMddSearch::Workspace {
 
   const Mdd* a_ = nullptr;
   const Mdd* b_ = nullptr;
-  std::size_t most_pairs_ = 0;
+  std::size_t max_pairs_ = 0;
   Time first_contact_ = kNever;
   Time last_contact_ = -1;
   PairSet known_;
@@ -126,16 +126,16 @@ std::int64_t JointMddSearch::pairs() const {
   return workspace_->pairs();
 }
 
-Dependence JointMddSearch::find(const Mdd& a, const Mdd& b, std::size_t most_pairs,
+Dependence JointMddSearch::find(const Mdd& a, const Mdd& b, std::size_t max_pairs,
                                 const Limits& limits) {
-  return workspace_->find(a, b, most_pairs, limits);
+  return workspace_->find(a, b, max_pairs, limits);
 }
 
-Dependence JointMddSearch::Workspace::find(const Mdd& a, const Mdd& b, std::size_t most_pairs,
+Dependence JointMddSearch::Workspace::find(const Mdd& a, const Mdd& b, std::size_t max_pairs,
                                            const Limits& limits) {
   a_ = &a;
   b_ = &b;
-  most_pairs_ = most_pairs;
+  max_pairs_ = max_pairs;
   find_contacts();
   if (first_contact_ == kNever) return Dependence::kIndependent;
   if (first_contact_ == 0) return Dependence::kDependent;  // they start on one cell
@@ -190,7 +190,7 @@ Dependence JointMddSearch::Workspace::search(Pair first, const Limits& limits) {
     const Pair pair = open_.back();
     open_.pop_back();
     if (pair.time >= last_contact_) return Dependence::kIndependent;
-    if (known_.size() > most_pairs_) return Dependence::kUnknown;
+    if (known_.size() > max_pairs_) return Dependence::kUnknown;
     if (++expanded_ % kPairsPerPoll == 0 && limits.stop_requested()) return Dependence::kUnknown;
     expand(pair);
   }

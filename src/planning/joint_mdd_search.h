@@ -17,7 +17,7 @@ namespace grove::detail {
 enum class Dependence : std::uint8_t {
   kIndependent,  // some path of a and some path of b do not collide
   kDependent,    // proven: all pairs collide
-  kUnknown,      // `most_pairs` or a limit was reached
+  kUnknown,      // `max_pairs` or a limit was reached
 };
 
 // The joint search of two MDDs from CBS with the WDG heuristic (Li et al., IJCAI 2019). The proof
@@ -30,8 +30,8 @@ class JointMddSearch {
   ~JointMddSearch();
 
   // `a` and `b` must not be empty. They may differ in length: an agent rests on its last place for
-  // ever. Returns kUnknown if the search generates more than `most_pairs` pairs of nodes.
-  Dependence find(const Mdd& a, const Mdd& b, std::size_t most_pairs, const Limits& limits);
+  // ever. Returns kUnknown if the search generates more than `max_pairs` pairs of nodes.
+  Dependence find(const Mdd& a, const Mdd& b, std::size_t max_pairs, const Limits& limits);
 
   // Pairs of nodes expanded by all calls so far.
   std::int64_t pairs() const;

@@ -13,7 +13,7 @@
 // *How late a leg begins.* No path counts stop i before dist(start, i). Consider a path that counts
 // i last, with a sequence s. Up to i it visits all of s, so this part takes at least cost(s) -
 // to_end(i), and cost(s) is at least the least cost of all sequences considered. So the leg from i
-// to the end begins at least_cost - to_end(i) or later. cost(s) and to_end(i) are costs without
+// to the end begins at min_cost - to_end(i) or later. cost(s) and to_end(i) are costs without
 // constraints.
 //
 // *Consequence.* Each leg of a path costs at least its entry, whatever comes before and after. So
@@ -44,14 +44,13 @@ class LateCosts {
     }
   }
 
-  std::optional<CostMatrix> raise(Time least_cost) {
+  std::optional<CostMatrix> raise(Time min_cost) {
     if (barred_.empty()) return std::nullopt;
     const int n = stops_.count();
     for (int stop = 0; stop < n; ++stop) {
       const Time begin = stops_.distance(stops_.start(), stop);
       raise_row(stop, begin);
-      if (stops_.destination())
-        raise_last_leg(stop, std::max(begin, least_cost - longest_end(stop)));
+      if (stops_.destination()) raise_last_leg(stop, std::max(begin, min_cost - longest_end(stop)));
     }
     raise_row(n, 0);
     return raised_ ? std::optional(std::move(matrix_)) : std::nullopt;
@@ -150,14 +149,14 @@ class LateCosts {
 }  // namespace
 
 std::optional<CostMatrix> late_cost_matrix(const World& world, SafeIntervals& intervals,
-                                           const AgentStops& stops, Time least_cost) {
-  return LateCosts(world, intervals, stops).raise(least_cost);
+                                           const AgentStops& stops, Time min_cost) {
+  return LateCosts(world, intervals, stops).raise(min_cost);
 }
 
 namespace {
 
 // Lower bound on the cost of every sequence of the class, by the costs to go.
-Time least_cost(SequenceStages& goals) {
+Time min_cost(SequenceStages& goals) {
   const Time beyond = goals.cost_to_go().beyond();
   const SequenceStages::StageId stage = goals.first_stage();
   if (stage == SequenceStages::kOutside) return beyond;
@@ -180,7 +179,7 @@ CostToGo late_completions(const AgentStops& stops, CostMatrix late) {
 }  // namespace
 
 SequenceStages* LateGoals::over(SequenceStages& plain, const Limits& limits) {
-  const Time plain_cost = least_cost(plain);
+  const Time plain_cost = min_cost(plain);
   auto matrix = late_cost_matrix(world_, intervals_, plain.stops(), plain_cost);
   if (!matrix) return nullptr;
   goals_.reset();
@@ -194,9 +193,9 @@ SequenceStages* LateGoals::over(SequenceStages& plain, const Limits& limits) {
   }
   cost_to_go_->reset();
   goals_.emplace(plain.stops(), plain.sequence_class(), *cost_to_go_);
-  while (cost_to_go_->beyond() <= plain_cost && least_cost(*goals_) >= cost_to_go_->beyond())
+  while (cost_to_go_->beyond() <= plain_cost && min_cost(*goals_) >= cost_to_go_->beyond())
     if (!cost_to_go_->widen(cost_to_go_->beyond(), limits)) break;
-  return least_cost(*goals_) > plain_cost ? &*goals_ : nullptr;
+  return min_cost(*goals_) > plain_cost ? &*goals_ : nullptr;
 }
 
 }  // namespace grove::detail

@@ -11,10 +11,10 @@
 namespace grove::detail {
 
 // Lower bounds on the legs of every path under these intervals that visits the stops in the order
-// of a sequence of plain cost `least_cost` or more. Returns nullopt if no entry exceeds the plain
+// of a sequence of plain cost `min_cost` or more. Returns nullopt if no entry exceeds the plain
 // matrix. O(stops * states).
 std::optional<CostMatrix> late_cost_matrix(const World& world, SafeIntervals& intervals,
-                                           const AgentStops& stops, Time least_cost);
+                                           const AgentStops& stops, Time min_cost);
 
 // Stages of one agent over late costs, for a search that plain distances mislead.
 class LateGoals {

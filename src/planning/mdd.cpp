@@ -52,7 +52,7 @@ class MddBuilder::Workspace {
   explicit Workspace(const World& world) : world_(world), intervals_(world) {}
 
   Outcome build(SequenceStages& goals, std::span<const Constraint> constraints, Time cost,
-                std::size_t most_nodes, const Limits& limits, Mdd& paths);
+                std::size_t max_nodes, const Limits& limits, Mdd& paths);
   std::int64_t nodes() const { return met_; }
 
  private:
@@ -85,7 +85,7 @@ class MddBuilder::Workspace {
     std::uint32_t stamp;
   };
 
-  Outcome make_layers(std::size_t most_nodes, Mdd& paths);
+  Outcome make_layers(std::size_t max_nodes, Mdd& paths);
   Outcome go_forward(std::size_t label_limit);
   void start();
   void expand(LabelId label);
@@ -158,13 +158,13 @@ std::int64_t MddBuilder::nodes() const {
 
 MddBuilder::Outcome MddBuilder::build(SequenceStages& goals,
                                       std::span<const Constraint> constraints, Time cost,
-                                      std::size_t most_nodes, const Limits& limits, Mdd& paths) {
-  return workspace_->build(goals, constraints, cost, most_nodes, limits, paths);
+                                      std::size_t max_nodes, const Limits& limits, Mdd& paths) {
+  return workspace_->build(goals, constraints, cost, max_nodes, limits, paths);
 }
 
 MddBuilder::Outcome MddBuilder::Workspace::build(SequenceStages& goals,
                                                  std::span<const Constraint> constraints, Time cost,
-                                                 std::size_t most_nodes, const Limits& limits,
+                                                 std::size_t max_nodes, const Limits& limits,
                                                  Mdd& paths) {
   paths = Mdd();
   intervals_.assign(constraints);
@@ -177,17 +177,17 @@ MddBuilder::Outcome MddBuilder::Workspace::build(SequenceStages& goals,
   goals_ = &goals;
   limits_ = &limits;
   cost_ = cost;
-  const Outcome outcome = make_layers(most_nodes, paths);
+  const Outcome outcome = make_layers(max_nodes, paths);
   met_ += std::ssize(labels_) + paths.node_count();
   return outcome;
 }
 
-MddBuilder::Outcome MddBuilder::Workspace::make_layers(std::size_t most_nodes, Mdd& paths) {
-  const Outcome outcome = go_forward(most_nodes);
+MddBuilder::Outcome MddBuilder::Workspace::make_layers(std::size_t max_nodes, Mdd& paths) {
+  const Outcome outcome = go_forward(max_nodes);
   if (outcome != Outcome::kBuilt) return outcome;
   go_backward();
   if (ends_.empty()) return Outcome::kNone;
-  if (count_nodes() > most_nodes) return Outcome::kTooLarge;
+  if (count_nodes() > max_nodes) return Outcome::kTooLarge;
   write_layers();
   paths = written_;
   return Outcome::kBuilt;

@@ -68,7 +68,7 @@ class MddBuilder {
   enum class Outcome : std::uint8_t {
     kBuilt,
     kNone,      // proven: no path has exactly this cost
-    kTooLarge,  // more than `most_nodes` nodes, or (slot, stage) pairs reached for them
+    kTooLarge,  // more than `max_nodes` nodes, or (slot, stage) pairs reached for them
     kStopped,   // a limit was reached
   };
 
@@ -81,7 +81,7 @@ class MddBuilder {
   // optimal paths. Widens the costs to go of `goals` as needed. `paths` is empty after all outcomes
   // except kBuilt. Throws std::invalid_argument for a constraint that does not fit the world.
   Outcome build(SequenceStages& goals, std::span<const Constraint> constraints, Time cost,
-                std::size_t most_nodes, const Limits& limits, Mdd& paths);
+                std::size_t max_nodes, const Limits& limits, Mdd& paths);
 
   // Work done by all calls so far: nodes made, plus (slot, stage) pairs reached for them.
   std::int64_t nodes() const;

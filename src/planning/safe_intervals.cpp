@@ -32,7 +32,7 @@ void SafeIntervals::assign(const ReservationTable& reservations) {
   reservations_ = &reservations;
   // k >= 1 stays on a place leave at most k + 1 <= 2 k intervals of each state.
   slot_limit_ =
-      states_ + static_cast<int>(2 * reservations.count()) * world_.most_states_on_a_place();
+      states_ + static_cast<int>(2 * reservations.count()) * world_.max_states_on_a_place();
 }
 
 void SafeIntervals::look_up(Place place) {

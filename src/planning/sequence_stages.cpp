@@ -116,7 +116,7 @@ AgentStops::AgentStops(const Instance& instance, const DistanceFields& distances
     for (std::size_t from = 0; from < ports; ++from) {
       const Place here = places_[from / static_cast<std::size_t>(ports_)];
       longest_legs_[from * ports + port] =
-          ports_ == 1 ? most_from(world, here, who.kind, field)
+          ports_ == 1 ? max_distance_from(world, here, who.kind, field)
                       : field[world.bases(here, who.kind).first + static_cast<int>(from) % ports_];
     }
   }

@@ -12,17 +12,17 @@
 
 namespace grove::detail {
 
-Time SingleStopBound::least_cost(const AgentStops& stops, Time least, const Limits& limits) {
+Time SingleStopBound::min_cost(const AgentStops& stops, Time least, const Limits& limits) {
   stops_ = &stops;
   least_ = least;
   for (int stop = 0; stop < stops.count() && !limits.stop_requested(); ++stop)
-    least_ = least_cost_through(stop);
+    least_ = min_cost_through(stop);
   return least_;
 }
 
 // The first time at which the agent can rest for ever after visiting the stop `via`, but at least
 // least_; kNever if that is impossible.
-Time SingleStopBound::least_cost_through(int via) {
+Time SingleStopBound::min_cost_through(int via) {
   via_ = via;
   after_via_ = 0;
   if (!stops_->rests_on_last_stop()) {

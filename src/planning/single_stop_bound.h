@@ -23,7 +23,7 @@ class SingleStopBound {
 
   // Lower bound on the cost of a path through all stops under the intervals, given the bound
   // `least`; kNever if there is no path. If a limit is reached, it examines fewer stops.
-  Time least_cost(const AgentStops& stops, Time least, const Limits& limits);
+  Time min_cost(const AgentStops& stops, Time least, const Limits& limits);
 
  private:
   using Queue = BasicBucketQueue<std::uint8_t>;  // progress: 1 if `via` was visited
@@ -31,7 +31,7 @@ class SingleStopBound {
   static std::size_t index(int slot, int visited) {
     return 2 * static_cast<std::size_t>(slot) + static_cast<std::size_t>(visited);
   }
-  Time least_cost_through(int via);
+  Time min_cost_through(int via);
   Time to_go(State state, bool visited) const;
   bool may_rest(int slot) const;
   void reach(int slot, State state, Time time, bool visited);

@@ -65,8 +65,8 @@ void StopDominance::close(const SequenceStages& goals, StageId from, State state
   }
 }
 
-Time StopDominance::least_cost(const SequenceStages& goals, StageId stage, State state,
-                               Time time) const {
+Time StopDominance::min_cost(const SequenceStages& goals, StageId stage, State state,
+                             Time time) const {
   const Gate* gate = &gates_[static_cast<std::size_t>(by_stage_[stage])];
   Time least = kNever;
   for (const SequenceStages::Onward& way : goals.onward(goals.stage(stage))) {

@@ -32,7 +32,7 @@ class StopDominance {
   // Lower bound on the cost of a useful path from here on: the least f of the onward ports, where
   // the visit of each stop is postponed as its gate says. kNever or more if no path is useful.
   // Requires any().
-  Time least_cost(const SequenceStages& goals, StageId stage, State state, Time time) const;
+  Time min_cost(const SequenceStages& goals, StageId stage, State state, Time time) const;
 
  private:
   // A gate: a label that reaches the stop at `from` or later is not needed for this port, unless it

@@ -37,7 +37,7 @@ constexpr Time kLate = 3;
 const std::vector<AgentIndex>& Neighborhoods::choose() {
   const int agents = problem_.instance.agent_count();
   chosen_.clear();
-  const std::int64_t spread = most_wanted() - tuning_.min_neighborhood;
+  const std::int64_t spread = max_size() - tuning_.min_neighborhood;
   wanted_ = std::min<std::int64_t>(
       agents, tuning_.min_neighborhood + random_.below(std::max<std::int64_t>(spread, 0) + 1));
   kind_ = choose_kind();
@@ -52,7 +52,7 @@ const std::vector<AgentIndex>& Neighborhoods::choose() {
 // Upper limit of the size. It grows after kGrowthFailures failures per agent, because larger
 // neighbourhoods may gain where small ones no longer do (variable neighbourhood search: Mladenovic
 // and Hansen 1997).
-std::int64_t Neighborhoods::most_wanted() const {
+std::int64_t Neighborhoods::max_size() const {
   const std::int64_t times = 1 + failures_ / (kGrowthFailures * problem_.instance.agent_count());
   return kMaxNeighborhood * std::min<std::int64_t>(times, kMaxGrowth);
 }

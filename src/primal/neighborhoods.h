@@ -35,7 +35,7 @@ class Neighborhoods {
   static constexpr int kKinds = 4;
   static constexpr std::int64_t kFew = 2;  // a smaller neighbourhood is filled with random agents
 
-  std::int64_t most_wanted() const;
+  std::int64_t max_size() const;
   Kind choose_kind();
   void add(AgentIndex agent);
   bool full() const { return std::ssize(chosen_) >= wanted_; }

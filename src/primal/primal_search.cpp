@@ -126,7 +126,7 @@ class PrimalSearch::Impl {
     return (plans && planning_work_ < meetings * meeting_work_) ||
            (guided_ && guided_work_ < meetings * meeting_work_);
   }
-  bool optimal() const { return met_ == agents_ && own_costs_are_least_ && best_ <= own_costs_; }
+  bool optimal() const { return met_ == agents_ && own_costs_are_minimal_ && best_ <= own_costs_; }
   std::int64_t work() const {
     return low_level_.work() + (paths_.steps_moved() + planned_.steps_moved()) / work::kStepsMoved +
            joint_steps_ * agents_ + guided_work_;
@@ -184,7 +184,7 @@ class PrimalSearch::Impl {
 
   AgentIndex met_ = 0;  // agents from here on have no individual path yet
   Cost own_costs_ = 0;  // of agents with an individual path
-  bool own_costs_are_least_ = true;
+  bool own_costs_are_minimal_ = true;
   std::int64_t meeting_work_ = 0;
   std::optional<Plan> adopted_;  // adopted before all individual paths were known
   bool improving_ = false;       // there is a plan in paths_
@@ -272,7 +272,7 @@ void PrimalSearch::Impl::meet(const Limits& limits) {
   const bool met = low_level_.meet(met_, limits);
   meeting_work_ += work() - before;
   if (!met) return;
-  own_costs_are_least_ = own_costs_are_least_ && low_level_.knows_best(met_);
+  own_costs_are_minimal_ = own_costs_are_minimal_ && low_level_.knows_best(met_);
   own_costs_ += low_level_.individual_cost(met_++);
   if (met_ < agents_) return;
   begin_round(true);

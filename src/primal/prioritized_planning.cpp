@@ -65,7 +65,7 @@ std::int64_t PrioritizedPlanning::label_limit() const {
          << std::min<std::int64_t>(draws, 30);
 }
 
-std::int64_t PrioritizedPlanning::most_exact_labels() const {
+std::int64_t PrioritizedPlanning::max_exact_labels() const {
   return tuning_.pp_exact_labels + tuning_.pp_exact_labels_factor * labels_of_exact_ /
                                        std::max(found_exactly_, std::int64_t{1});
 }
@@ -75,8 +75,7 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
   if (next_ == order_.size()) return Outcome::kDone;
   const AgentIndex agent = order_[next_];
   const std::int64_t before = low_level_.expanded();
-  const std::int64_t most =
-      greedily_ ? label_limit() : std::min(label_limit(), most_exact_labels());
+  const std::int64_t most = greedily_ ? label_limit() : std::min(label_limit(), max_exact_labels());
   const PathQuery query{.label_limit = std::min(patience, most),
                         .reservations = &paths_.reservations(),
                         .inflation_percent = greedily_ ? kGreedPercent : 0,

@@ -45,7 +45,7 @@ class PrioritizedPlanning {
  private:
   void begin_again();
   std::int64_t label_limit() const;
-  std::int64_t most_exact_labels() const;
+  std::int64_t max_exact_labels() const;
   void remove_blocking_agents(AgentIndex agent);
   void begin_with_next();
   void note_labels(std::int64_t labels);

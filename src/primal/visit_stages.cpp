@@ -60,7 +60,7 @@ VisitStages::Entry VisitStages::entry(StopSet left) const {
     if (from == kNoPlace)
       to_next = to;
     else
-      onward += least_from(instance_.world(), from, instance_.agent(agent_).kind, to);
+      onward += min_distance_from(instance_.world(), from, instance_.agent(agent_).kind, to);
   };
   for (Stop stop : order_) {
     if ((left >> stop & 1) == 0) continue;

@@ -54,7 +54,7 @@ class Summary : public CertificateVisitor {
 }  // namespace
 
 CertificateText read_certificate(const std::filesystem::path& path, const Instance& instance,
-                                 std::int64_t most_splits) {
+                                 std::int64_t max_splits) {
   CertificateText read;
   read.lines = text_of(path);
   Summary summary(read);
@@ -65,10 +65,9 @@ CertificateText read_certificate(const std::filesystem::path& path, const Instan
     return count;
   };
   read_certificate_lines(path.string(), bytes, &instance, summary);
-  if (summary.splits > most_splits)
-    throw InputError(
-        path.string(), "",
-        fmt::format("has {} splits; expected at most {}", summary.splits, most_splits));
+  if (summary.splits > max_splits)
+    throw InputError(path.string(), "",
+                     fmt::format("has {} splits; expected at most {}", summary.splits, max_splits));
   return read;
 }
 

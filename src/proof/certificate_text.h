@@ -18,9 +18,9 @@ struct CertificateText {
 };
 
 // Reads a certificate of `instance` (checks its checksum and that the numbers exist) with at most
-// `most_splits` splits, including those of lemmas. Checks strictly that the lines match the
+// `max_splits` splits, including those of lemmas. Checks strictly that the lines match the
 // grammar, but not that they prove anything. Throws InputError.
 CertificateText read_certificate(const std::filesystem::path& path, const Instance& instance,
-                                 std::int64_t most_splits);
+                                 std::int64_t max_splits);
 
 }  // namespace grove::detail

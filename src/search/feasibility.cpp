@@ -60,7 +60,7 @@ std::optional<std::string> no_order(const Problem& problem, AgentIndex index) {
   const World& world = problem.instance.world();
   const Agent& agent = problem.instance.agent(index);
   const auto leads = [&](Place from, DistanceView to) {
-    return least_from(world, from, agent.kind, to) < kNever;
+    return min_distance_from(world, from, agent.kind, to) < kNever;
   };
   for (TaskIndex a : agent.stops) {
     const Place here = problem.instance.task(a).cell;

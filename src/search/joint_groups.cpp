@@ -63,20 +63,20 @@ JointGroups::Outcome JointGroups::solve_up_to(Cost most, const NodeView& view,
   std::vector<AgentGraph> graphs(group.size());
   for (std::size_t i = 0; i < group.size(); ++i) {
     const AgentIndex agent = group[i];
-    const Cost most_cost = view.cost_of(agent) + most;
+    const Cost max_cost = view.cost_of(agent) + most;
     apart += view.cost_of(agent);
-    if (most_cost >= kNever || work() >= abort_at_) return Outcome::kAborted;
+    if (max_cost >= kNever || work() >= abort_at_) return Outcome::kAborted;
     const auto made = planner_.timed_graph(
-        agent, view.order(agent), view.constraints(agent), static_cast<Time>(most_cost),
+        agent, view.order(agent), view.constraints(agent), static_cast<Time>(max_cost),
         static_cast<std::size_t>(kMaxAgentGraphNodes), limits, graphs[i]);
     if (made == TimeExpandedGraphs::Outcome::kStopped) return Outcome::kStopped;
     if (made == TimeExpandedGraphs::Outcome::kTooLarge) return Outcome::kAborted;
   }
   EpeaStar search(instance_, std::move(graphs), kMaxBytes, apart + known.excess);
   const Cost cutoff = apart + most + 1;
-  const std::int64_t most_work = abort_at_ - work();
+  const std::int64_t max_work = abort_at_ - work();
   auto outcome = EpeaStar::Outcome::kWorking;
-  while (outcome == EpeaStar::Outcome::kWorking && search.work() < most_work)
+  while (outcome == EpeaStar::Outcome::kWorking && search.work() < max_work)
     outcome = search.run(kStatesAtOnce, cutoff, limits);
   states_ += search.states();
   joint_work_ += search.work();

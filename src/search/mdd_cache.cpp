@@ -37,16 +37,16 @@ void MddCache::add(SubproblemTable::Id id, const Set& set) {
 
 MddCache::Set MddCache::make(PathPlanner& planner, AgentIndex agent, const AgentSequencing& order,
                              std::span<const Constraint> constraints, Time cost,
-                             std::size_t most_nodes, const Limits& limits) {
+                             std::size_t max_nodes, const Limits& limits) {
   Mdd paths;
   const auto outcome =
-      planner.optimal_paths(agent, order, constraints, cost, most_nodes, limits, paths);
+      planner.optimal_paths(agent, order, constraints, cost, max_nodes, limits, paths);
   if (outcome == MddBuilder::Outcome::kStopped) return nullptr;
   return std::make_shared<const Mdd>(std::move(paths));
 }
 
 void MddCache::trim() {
-  if (young_bytes_ < most_young_bytes_ || trimming_.exchange(true)) return;
+  if (young_bytes_ < max_young_bytes_ || trimming_.exchange(true)) return;
   for (std::size_t number = 0; number < Sharded<Part>::kParts; ++number) {
     const Sets forgotten = parts_.with(number, [&](Part& part) {
       bytes_ -= std::exchange(part.old_bytes, part.young_bytes);

@@ -25,8 +25,8 @@ class MddCache {
   // room-32-32-4 with 40 agents, scenario 4: three times as much saves 2 % of the work and takes
   // 1.6 times the memory.
   static constexpr std::size_t kMaxYoungBytes = std::size_t{16} << 20;
-  explicit MddCache(std::size_t most_young_bytes = kMaxYoungBytes)
-      : most_young_bytes_(most_young_bytes) {}
+  explicit MddCache(std::size_t max_young_bytes = kMaxYoungBytes)
+      : max_young_bytes_(max_young_bytes) {}
 
   // Returns nullptr if it is not cached.
   Set find(SubproblemTable::Id id) const;
@@ -34,10 +34,10 @@ class MddCache {
   void add(SubproblemTable::Id id, const Set& set);
 
   // Builds the MDD of the subproblem (`agent`, `order`, `constraints`), whose least cost is `cost`.
-  // The MDD is empty if it has more than `most_nodes` nodes. Returns nullptr if a limit was
+  // The MDD is empty if it has more than `max_nodes` nodes. Returns nullptr if a limit was
   // reached. `planner` belongs to the calling thread.
   static Set make(PathPlanner& planner, AgentIndex agent, const AgentSequencing& order,
-                  std::span<const Constraint> constraints, Time cost, std::size_t most_nodes,
+                  std::span<const Constraint> constraints, Time cost, std::size_t max_nodes,
                   const Limits& limits);
 
   // If the young generation is too large, drops the old one and makes the young one old.
@@ -55,7 +55,7 @@ class MddCache {
     std::size_t old_bytes = 0;
   };
 
-  const std::size_t most_young_bytes_;
+  const std::size_t max_young_bytes_;
   Sharded<Part> parts_;
   std::atomic<std::size_t> bytes_{0};
   std::atomic<std::size_t> young_bytes_{0};

@@ -59,7 +59,7 @@ class Numbers {
 template <class Work>
 auto with_codes(const World& world, Work work) {
   if (world.is_plain() && world.row_width() > 0) return work(Offsets(world), Offsets::kBits);
-  const auto most = static_cast<std::uint32_t>(world.most_moves());
+  const auto most = static_cast<std::uint32_t>(world.max_moves());
   return work(Numbers(world),
               std::max(Offsets::kBits, static_cast<std::uint32_t>(std::bit_width(most))));
 }

@@ -26,16 +26,16 @@ PathOutcome PathPlanner::find(AgentIndex agent, const AgentSequencing& order, Pa
 
 MddBuilder::Outcome PathPlanner::optimal_paths(AgentIndex agent, const AgentSequencing& order,
                                                std::span<const Constraint> constraints, Time cost,
-                                               std::size_t most_nodes, const Limits& limits,
+                                               std::size_t max_nodes, const Limits& limits,
                                                Mdd& paths) {
-  return optimal_.build(free_goals(agent, order), constraints, cost, most_nodes, limits, paths);
+  return optimal_.build(free_goals(agent, order), constraints, cost, max_nodes, limits, paths);
 }
 
 TimeExpandedGraphs::Outcome PathPlanner::timed_graph(AgentIndex agent, const AgentSequencing& order,
                                                      std::span<const Constraint> constraints,
-                                                     Time most_cost, std::size_t most_nodes,
+                                                     Time max_cost, std::size_t max_nodes,
                                                      const Limits& limits, AgentGraph& graph) {
-  return timed_.make(free_goals(agent, order), constraints, most_cost, most_nodes, limits, graph);
+  return timed_.make(free_goals(agent, order), constraints, max_cost, max_nodes, limits, graph);
 }
 
 Sequence PathPlanner::sequence(AgentIndex agent, const AgentSequencing& order, const Path& path) {

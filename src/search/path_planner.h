@@ -34,12 +34,12 @@ class PathPlanner {
   // As MddBuilder::build().
   MddBuilder::Outcome optimal_paths(AgentIndex agent, const AgentSequencing& order,
                                     std::span<const Constraint> constraints, Time cost,
-                                    std::size_t most_nodes, const Limits& limits, Mdd& paths);
+                                    std::size_t max_nodes, const Limits& limits, Mdd& paths);
 
   // As TimeExpandedGraphs::make().
   TimeExpandedGraphs::Outcome timed_graph(AgentIndex agent, const AgentSequencing& order,
-                                          std::span<const Constraint> constraints, Time most_cost,
-                                          std::size_t most_nodes, const Limits& limits,
+                                          std::span<const Constraint> constraints, Time max_cost,
+                                          std::size_t max_nodes, const Limits& limits,
                                           AgentGraph& graph);
 
   // Returns a sequence in which `path` visits the stops. `path` must realize a sequence that

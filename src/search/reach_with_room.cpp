@@ -86,7 +86,7 @@ class Crossings {
   // The number of the set of joined crossings that contains `crossing`; it identifies the group.
   PebbleNode group(PebbleNode crossing) const { return joined_[crossing]; }
   // The max distance from `crossing` of an agent that is not stuck as seen from it.
-  int most_steps(PebbleNode crossing) const { return free_ + 1 - need(crossing); }
+  int max_steps(PebbleNode crossing) const { return free_ + 1 - need(crossing); }
   bool is_reached(PebbleNode group_there, PebbleNode node) const {
     return (is_crossing(node) && group(node) == group_there) ||
            std::ranges::binary_search(near_, std::pair(node, group_there));
@@ -127,7 +127,7 @@ class Crossings {
   void add_nodes_near(const Way& way) {
     if (way.from == PebbleGraph::kNone) return;
     const PebbleNode group_there = group(way.from);
-    for (int t = 1; t <= std::min(way.length(), most_steps(way.from)); ++t)
+    for (int t = 1; t <= std::min(way.length(), max_steps(way.from)); ++t)
       near_.emplace_back(way.nodes[t - 1], group_there);
   }
 

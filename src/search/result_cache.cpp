@@ -54,7 +54,7 @@ const Mdd* WorkerCache::paths(Id id, AgentIndex agent, const AgentSequencing& or
   if (set) ++sets_known_;
   if (!set)
     set = MddCache::make(planner_, agent, order, constraints, cost,
-                         static_cast<std::size_t>(most_set_nodes_), limits);
+                         static_cast<std::size_t>(max_set_nodes_), limits);
   if (!set) return nullptr;
   return (found_.sets[id] = std::move(set)).get();
 }

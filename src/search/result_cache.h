@@ -87,10 +87,9 @@ class WorkerCache {
  public:
   using Id = SubproblemTable::Id;
 
-  // `planner` must outlive this. An MDD of more than `most_set_nodes` nodes is not built.
-  WorkerCache(PathPlanner& planner, std::shared_ptr<SharedCache> common,
-              std::int64_t most_set_nodes)
-      : planner_(planner), common_(std::move(common)), most_set_nodes_(most_set_nodes) {}
+  // `planner` must outlive this. An MDD of more than `max_set_nodes` nodes is not built.
+  WorkerCache(PathPlanner& planner, std::shared_ptr<SharedCache> common, std::int64_t max_set_nodes)
+      : planner_(planner), common_(std::move(common)), max_set_nodes_(max_set_nodes) {}
 
   // Removes and returns the results since the last call. This worker sees them again once they are
   // in the shared cache.
@@ -139,7 +138,7 @@ class WorkerCache {
  private:
   PathPlanner& planner_;
   std::shared_ptr<SharedCache> common_;
-  const std::int64_t most_set_nodes_;
+  const std::int64_t max_set_nodes_;
   std::int64_t asked_ = 0;
   mutable std::int64_t groups_asked_ = 0;
   std::int64_t sets_asked_ = 0;

@@ -81,7 +81,7 @@ Trees::Order Trees::order_of(AgentIndex agent, const TreeRecord::Order& record) 
 }
 
 // Least cost of a path through the goals, given a path of `known` steps.
-Time Trees::least_cost(const GoalSequence& goals, std::uint32_t known) {
+Time Trees::min_cost(const GoalSequence& goals, std::uint32_t known) {
   const Time distance = goals.distance(goals.start(), 0);
   if (distance == static_cast<Time>(known)) return distance;
   FixedOrderSipp search(problem_.instance.world());
@@ -102,7 +102,7 @@ AgentSequencing Trees::made(AgentIndex agent, const TreeRecord::Order& record) {
       record.fixed ? record.sequences.prefix
                    : realized_sequence(SequenceStages(stops_.of(agent), record.sequences), path));
   require(visits_in_turn(path, goals), "a tree's path must visit its agent's stops in order");
-  require(static_cast<Time>(record.steps) == least_cost(goals, record.steps),
+  require(static_cast<Time>(record.steps) == min_cost(goals, record.steps),
           "a tree's path must be shortest in its order of stops");
   return {record.sequences, record.fixed ? std::optional(std::move(goals)) : std::nullopt,
           PackedPath(instance.world(), path)};

@@ -52,7 +52,7 @@ class Trees {
   using Order = std::shared_ptr<const AgentSequencing>;
 
   Order order_of(AgentIndex agent, const TreeRecord::Order& record);
-  Time least_cost(const GoalSequence& goals, std::uint32_t known);
+  Time min_cost(const GoalSequence& goals, std::uint32_t known);
   AgentSequencing made(AgentIndex agent, const TreeRecord::Order& record);
 
   const Problem& problem_;

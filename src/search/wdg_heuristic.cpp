@@ -231,8 +231,8 @@ std::vector<SubproblemTable::Id> WdgHeuristic::key(std::span<const AgentIndex> g
 
 // Returns false if a limit was reached.
 bool WdgHeuristic::solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
-                         std::int64_t most_expansions, const Limits& limits, Known& known) {
-  if (!solve_by_splits(view.node(), group, slack, most_expansions, limits, known)) return false;
+                         std::int64_t max_expansions, const Limits& limits, Known& known) {
+  if (!solve_by_splits(view.node(), group, slack, max_expansions, limits, known)) return false;
   if (known.exact || known.excess > slack || !techniques_.has(Technique::kJointGroups)) return true;
   const Cost by_splits = known.excess;
   if (!joint_groups_.solve(view, group, slack, limits, known)) return false;
@@ -242,7 +242,7 @@ bool WdgHeuristic::solve(const NodeView& view, std::span<const AgentIndex> group
 }
 
 bool WdgHeuristic::solve_by_splits(const NodePtr& node, std::span<const AgentIndex> group,
-                                   Cost slack, std::int64_t most_expansions, const Limits& limits,
+                                   Cost slack, std::int64_t max_expansions, const Limits& limits,
                                    Known& known) {
   const Cost base = node->cost();
   // If every branch is pruned because no path exists, the result holds for any cutoff.
@@ -251,7 +251,7 @@ bool WdgHeuristic::solve_by_splits(const NodePtr& node, std::span<const AgentInd
   open_.clear();
   open_.push_back({base, node});
   written_.clear();
-  for (std::int64_t i = 0; i < most_expansions && !open_.empty(); ++i) {
+  for (std::int64_t i = 0; i < max_expansions && !open_.empty(); ++i) {
     // Ties are broken in favour of the newest node: the first conflict-free node ends the search.
     const auto best = std::ranges::min_element(open_.rbegin(), open_.rend(), {}, &Open::cost);
     const Open next = *best;

@@ -92,9 +92,9 @@ class WdgHeuristic {
   std::vector<std::vector<AgentIndex>> groups_in_conflict(const NodeView& view) const;
   std::vector<SubproblemTable::Id> key(std::span<const AgentIndex> group) const;
   bool solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
-             std::int64_t most_expansions, const Limits& limits, Known& known);
+             std::int64_t max_expansions, const Limits& limits, Known& known);
   bool solve_by_splits(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
-                       std::int64_t most_expansions, const Limits& limits, Known& known);
+                       std::int64_t max_expansions, const Limits& limits, Known& known);
   void collect(std::vector<GroupExcess>& statements);
   void log_splits(const Open& from, Cost base, Cost closed);
   void log_lemma(const NodeView& view, std::span<const AgentIndex> group, Cost excess,

@@ -96,7 +96,7 @@ class Assignment {
 
 }  // namespace
 
-std::optional<std::vector<int>> least_cost_assignment(
+std::optional<std::vector<int>> min_cost_assignment(
     const std::vector<std::vector<std::int64_t>>& cost) {
   GROVE_ASSERT(
       std::ranges::all_of(cost, [&](const auto& row) { return row.size() == cost[0].size(); }),

@@ -16,7 +16,7 @@
 // without any graph, and so prevents one hopeless class from enlarging the graph for all.
 //
 // *Canonical sequences.* If many stops lie in a row, there are many sequences of the same cost
-// that no graph holds them. If the graph exceeds most_states_, a graph of the canonical sequences
+// that no graph holds them. If the graph exceeds max_states_, a graph of the canonical sequences
 // (passed_stops.cpp) of the queried class replaces it, and is built separately for each class. They
 // include a cheapest member, which is all that a query needs. If that graph becomes too large as
 // well, the answer is kStopped, for this class and for every later class that the relaxation does
@@ -41,10 +41,10 @@ class BoundedDp : public RtspSolver {
   }
 
  public:
-  BoundedDp(const CostMatrix& matrix, const Limits& limits, std::size_t most_states)
+  BoundedDp(const CostMatrix& matrix, const Limits& limits, std::size_t max_states)
       : matrix_(matrix),
         limits_(limits),
-        most_states_(most_states),
+        max_states_(max_states),
         relaxation_(matrix),
         dag_(relaxation_.root_bound()) {}
 
@@ -92,7 +92,7 @@ class BoundedDp : public RtspSolver {
   bool extend() {
     if (!passed_) {
       const End end =
-          build({.matrix = matrix_, .relaxation = relaxation_, .most_states = most_states_});
+          build({.matrix = matrix_, .relaxation = relaxation_, .max_states = max_states_});
       if (end != End::kTooLarge || matrix_.ports > 1) return end == End::kBuilt;
       passed_.emplace(matrix_);
       dag_ = SequenceDag(dag_.beyond());
@@ -102,7 +102,7 @@ class BoundedDp : public RtspSolver {
                            .relaxation = relaxation_,
                            .passed = &*passed_,
                            .work = class_,
-                           .most_states = kMaxCanonicalStates});
+                           .max_states = kMaxCanonicalStates});
     too_large_ = end == End::kTooLarge;
     return end == End::kBuilt;
   }
@@ -112,7 +112,7 @@ class BoundedDp : public RtspSolver {
 
   const CostMatrix& matrix_;
   const Limits& limits_;
-  const std::size_t most_states_;  // of the graph of all sequences
+  const std::size_t max_states_;  // of the graph of all sequences
   OneTreeRelaxation relaxation_;
   SequenceDag dag_;
   std::optional<PassedStops> passed_;  // set once the graph of all sequences was too large
@@ -123,8 +123,8 @@ class BoundedDp : public RtspSolver {
 }  // namespace
 
 std::unique_ptr<RtspSolver> make_bounded_dp(const CostMatrix& matrix, const Limits& limits,
-                                            std::size_t most_states) {
-  return std::make_unique<BoundedDp>(matrix, limits, most_states);
+                                            std::size_t max_states) {
+  return std::make_unique<BoundedDp>(matrix, limits, max_states);
 }
 
 }  // namespace grove::detail

@@ -22,8 +22,9 @@ CostMatrix cost_matrix(const Instance& instance, AgentIndex agent,
   const auto fill_column = [&](int column, DistanceView distance) {
     for (int row = 0; row < n; ++row)
       matrix.cost(row, column) =
-          row == column ? 0
-                        : least_from(world, instance.task(who.stops[row]).cell, who.kind, distance);
+          row == column
+              ? 0
+              : min_distance_from(world, instance.task(who.stops[row]).cell, who.kind, distance);
     matrix.cost(n, column) = distance[who.start];
   };
   for (int stop = 0; stop < n; ++stop) fill_column(stop, distances.to_task(who.stops[stop]));
@@ -65,7 +66,7 @@ CostMatrix port_matrix(const Instance& instance, AgentIndex agent,
   return matrix;
 }
 
-CostMatrix least_matrix(const CostMatrix& matrix) {
+CostMatrix min_matrix(const CostMatrix& matrix) {
   if (matrix.ports == 1) return matrix;
   const int n = matrix.stops();
   CostMatrix least{CostMatrix::Matrix(n + 1, kNever)};

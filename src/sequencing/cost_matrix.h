@@ -60,7 +60,7 @@ CostMatrix cost_matrix(const Instance& instance, AgentIndex agent, const Distanc
 // cost_matrix().
 CostMatrix port_matrix(const Instance& instance, AgentIndex agent, const DistanceFields& distances);
 // The matrix of least costs over the ports. Equal to `matrix` if that has one port per stop.
-CostMatrix least_matrix(const CostMatrix& matrix);
+CostMatrix min_matrix(const CostMatrix& matrix);
 
 // Returns the cost of a complete sequence, kNever if one of its legs has no path.
 Time sequence_cost(const CostMatrix& matrix, const Sequence& sequence);

@@ -59,7 +59,7 @@ class CostToGo::Table : public Store {
   Table(std::shared_ptr<const CostMatrix> matrix, SharedArray shared)
       : Store(std::move(matrix)), shared_(shared) {}
 
-  Time relaxed_bound() const override { return relaxation_bound(least_matrix(matrix())); }
+  Time relaxed_bound() const override { return relaxation_bound(min_matrix(matrix())); }
   Time beyond() const override { return table_.built() ? kNever : 0; }
   bool knows_all_or_nothing() const override { return true; }
   Time cost_to_go(StopSet left, int port) const override {
@@ -123,9 +123,9 @@ class CostToGo::Graph : public Store {
     if (direct_) {
       scope.direct = direct_.get();
       scope.work = work_;
-      scope.most_states = kMaxDirectStates;
+      scope.max_states = kMaxDirectStates;
     } else if (make_direct_) {
-      scope.most_states = kMaxStates;
+      scope.max_states = kMaxStates;
     }
     SequenceDag built(0);
     const End end = SequenceDag::build(scope, reach, limits, built);

@@ -14,7 +14,7 @@ constexpr std::ptrdiff_t kMaxSegment = 3;
 
 class LocalSearch {
  public:
-  explicit LocalSearch(const CostMatrix& matrix) : matrix_(least_matrix(matrix)) {}
+  explicit LocalSearch(const CostMatrix& matrix) : matrix_(min_matrix(matrix)) {}
 
   Sequence run() {
     insert_all();

@@ -26,7 +26,7 @@ inline constexpr Entry kUnreachable = std::numeric_limits<Entry>::max() / 2;
 
 // Upper bound on every finite cost of a sequence: a sequence has one leg from each row of the
 // matrix.
-inline std::int64_t most_expensive(const CostMatrix& matrix) {
+inline std::int64_t max_cost(const CostMatrix& matrix) {
   std::int64_t sum = 0;
   for (int row = 0; row < matrix.cost.size(); ++row) {
     Time most = 0;
@@ -39,7 +39,7 @@ inline std::int64_t most_expensive(const CostMatrix& matrix) {
 
 // Whether every cost fits a table with 16-bit entries.
 inline bool fits_narrow_table(const CostMatrix& matrix) {
-  return most_expensive(matrix) < kUnreachable<std::int16_t>;
+  return max_cost(matrix) < kUnreachable<std::int16_t>;
 }
 
 // h[left][port]; for ports see CostMatrix. Once built immutable: any thread may read it.

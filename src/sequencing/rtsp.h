@@ -88,7 +88,7 @@ std::unique_ptr<RtspSolver> make_held_karp(const CostMatrix& matrix, const Limit
 // canonical sequences.
 inline constexpr std::size_t kMaxGraphStates = std::size_t{1} << 16;
 std::unique_ptr<RtspSolver> make_bounded_dp(const CostMatrix& matrix, const Limits& limits,
-                                            std::size_t most_states = kMaxGraphStates);
+                                            std::size_t max_states = kMaxGraphStates);
 std::unique_ptr<RtspSolver> make_cbc_rtsp(const CostMatrix& matrix, const Limits& limits);
 
 // Returns a proven lower bound on every complete sequence of `matrix`, by relaxation: spanning

@@ -97,7 +97,7 @@ class SequenceDagBuilder {
         direct_(scope.direct),
         passed_(scope.passed),
         work_(scope.work),
-        most_states_(scope.most_states),
+        max_states_(scope.max_states),
         reach_(reach),
         limits_(limits),
         ways_(ways(scope.matrix, scope.direct)),
@@ -229,7 +229,7 @@ class SequenceDagBuilder {
     CostMatrix any = matrix;
     const int end = any.cost.size() - 1;
     for (int from = 0; from <= end; ++from) any.cost(from, end) = direct->matrix().cost(from, end);
-    return least_matrix(any);
+    return min_matrix(any);
   }
 
   void drop(Time whole) {
@@ -364,7 +364,7 @@ class SequenceDagBuilder {
     asked_bytes_ = bytes;
     return !is_too_large() && !limits_.stop_requested();
   }
-  bool is_too_large() const { return dag_.state_count() + states_.size() > most_states_; }
+  bool is_too_large() const { return dag_.state_count() + states_.size() > max_states_; }
 
   bool compute_cost_to_go() {
     for (std::size_t i = dag_.nodes_.size(); i-- > 0;) {
@@ -442,7 +442,7 @@ class SequenceDagBuilder {
   const DirectLegs* const direct_;
   const PassedStops* const passed_;
   const SequenceClass& work_;
-  const std::size_t most_states_;
+  const std::size_t max_states_;
   const Time reach_;
   const Limits& limits_;
   const CostMatrix ways_;  // by stop; empty without direct legs

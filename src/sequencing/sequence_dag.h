@@ -44,7 +44,7 @@ class SequenceDag {
     // a matrix with one port per stop.
     const PassedStops* passed = nullptr;
     SequenceClass work = {};  // all sequences; set only with `direct` or `passed`
-    std::size_t most_states = SIZE_MAX;
+    std::size_t max_states = SIZE_MAX;
   };
   enum class End : std::uint8_t { kBuilt, kStopped, kTooLarge };
   // Builds the graph of `scope` up to cost `reach`. Changes `dag` only if it returns kBuilt.

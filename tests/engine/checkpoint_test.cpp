@@ -46,10 +46,10 @@ class Search {
     nodes_.assign(open.begin() + 5, open.end());
   }
 
-  Whole whole(std::size_t most_nodes) const {
+  Whole whole(std::size_t max_nodes) const {
     Whole whole;
     for (const Tree* tree : trees_) whole.header.trees.push_back(record_of(*tree));
-    for (std::size_t i = 0; i < nodes_.size() && i < most_nodes; ++i) {
+    for (std::size_t i = 0; i < nodes_.size() && i < max_nodes; ++i) {
       whole.nodes.push_back(record_of(*nodes_[i]));
     }
     whole.header.fingerprint = fingerprint(instance_);

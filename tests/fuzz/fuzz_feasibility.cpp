@@ -128,7 +128,7 @@ class KnownInstances {
     const auto reason = pebble_motion_infeasibility(known.instance);
     slowest_ = std::max(slowest_, std::chrono::duration<double>(Clock::now() - began).count());
     ++(known.has_plan ? possible_ : impossible_);
-    most_agents_ = std::max(most_agents_, known.instance.agent_count());
+    max_agents_ = std::max(max_agents_, known.instance.agent_count());
     if (reason.has_value() != known.has_plan) return;
     ++wrong_;
     fmt::print("seed {}: WRONG: {}, {} agents: {}\n", seed, known.board,
@@ -138,11 +138,11 @@ class KnownInstances {
   std::string summary() const {
     return fmt::format(
         "{} instances of up to {} agents, {} with a plan, {} without: {} wrong; slowest {:.1f} ms",
-        possible_ + impossible_, most_agents_, possible_, impossible_, wrong_, slowest_ * 1e3);
+        possible_ + impossible_, max_agents_, possible_, impossible_, wrong_, slowest_ * 1e3);
   }
 
  private:
-  int possible_ = 0, impossible_ = 0, wrong_ = 0, most_agents_ = 0;
+  int possible_ = 0, impossible_ = 0, wrong_ = 0, max_agents_ = 0;
   double slowest_ = 0;
 };
 

@@ -33,7 +33,7 @@ struct Arguments {
   double seconds = 2;
   int threads = 1;
   std::size_t oracle_states = 2'000'000;
-  int most_open = 0;
+  int max_open = 0;
   std::string folder = {};
 };
 
@@ -117,7 +117,7 @@ int run(const Arguments& a) {
       "{} puzzles: {} solved, {} infeasible, {} open; {} compared with the oracle, {} wrong\n",
       a.count, tally.solved, tally.infeasible, tally.open, tally.compared, tally.wrong);
   fmt::print("seconds: {}\nof processors: {}\n", spread(tally.seconds), spread(tally.cpu_seconds));
-  return tally.wrong > 0 || tally.open > a.most_open ? 1 : 0;
+  return tally.wrong > 0 || tally.open > a.max_open ? 1 : 0;
 }
 
 }  // namespace
@@ -135,7 +135,7 @@ int main(int argc, char** argv) {
   app.add_option("--threads", a.threads)->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--oracle-states", a.oracle_states, "limit on the joint states of the oracle")
       ->capture_default_str();
-  app.add_option("--most-open", a.most_open, "number of puzzles that may stay unsolved")
+  app.add_option("--most-open", a.max_open, "number of puzzles that may stay unsolved")
       ->capture_default_str();
   app.add_option("--write", a.folder, "write the puzzles to this directory instead of solving them")
       ->check(CLI::ExistingDirectory);

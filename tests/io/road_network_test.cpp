@@ -50,13 +50,13 @@ TEST(RoadNetwork, LargerOfTimeAndLengthDecides) {
 
 TEST(RoadNetwork, LargestRoundingsAreReported) {
   const SteppedRoads roads = in_steps(network({link(50.05), link(0.6), link(2)}), kHalfMetres);
-  EXPECT_EQ(roads.most_absolute.link, 0);  // 100.1 steps rounded up to 101
-  EXPECT_NEAR(roads.most_absolute.exact, 100.1, 1e-9);
-  EXPECT_EQ(roads.most_absolute.steps, 101);
-  EXPECT_NEAR(roads.most_absolute.absolute(), 0.9, 1e-9);
-  EXPECT_EQ(roads.most_relative.link, 1);  // 1.2 steps rounded up to 2
-  EXPECT_NEAR(roads.most_relative.relative(), 0.8 / 1.2, 1e-9);
-  EXPECT_EQ(in_steps(network({link(2), link(0.5)}), kHalfMetres).most_absolute.link, -1);
+  EXPECT_EQ(roads.max_absolute.link, 0);  // 100.1 steps rounded up to 101
+  EXPECT_NEAR(roads.max_absolute.exact, 100.1, 1e-9);
+  EXPECT_EQ(roads.max_absolute.steps, 101);
+  EXPECT_NEAR(roads.max_absolute.absolute(), 0.9, 1e-9);
+  EXPECT_EQ(roads.max_relative.link, 1);  // 1.2 steps rounded up to 2
+  EXPECT_NEAR(roads.max_relative.relative(), 0.8 / 1.2, 1e-9);
+  EXPECT_EQ(in_steps(network({link(2), link(0.5)}), kHalfMetres).max_absolute.link, -1);
 }
 
 TEST(RoadNetwork, TooManyPlacesAreRefused) {

@@ -150,7 +150,7 @@ TEST(TimeExpandedGraphs, LetJointSearchFindOptimumUnderConstraints) {
       graphs.push_back(fuzzer.graph(agent, m->constraints, m->most));
     }
     if (ways.size() < 2) continue;
-    const auto least = oracle::least_together(fuzzer.instance(), ways);
+    const auto least = oracle::min_joint_cost(fuzzer.instance(), ways);
     EpeaStar search(fuzzer.instance(), std::move(graphs), kMaxBytes);
     auto outcome = EpeaStar::Outcome::kWorking;
     while (outcome == EpeaStar::Outcome::kWorking) {

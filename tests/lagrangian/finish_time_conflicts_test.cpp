@@ -54,10 +54,10 @@ TEST(FinishTimeConflicts, AgreeWithJointBreadthFirstSearch) {
     if (!a || !b || a->count() == 0 || b->count() == 0) continue;
     FinishTimeConflicts pairs(known.instance.world(), known.stops,
                               {.set_nodes = 1 << 20, .joint_mdd_nodes = 1 << 20, .bytes = 1 << 28});
-    const Time least_a = a->to_go(AgentGraph::start());
-    const Time least_b = b->to_go(AgentGraph::start());
-    for (Time by_a = least_a; by_a < least_a + 4; ++by_a)
-      for (Time by_b = least_b; by_b < least_b + 4; ++by_b) {
+    const Time min_a = a->to_go(AgentGraph::start());
+    const Time min_b = b->to_go(AgentGraph::start());
+    for (Time by_a = min_a; by_a < min_a + 4; ++by_a)
+      for (Time by_b = min_b; by_b < min_b + 4; ++by_b) {
         const bool incompatible = pairs.are_incompatible({0, 1, by_a, by_b}, {});
         ASSERT_EQ(incompatible, !can_both_finish(*a, *b, by_a, by_b)) << by_a << " " << by_b;
         ++(incompatible ? excluded : others);

@@ -115,7 +115,7 @@ TEST(PenalizedSearch, FindsTheLeastPrice) {
       const auto graph = AgentGraph::make(known.instance, agent);
       if (!graph || graph->count() == 0) continue;
       SequenceStages goals(known.stops.of(agent), SequenceClass{});
-      ASSERT_LE(least_cost(goals, {}), graph->to_go(AgentGraph::start()));
+      ASSERT_LE(min_cost(goals, {}), graph->to_go(AgentGraph::start()));
       goals.cost_to_go().widen(kHorizon, {});
       const std::vector<Amount> on_finish = random_on_finish(random);
       const ScaledCost least =
@@ -189,14 +189,14 @@ TEST(PenalizedSearch, IsNeverAboveTheLeastPriceWhenCutShort) {
     PenalizedSearch search(penalties);
     for (AgentIndex agent = 0; agent < known.instance.agent_count(); ++agent) {
       SequenceStages goals(known.stops.of(agent), SequenceClass{});
-      if (least_cost(goals, {}) >= kNever) continue;
+      if (min_cost(goals, {}) >= kNever) continue;
       const ScaledCost least =
           search.search(goals, {}, PenalizedSearch::kMaxPenaltyCost, 1 << 20, {}, nullptr);
       for (const std::int64_t labels : {1, 5, 20, 100}) {
         const ScaledCost price =
             search.search(goals, {}, PenalizedSearch::kMaxPenaltyCost, labels, {}, nullptr);
         EXPECT_LE(price, least);
-        EXPECT_GE(price, ScaledCost{least_cost(goals, {})} * Penalties::kUnit);
+        EXPECT_GE(price, ScaledCost{min_cost(goals, {})} * Penalties::kUnit);
         cut_short += price < least;
       }
     }

@@ -156,14 +156,14 @@ Solution solve_in_random_order(const Instance& instance, const SolveOptions& opt
   const Disturbances disturbances(random);
   std::int64_t quiet = 0;  // steps
   std::int64_t turns = 0;  // steps of workers
-  while (!all_left() && counts.steps < schedule.most_steps && turns < schedule.most_turns &&
+  while (!all_left() && counts.steps < schedule.max_steps && turns < schedule.max_turns &&
          !counts.stuck) {
     ++counts.steps;
     network.advance_to(network.now() + kTick);
     Process& process = processes[random() % processes.size()];
     if (process.frozen_until > counts.steps) continue;
     const auto done = process.step(random, disturbances, network.now());
-    const bool is_calm = counts.steps > schedule.most_steps / 4;  // otherwise few runs would end
+    const bool is_calm = counts.steps > schedule.max_steps / 4;  // otherwise few runs would end
     if (!is_calm &&
         (static_cast<int>(random() % static_cast<unsigned>(disturbances.freeze_once_in)) == 0 ||
          (done.received && chance(random, disturbances.freeze_on_news))))

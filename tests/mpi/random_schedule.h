@@ -15,15 +15,15 @@ struct Schedule {
   int ranks = 2;
   int workers = 1;  // per rank
   std::uint64_t seed = 0;
-  std::int64_t most_steps = 60'000;
-  std::int64_t most_turns = 5'000;  // limit on the steps of workers; a work item takes three
+  std::int64_t max_steps = 60'000;
+  std::int64_t max_turns = 5'000;  // limit on the steps of workers; a work item takes three
   int limit_rate = 0;  // probability per step, in 1/100,000, that one rank reaches a limit
 };
 
 struct ScheduleCounts {
   std::int64_t steps = 0;
   std::int64_t messages = 0;
-  bool ended = false;          // false: killed, or most_steps or most_turns reached
+  bool ended = false;          // false: killed, or max_steps or max_turns reached
   bool limit_reached = false;  // some rank reached a limit
   bool stuck = false;  // no message is in transit, no rank does anything, and the run has not ended
   bool left_messages = false;  // a message was not received although all ranks have left

@@ -52,7 +52,7 @@ void choose_weak_techniques(Techniques& techniques, fuzz::Random& dice) {
 Schedule random_schedule(Techniques techniques, fuzz::Random& dice) {
   Schedule schedule;
   if (techniques.has(Technique::kPrimal))
-    schedule.most_turns /= 10;  // a primal step takes a millisecond
+    schedule.max_turns /= 10;  // a primal step takes a millisecond
   if (dice.percent(15)) schedule.limit_rate = dice.pick<int>({10, 100});
   schedule.ranks = dice.pick<int>({1, 2, 2, 3, 4, 5, 7, 8});
   schedule.workers = dice.between(1, 2);

@@ -132,7 +132,7 @@ std::optional<std::vector<Way>> ways_within(const Instance& instance, AgentIndex
   return std::nullopt;
 }
 
-std::optional<Cost> least_together(const Instance& instance,
+std::optional<Cost> min_joint_cost(const Instance& instance,
                                    std::span<const std::vector<Way>> ways) {
   return CheapestCombination(instance, ways).least();
 }

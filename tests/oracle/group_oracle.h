@@ -25,7 +25,7 @@ std::optional<std::vector<Way>> ways_within(const Instance& instance, AgentIndex
 
 // The least total cost of one path per agent without collisions. `ways`: the paths of each agent.
 // Returns nullopt if all combinations collide.
-std::optional<Cost> least_together(const Instance& instance,
+std::optional<Cost> min_joint_cost(const Instance& instance,
                                    std::span<const std::vector<Way>> ways);
 
 }  // namespace grove::detail::oracle

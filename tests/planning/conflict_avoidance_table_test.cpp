@@ -60,11 +60,11 @@ TEST(ConflictAvoidanceTable, AgreesAfterDroppingRemovedPaths) {
   std::mt19937 random(8);
   const Grid grid =
       grid_of({"........", "........", "........", "........", "........", "........"});
-  for (const std::size_t most_paths : {2, 40}) {
+  for (const std::size_t max_paths : {2, 40}) {
     ConflictAvoidanceTable table(grid);
     NaiveConflicts naive;
     for (int step = 0; step < 80; ++step) {
-      if (naive.paths.size() == most_paths) {
+      if (naive.paths.size() == max_paths) {
         table.remove(naive.paths.front());
         naive.paths.erase(naive.paths.begin());
       }

@@ -31,9 +31,9 @@ class LateCosts {
   int count() const { return stops_.count(); }
   const CostMatrix& plain() const { return stops_.cost_to_go().matrix(); }
   // The cost matrix under these constraints; the plain one if they raise no cost.
-  CostMatrix late(const std::vector<Constraint>& constraints, Time least_cost) {
+  CostMatrix late(const std::vector<Constraint>& constraints, Time min_cost) {
     intervals_.assign(constraints);
-    const auto matrix = late_cost_matrix(grid_, intervals_, stops_, least_cost);
+    const auto matrix = late_cost_matrix(grid_, intervals_, stops_, min_cost);
     return matrix ? *matrix : plain();
   }
   // The least cost of a path in this order; kNever if there is no path.

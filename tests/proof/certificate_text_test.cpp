@@ -36,14 +36,14 @@ class CertificateTexts : public ::testing::Test {
     return fmt::format("grove-proof 1\ninstance {:016x}\nfollowing {}\n",
                        certificate_checksum(instance_), following);
   }
-  CertificateText read(const std::string& bytes, std::int64_t most_splits = 100) const {
+  CertificateText read(const std::string& bytes, std::int64_t max_splits = 100) const {
     folder_.write("c.proof", bytes);
-    return read_certificate(folder_ / "c.proof", instance_, most_splits);
+    return read_certificate(folder_ / "c.proof", instance_, max_splits);
   }
   // Message of the refusal, without the file's name.
-  std::string refusal(const std::string& bytes, std::int64_t most_splits = 100) const {
+  std::string refusal(const std::string& bytes, std::int64_t max_splits = 100) const {
     try {
-      read(bytes, most_splits);
+      read(bytes, max_splits);
     } catch (const InputError& error) {
       const std::string text = error.what();
       const std::string name = "c.proof: ";

@@ -57,7 +57,7 @@ std::optional<Cost> true_excess(Below& s, const std::vector<AgentIndex>& group, 
     apart += s.view.cost_of(agent);
     paths.push_back(std::move(*all));
   }
-  const auto least = oracle::least_together(s.instance, paths);
+  const auto least = oracle::min_joint_cost(s.instance, paths);
   return least ? std::min<Cost>(*least - apart, max_excess + 1) : max_excess + 1;
 }
 

@@ -35,7 +35,7 @@ TEST(Assignment, AgreesWithEnumeration) {
     Costs cost(rows, std::vector<std::int64_t>(columns));
     for (auto& row : cost)
       for (auto& entry : row) entry = random() % 3 == 0 ? kForbidden : random() % 8;
-    const auto assignment = least_cost_assignment(cost);
+    const auto assignment = min_cost_assignment(cost);
     const auto best = best_by_enumeration(cost);
     ASSERT_EQ(assignment.has_value(), best.has_value());
     if (!best) {

@@ -177,7 +177,7 @@ TEST(OneTreeRelaxation, AccountsForMostTurnCosts) {
                                 table.cost_to_go(matrix.all() & ~stop_of(matrix, first), first)));
     });
     if (best >= kNever) continue;
-    without_turns += OneTreeRelaxation(least_matrix(matrix)).root_bound();
+    without_turns += OneTreeRelaxation(min_matrix(matrix)).root_bound();
     bound += OneTreeRelaxation(matrix).root_bound();
     exact += best;
   }

@@ -131,8 +131,8 @@ std::string described(const Rounding& rounding, const RoadNetwork& network) {
 
 void print_rounding(const SteppedRoads& stepped, const RoadNetwork& network,
                     const StepScale& scale) {
-  const Rounding& absolute = stepped.most_absolute;
-  const Rounding& relative = stepped.most_relative;
+  const Rounding& absolute = stepped.max_absolute;
+  const Rounding& relative = stepped.max_relative;
   if (absolute.link < 0) {
     fmt::print("rounding: none; every road takes a whole number of steps\n");
     return;

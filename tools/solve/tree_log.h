@@ -27,11 +27,11 @@ struct NodeRow {
   std::array<std::int64_t, 2> children{};  // numbers of the children
 };
 
-// Numbers nodes from 0 in order of creation, until `most_expanded` nodes were expanded. Owns no
+// Numbers nodes from 0 in order of creation, until `max_expanded` nodes were expanded. Owns no
 // node: if an address is reused, it belongs to the node created last.
 class TreeLog {
  public:
-  explicit TreeLog(std::int64_t most_expanded) : left_(most_expanded) {}
+  explicit TreeLog(std::int64_t max_expanded) : left_(max_expanded) {}
 
   // Return nullopt if the node is not to be logged.
   std::optional<RootRow> root(const Node& root);

@@ -463,7 +463,7 @@ TEST_F(Farms, EndIfTheTableCannotBeWritten) {
 TEST_F(Farms, ReportTheirState) {
   Trial run{.ranks = 3};
   int last = 0;
-  int most_under_way = 0;
+  int max_under_way = 0;
   run.watch = [&](const BatchState& state) {
     EXPECT_EQ(state.total, 11);
     EXPECT_EQ(state.groups, 3);
@@ -471,11 +471,11 @@ TEST_F(Farms, ReportTheirState) {
     EXPECT_LE(state.done() + state.under_way, state.total);
     EXPECT_GE(state.under_way_s, 0);
     last = state.done();
-    most_under_way = std::max(most_under_way, state.under_way);
+    max_under_way = std::max(max_under_way, state.under_way);
   };
   simulate(run);
   EXPECT_EQ(last, 11);
-  EXPECT_EQ(most_under_way, 3);
+  EXPECT_EQ(max_under_way, 3);
   EXPECT_GT(run.end_state->solving_s, 0);
 }
 

@@ -54,7 +54,7 @@ class TimeExpanded {
   }
 
   // The least cost of a path. Returns nullopt if it is more than `most`.
-  std::optional<Time> least_cost(Time most) {
+  std::optional<Time> min_cost(Time most) {
     for (Time cost = 0; cost <= most; ++cost)
       if (ends_at(cost)) return cost;
     return std::nullopt;
@@ -242,7 +242,7 @@ class Fuzzer {
     FreeOrderSipp search(grid);
     for (int round = 0; round < 6; ++round) {
       TimeExpanded reference(problem_);
-      const std::optional<Time> least = reference.least_cost(kMaxCost);
+      const std::optional<Time> least = reference.min_cost(kMaxCost);
       Path path;
       const auto outcome = search.find(
           goals, {.constraints = problem_.constraints, .cutoff = kMaxCost}, Limits(), path);

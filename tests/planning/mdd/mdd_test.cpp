@@ -126,8 +126,8 @@ bool compatible(const Paths& all, const Paths& others) {
 struct Agent : testing::FreeAgent {
   explicit Agent(const FreeProblem& given) : FreeAgent(given), builder(*given.grid) {}
 
-  Outcome build(Time cost, std::size_t most_nodes = kPlenty) {
-    return builder.build(goals, problem.constraints, cost, most_nodes, Limits(), graph);
+  Outcome build(Time cost, std::size_t max_nodes = kPlenty) {
+    return builder.build(goals, problem.constraints, cost, max_nodes, Limits(), graph);
   }
 
   MddBuilder builder;

@@ -189,7 +189,7 @@ class Fuzzer {
   // The bound from single stops must not exceed the least cost, and equals it if there is one stop.
   void check_single_stops(const AgentStops& stops, std::optional<Time> expected) {
     intervals_.assign(constraints_);
-    const Time least = single_stop_bound_.least_cost(stops, 0, Limits());
+    const Time least = single_stop_bound_.min_cost(stops, 0, Limits());
     ASSERT_LE(least, expected.value_or(kNever)) << text();
     if (expected && stops.count() == 1) {
       ASSERT_EQ(least, *expected) << text();
