@@ -70,8 +70,8 @@ Outcome outcome_of(const Instance& instance, const Solution& solution) {
   return outcome;
 }
 
-void thin_out(std::vector<TracePoint>& trace, std::size_t most) {
-  while (trace.size() > std::max<std::size_t>(most, 2)) {
+void thin_out(std::vector<TracePoint>& trace, std::size_t max_count) {
+  while (trace.size() > std::max<std::size_t>(max_count, 2)) {
     std::vector<TracePoint> kept;
     for (std::size_t i = 0; i < trace.size(); ++i)
       if (i % 2 == 0 || i + 1 == trace.size()) kept.push_back(trace[i]);

@@ -66,7 +66,7 @@ Outcome outcome_of(const Instance& instance, const Solution& solution);
 
 // Reduces a trace to at most max(most, 2) points: removes every second point, except for the first
 // and the last one, as often as necessary.
-void thin_out(std::vector<TracePoint>& trace, std::size_t most);
+void thin_out(std::vector<TracePoint>& trace, std::size_t max_count);
 
 // Text such as "0.25:120:100 1.5:118:-": seconds, cost, lower bound.
 std::string trace_text(const std::vector<TracePoint>& trace);

@@ -31,14 +31,13 @@ std::string_view kind_of(const Json& json) {
   return json.is_number() ? "a number" : "a string";
 }
 
-// The integer in `json`, if it is an integer from `least` to `most`. 3.0 is not an integer.
-std::optional<std::int64_t> integer_within(const Json& json, std::int64_t least,
-                                           std::int64_t most) {
+// The integer in `json`, if it is an integer from `min` to `max`. 3.0 is not an integer.
+std::optional<std::int64_t> integer_within(const Json& json, std::int64_t min, std::int64_t max) {
   if (!json.is_number_integer()) return std::nullopt;
   constexpr std::uint64_t kLargest = std::numeric_limits<std::int64_t>::max();
   if (json.is_number_unsigned() && json.get<std::uint64_t>() > kLargest) return std::nullopt;
   const auto value = json.get<std::int64_t>();
-  if (value < least || value > most) return std::nullopt;
+  if (value < min || value > max) return std::nullopt;
   return value;
 }
 
@@ -83,9 +82,9 @@ JsonValue JsonValue::element(std::size_t index) const {
   return {(*json_)[index], *file_, path_to(std::to_string(index))};
 }
 
-std::int64_t JsonValue::integer(std::int64_t least, std::int64_t most) const {
-  const auto value = integer_within(*json_, least, most);
-  if (!value) fail_expected(fmt::format("an integer from {} to {}", least, most));
+std::int64_t JsonValue::integer(std::int64_t min, std::int64_t max) const {
+  const auto value = integer_within(*json_, min, max);
+  if (!value) fail_expected(fmt::format("an integer from {} to {}", min, max));
   return *value;
 }
 

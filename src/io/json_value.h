@@ -35,7 +35,7 @@ class JsonValue {
   std::size_t size() const;
   JsonValue element(std::size_t index) const;
 
-  std::int64_t integer(std::int64_t least, std::int64_t most) const;
+  std::int64_t integer(std::int64_t min, std::int64_t max) const;
   double number() const;
   bool boolean() const;
   std::string text() const;

@@ -111,10 +111,10 @@ YamlValue YamlValue::element(std::size_t index) const {
   return {node_[index], *file_};
 }
 
-int YamlValue::integer(int least, int most) const {
+int YamlValue::integer(int min, int max) const {
   const auto value = node_.IsScalar() ? decimal(node_.Scalar()) : std::nullopt;
-  if (!value || *value < least || *value > most)
-    fail_expected(fmt::format("a decimal integer from {} to {}", least, most));
+  if (!value || *value < min || *value > max)
+    fail_expected(fmt::format("a decimal integer from {} to {}", min, max));
   return *value;
 }
 

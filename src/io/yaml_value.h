@@ -35,7 +35,7 @@ class YamlValue {
   std::size_t size() const;
   YamlValue element(std::size_t index) const;
 
-  int integer(int least, int most) const;
+  int integer(int min, int max) const;
   // A scalar that is valid UTF-8 without NUL characters.
   std::string text() const;
   // A cell [x, y] with x, y >= 0. A tag (!!python/tuple) is ignored.

@@ -52,9 +52,9 @@ constexpr std::int64_t kMadePerWork = 2;  // joint states; see search/work.h
 
 class EpeaStar::Search {
  public:
-  // `tables`: use pattern databases. `least`: known lower bound on all plans.
+  // `tables`: use pattern databases. `known_bound`: known lower bound on all plans.
   Search(const Instance& instance, std::vector<AgentGraph> agents, std::size_t max_bytes,
-         bool tables, Cost least)
+         bool tables, Cost known_bound)
       : instance_(instance),
         agents_(std::move(agents)),
         max_bytes_(max_bytes),
@@ -64,7 +64,7 @@ class EpeaStar::Search {
     if (std::ranges::any_of(agents_, [](const auto& agent) { return agent.count() == 0; })) return;
     for (const AgentGraph& agent : agents_) alone_ += agent.to_go(AgentGraph::start());
     if (tables) groups_.plan();
-    first_layer_ = lower_bound_ = std::max<Cost>(alone_, least);
+    first_layer_ = lower_bound_ = std::max<Cost>(alone_, known_bound);
     if (!groups_.are_due()) begin();
   }
 
@@ -353,8 +353,9 @@ std::size_t max_nodes_within(double bits) {
 
 EpeaStar::EpeaStar(std::unique_ptr<Search> search) : search_(std::move(search)) {}
 EpeaStar::EpeaStar(const Instance& instance, std::vector<AgentGraph> agents, std::size_t max_bytes,
-                   Cost least)
-    : search_(std::make_unique<Search>(instance, std::move(agents), max_bytes, false, least)) {}
+                   Cost known_bound)
+    : search_(
+          std::make_unique<Search>(instance, std::move(agents), max_bytes, false, known_bound)) {}
 EpeaStar::~EpeaStar() = default;
 
 std::unique_ptr<EpeaStar> EpeaStar::make(const Instance& instance, double max_bits,

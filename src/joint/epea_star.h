@@ -27,10 +27,10 @@ class EpeaStar {
   // it. `max_bytes`: its memory limit.
   static std::unique_ptr<EpeaStar> make(const Instance& instance, double max_bits,
                                         std::size_t max_bytes);
-  // Searches the agents of these graphs: at least 1 and at most kMaxAgents. `least` is a known
-  // lower bound on their cost.
+  // Searches the agents of these graphs: at least 1 and at most kMaxAgents. `known_bound` is a
+  // known lower bound on their cost.
   EpeaStar(const Instance& instance, std::vector<AgentGraph> agents, std::size_t max_bytes,
-           Cost least = 0);
+           Cost known_bound = 0);
   ~EpeaStar();
 
   enum class Outcome : std::uint8_t {

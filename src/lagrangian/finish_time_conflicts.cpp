@@ -16,13 +16,14 @@ constexpr std::size_t kBytesOfNode = 24;  // about, with its edges
 
 }  // namespace
 
-FinishTimeConflicts::FinishTimeConflicts(const World& world, AgentStopsCache& stops, Most most)
-    : world_(world), stops_(stops), most_(most), builder_(world), dependency_(world) {}
+FinishTimeConflicts::FinishTimeConflicts(const World& world, AgentStopsCache& stops,
+                                         MaxSizes max_sizes)
+    : world_(world), stops_(stops), max_sizes_(max_sizes), builder_(world), dependency_(world) {}
 FinishTimeConflicts::~FinishTimeConflicts() = default;
 
 bool FinishTimeConflicts::are_incompatible(const FinishTimeConflict& pair, const Limits& limits) {
-  const Time later_a = pair.finish_a - of(pair.a, limits).least;
-  const Time later_b = pair.finish_b - of(pair.b, limits).least;
+  const Time later_a = pair.finish_a - of(pair.a, limits).earliest;
+  const Time later_b = pair.finish_b - of(pair.b, limits).earliest;
   if (later_a >= kGrid || later_b >= kGrid) return false;
   Grid& grid =
       known_[static_cast<std::uint64_t>(pair.a) << 32 | static_cast<std::uint32_t>(pair.b)];
@@ -59,7 +60,7 @@ FinishTimeConflicts::Known FinishTimeConflicts::compared(const FinishTimeConflic
   if (b == nullptr) return Known::kNotExcluded;
   const bool is_excluded =
       a->empty() || b->empty() ||
-      dependency_.find(*a, *b, most_.joint_mdd_nodes, limits) == Dependence::kDependent;
+      dependency_.find(*a, *b, max_sizes_.joint_mdd_nodes, limits) == Dependence::kDependent;
   return is_excluded ? Known::kExcluded : Known::kNotExcluded;
 }
 
@@ -68,10 +69,11 @@ const Mdd* FinishTimeConflicts::set(AgentIndex agent, Time later, const Limits& 
   const auto at = static_cast<std::size_t>(later);
   for (auto& sets = of_agent.sets; sets.size() <= at;) {
     auto paths = std::make_unique<Mdd>();
-    const Time cost = of_agent.least + static_cast<Time>(sets.size());
-    const auto outcome = bytes_ > most_.bytes ? MddBuilder::Outcome::kTooLarge
-                                              : builder_.build(*of_agent.goals, {}, cost,
-                                                               most_.set_nodes, limits, *paths);
+    const Time cost = of_agent.earliest + static_cast<Time>(sets.size());
+    const auto outcome =
+        bytes_ > max_sizes_.bytes
+            ? MddBuilder::Outcome::kTooLarge
+            : builder_.build(*of_agent.goals, {}, cost, max_sizes_.set_nodes, limits, *paths);
     const bool is_known =
         outcome == MddBuilder::Outcome::kBuilt || outcome == MddBuilder::Outcome::kNone;
     bytes_ += static_cast<std::size_t>(paths->node_count()) * kBytesOfNode;
@@ -85,7 +87,7 @@ FinishTimeConflicts::OfAgent& FinishTimeConflicts::of(AgentIndex agent, const Li
   OfAgent& of_agent = agents_[agent];
   if (!of_agent.goals) {
     of_agent.goals = std::make_unique<SequenceStages>(stops_.of(agent), SequenceClass{});
-    of_agent.least = min_cost(*of_agent.goals, limits);
+    of_agent.earliest = min_cost(*of_agent.goals, limits);
   }
   return of_agent;
 }

@@ -29,14 +29,14 @@ struct FinishTimeConflict {
 class FinishTimeConflicts {
  public:
   // Limits: nodes of one MDD, pairs of nodes of one joint search, bytes of all MDDs.
-  struct Most {
+  struct MaxSizes {
     std::size_t set_nodes;
     std::size_t joint_mdd_nodes;
     std::size_t bytes;
   };
 
   // All references must outlive this.
-  FinishTimeConflicts(const World& world, AgentStopsCache& stops, Most most);
+  FinishTimeConflicts(const World& world, AgentStopsCache& stops, MaxSizes max_sizes);
   ~FinishTimeConflicts();
 
   // Returns true only if it is proven that no two paths without a collision finish by these times,
@@ -53,7 +53,7 @@ class FinishTimeConflicts {
   enum class Known : std::uint8_t { kNot, kExcluded, kNotExcluded };  // 0 first: see Grid
   struct OfAgent {
     std::unique_ptr<SequenceStages> goals;
-    Time least = 0;  // earliest finish, or a lower bound on it
+    Time earliest = 0;  // earliest finish, or a lower bound on it
     // MDDs by cost - least. nullptr: not built within the limits. Empty: no path finishes exactly
     // then.
     std::vector<std::unique_ptr<Mdd>> sets;
@@ -68,7 +68,7 @@ class FinishTimeConflicts {
 
   const World& world_;
   AgentStopsCache& stops_;
-  const Most most_;
+  const MaxSizes max_sizes_;
   MddBuilder builder_;
   JointMddSearch dependency_;
   std::vector<OfAgent> agents_;

@@ -18,15 +18,15 @@ constexpr int kRoundsForFarBelow = 5;
 
 }  // namespace
 
-double TargetLevelStep::step(double value, double most, double squares) {
+double TargetLevelStep::step(double value, double upper_bound, double squares) {
   best_ = std::max(best_, value);
   if (value < best_ - kFarBelow * way_) waited_ += kRoundsForFarBelow;
-  choose_level(most);
+  choose_level(upper_bound);
   return std::max(0.0, best_ + way_ - value) / squares;
 }
 
-void TargetLevelStep::choose_level(double most) {
-  const double room = std::max(0.0, most - best_);
+void TargetLevelStep::choose_level(double upper_bound) {
+  const double room = std::max(0.0, upper_bound - best_);
   if (way_ <= 0) {
     way_ = tuning_.lagrangian_level * best_;
   } else if (best_ < best_at_level_ + kSufficientProgress * way_) {

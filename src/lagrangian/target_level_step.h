@@ -14,13 +14,13 @@ class TargetLevelStep {
   explicit TargetLevelStep(const Tuning& tuning) : tuning_(tuning) {}
 
   // The step length from a point of value `value` along a direction of squared length `squares` >
-  // 0. `most`: upper bound on all values.
-  double step(double value, double most, double squares);
+  // 0. `upper_bound`: upper bound on all values.
+  double step(double value, double upper_bound, double squares);
   // Distance from the best value so far to the level; 0 before the first step.
   double way() const { return way_; }
 
  private:
-  void choose_level(double most);
+  void choose_level(double upper_bound);
 
   const Tuning& tuning_;
   double best_ = 0;

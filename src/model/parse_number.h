@@ -10,17 +10,17 @@
 
 namespace grove::detail {
 
-// The decimal number in `text`. Returns nullopt if the whole text is not a number from `least` to
-// `most`.
+// The decimal number in `text`. Returns nullopt if the whole text is not a number from `min` to
+// `max`.
 template <class Number>
 std::optional<Number> parse_number(std::string_view text,
-                                   Number least = std::numeric_limits<Number>::lowest(),
-                                   Number most = std::numeric_limits<Number>::max()) {
+                                   Number min = std::numeric_limits<Number>::lowest(),
+                                   Number max = std::numeric_limits<Number>::max()) {
   Number value{};
   const char* const end = text.data() + text.size();
   const auto [parsed_to, error] = std::from_chars(text.data(), end, value);
   const bool is_number = error == std::errc() && parsed_to == end;
-  return is_number && value >= least && value <= most ? std::optional(value) : std::nullopt;
+  return is_number && value >= min && value <= max ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace grove::detail

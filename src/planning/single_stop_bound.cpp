@@ -12,12 +12,12 @@
 
 namespace grove::detail {
 
-Time SingleStopBound::min_cost(const AgentStops& stops, Time least, const Limits& limits) {
+Time SingleStopBound::min_cost(const AgentStops& stops, Time known_bound, const Limits& limits) {
   stops_ = &stops;
-  least_ = least;
+  bound_ = known_bound;
   for (int stop = 0; stop < stops.count() && !limits.stop_requested(); ++stop)
-    least_ = min_cost_through(stop);
-  return least_;
+    bound_ = min_cost_through(stop);
+  return bound_;
 }
 
 // The first time at which the agent can rest for ever after visiting the stop `via`, but at least
@@ -33,7 +33,7 @@ Time SingleStopBound::min_cost_through(int via) {
     if (after_via_ >= kNever) return kNever;
   }
   earliest_.assign(2 * static_cast<std::size_t>(intervals_.slot_limit()), kNever);
-  queue_.reset(least_);
+  queue_.reset(bound_);
   const State start = stops_->start();
   intervals_.see(world_.place(start));
   if (const int slot = intervals_.start_slot(start); slot >= 0) reach(slot, start, 0, false);
@@ -41,7 +41,7 @@ Time SingleStopBound::min_cost_through(int via) {
   while (queue_.pop(entry)) {
     if (earliest_[index(entry.slot, entry.progress)] < entry.time) continue;
     const bool visited = entry.progress != 0;
-    if (visited && may_rest(entry.slot)) return std::max(least_, entry.time);
+    if (visited && may_rest(entry.slot)) return std::max(bound_, entry.time);
     intervals_.for_each_move(entry.slot, entry.time, [&](int slot, State state, Time time) {
       reach(slot, state, time, visited);
     });
@@ -70,7 +70,7 @@ void SingleStopBound::reach(int slot, State state, Time time, bool visited) {
   earliest = time;
   const Time to_go = this->to_go(state, visited);
   if (to_go >= kNever) return;
-  queue_.push(std::max(least_, time + to_go),
+  queue_.push(std::max(bound_, time + to_go),
               {.slot = slot,
                .time = time,
                .conflicts = static_cast<std::uint16_t>(std::min<Time>(to_go, Queue::kMaxConflicts)),

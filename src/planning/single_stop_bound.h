@@ -22,8 +22,8 @@ class SingleStopBound {
       : world_(world), intervals_(intervals) {}
 
   // Lower bound on the cost of a path through all stops under the intervals, given the bound
-  // `least`; kNever if there is no path. If a limit is reached, it examines fewer stops.
-  Time min_cost(const AgentStops& stops, Time least, const Limits& limits);
+  // `known_bound`; kNever if there is no path. If a limit is reached, it examines fewer stops.
+  Time min_cost(const AgentStops& stops, Time known_bound, const Limits& limits);
 
  private:
   using Queue = BasicBucketQueue<std::uint8_t>;  // progress: 1 if `via` was visited
@@ -42,7 +42,7 @@ class SingleStopBound {
   std::vector<Time> earliest_;  // by slot, then progress
   const AgentStops* stops_ = nullptr;
   int via_ = AgentStops::kNoStop;
-  Time least_ = 0;
+  Time bound_ = 0;
   Time after_via_ = 0;  // lower bound on the time from `via` to where the agent may rest
 };
 

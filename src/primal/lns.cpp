@@ -94,21 +94,21 @@ LargeNeighborhoodSearch::RepairOperator& LargeNeighborhoodSearch::choose_repair(
 
 // By how much the next plan may exceed `cost`, the cost of the current plan.
 Cost LargeNeighborhoodSearch::worse_allowed(Cost cost) {
-  if (cost < least_) {
-    least_ = cost;
+  if (cost < best_) {
+    best_ = cost;
     failures_ = 0;
   }
   if (++failures_ <= kRecordDeviationStart * std::ssize(paths_.paths())) return 0;
-  const auto loss = static_cast<double>(least_ - own_costs_);
+  const auto loss = static_cast<double>(best_ - own_costs_);
   if (loss > tuning_.record_deviation_max_loss * static_cast<double>(own_costs_)) return 0;
   const double more = tuning_.record_deviation * loss;
-  return std::max<Cost>(0, least_ + static_cast<Cost>(more + random_.unit()) - cost);
+  return std::max<Cost>(0, best_ + static_cast<Cost>(more + random_.unit()) - cost);
 }
 
-// Returns false if the agents, planned in this order, find no paths of total cost `most` or less.
-bool LargeNeighborhoodSearch::replan(const std::vector<AgentIndex>& agents, Cost most,
+// Returns false if the agents, planned in this order, find no paths of total cost `cutoff` or less.
+bool LargeNeighborhoodSearch::replan(const std::vector<AgentIndex>& agents, Cost cutoff,
                                      RepairOperator& repair, const Limits& limits) {
-  Cost left = most;
+  Cost left = cutoff;
   for (AgentIndex agent : agents) left -= low_level_.individual_cost(agent);
   for (AgentIndex agent : agents) {
     const Cost cutoff = left + low_level_.individual_cost(agent);

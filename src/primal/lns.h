@@ -37,7 +37,7 @@ class LargeNeighborhoodSearch {
   // Starts on another plan, which is in `paths`. `individual_costs`: sum of the agents' individual
   // costs.
   void begin(Cost individual_costs) {
-    least_ = kInfiniteCost;
+    best_ = kInfiniteCost;
     own_costs_ = individual_costs;
   }
 
@@ -58,7 +58,7 @@ class LargeNeighborhoodSearch {
 
   RepairOperator& choose_repair();
   Cost worse_allowed(Cost cost);
-  bool replan(const std::vector<AgentIndex>& agents, Cost most, RepairOperator& repair,
+  bool replan(const std::vector<AgentIndex>& agents, Cost cutoff, RepairOperator& repair,
               const Limits& limits);
   bool find(AgentIndex agent, Cost cutoff, RepairOperator& repair, const Limits& limits);
   void restore(const std::vector<AgentIndex>& agents);
@@ -71,8 +71,8 @@ class LargeNeighborhoodSearch {
   std::array<RepairOperator, 3> repair_operators_{
       RepairOperator{0, false}, RepairOperator{30, false}, RepairOperator{0, true}};
   Cost own_costs_ = 0;
-  Cost least_ = kInfiniteCost;  // least plan cost since begin()
-  std::int64_t failures_ = 0;   // iterations since least_ improved
+  Cost best_ = kInfiniteCost;  // least plan cost since begin()
+  std::int64_t failures_ = 0;  // iterations since least_ improved
   std::vector<Path> old_paths_;
   Path path_;
   std::int64_t steps_ = 0;

@@ -212,10 +212,10 @@ std::size_t Frontier::open() const {
   return open_count_;
 }
 
-std::vector<Frontier::Level> Frontier::levels(std::size_t most) const {
+std::vector<Frontier::Level> Frontier::levels(std::size_t max_count) const {
   const std::lock_guard lock(mutex_);
   std::vector<Level> levels;
-  for (auto it = open_.begin(); it != open_.end() && levels.size() < most; ++it)
+  for (auto it = open_.begin(); it != open_.end() && levels.size() < max_count; ++it)
     levels.push_back({it->first, static_cast<std::int64_t>(it->second.size())});
   return levels;
 }

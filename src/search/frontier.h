@@ -75,13 +75,13 @@ class Frontier {
   // none.
   Cost bound() const;
   std::size_t open() const;
-  // The number of open nodes of each bound, for the `most` least bounds.
+  // The number of open nodes of each bound, for the `max_count` least bounds.
   struct Level {
     Cost bound = 0;
     std::int64_t open = 0;
     friend bool operator==(const Level&, const Level&) = default;
   };
-  std::vector<Level> levels(std::size_t most) const;
+  std::vector<Level> levels(std::size_t max_count) const;
   // The number of live nodes: open or taken.
   std::size_t live() const;
   bool empty() const { return bound() == kInfiniteCost; }

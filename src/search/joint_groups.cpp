@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Lower bound on the cost of a group by A* over joint states (joint/epea_star.cpp). Each agent of
 // the group has a graph of all its paths that satisfy the node's constraints and cost at most
-// `most` more than its path at the node (joint/time_expanded_graphs.h). *Claim: in every plan that
-// satisfies the node's constraints the group costs at least the computed bound.* *Proof.* In such a
-// plan no two paths of the group collide. If all its paths are in the graphs, they cost at least
-// the bound of the joint search, however early that ends. Otherwise one agent costs over `most`
-// more than its path at the node. The paths at the node are cheapest under the node's constraints,
-// so no other agent costs less than its path there, and the group costs at least `most` + 1 more.
-// The constraints are those of the agents' subproblems (subproblem_table.h); the result does not
-// depend on the other agents.
+// `max_excess` more than its path at the node (joint/time_expanded_graphs.h). *Claim: in every plan
+// that satisfies the node's constraints the group costs at least the computed bound.* *Proof.* In
+// such a plan no two paths of the group collide. If all its paths are in the graphs, they cost at
+// least the bound of the joint search, however early that ends. Otherwise one agent costs over
+// `max_excess` more than its path at the node. The paths at the node are cheapest under the node's
+// constraints, so no other agent costs less than its path there, and the group costs at least
+// `max_excess` + 1 more. The constraints are those of the agents' subproblems (subproblem_table.h);
+// the result does not depend on the other agents.
 //
-// Graphs grow with `most`, and most groups have a small excess. So `most` begins small and its
-// distance to the known excess doubles.
+// Graphs grow with `max_excess`, and most groups have a small excess. So `max_excess` begins small
+// and its distance to the known excess doubles.
 //
 // *Where it helps.* Splits solve nearly all pairs of agents that neither turn nor execute tasks,
 // and few of the others. *Measured* on room-32-32-4 with 40 agents: joint search also for groups
@@ -48,22 +48,22 @@ bool JointGroups::solve(const NodeView& view, std::span<const AgentIndex> group,
   if (std::ssize(group) > tuning_.joint_group_agents) return true;
   abort_at_ = work() + tuning_.joint_group_work;
   for (Cost more = 1; !known.exact && known.excess <= slack; more *= 2) {
-    const Cost most = std::min(slack, known.excess + more);
-    const Outcome outcome = solve_up_to(most, view, group, limits, known);
+    const Cost max_excess = std::min(slack, known.excess + more);
+    const Outcome outcome = solve_up_to(max_excess, view, group, limits, known);
     if (outcome == Outcome::kStopped) return false;
     if (outcome == Outcome::kAborted) return true;
   }
   return true;
 }
 
-JointGroups::Outcome JointGroups::solve_up_to(Cost most, const NodeView& view,
+JointGroups::Outcome JointGroups::solve_up_to(Cost max_excess, const NodeView& view,
                                               std::span<const AgentIndex> group,
                                               const Limits& limits, Known& known) {
   Cost apart = 0;
   std::vector<AgentGraph> graphs(group.size());
   for (std::size_t i = 0; i < group.size(); ++i) {
     const AgentIndex agent = group[i];
-    const Cost max_cost = view.cost_of(agent) + most;
+    const Cost max_cost = view.cost_of(agent) + max_excess;
     apart += view.cost_of(agent);
     if (max_cost >= kNever || work() >= abort_at_) return Outcome::kAborted;
     const auto made = planner_.timed_graph(
@@ -73,7 +73,7 @@ JointGroups::Outcome JointGroups::solve_up_to(Cost most, const NodeView& view,
     if (made == TimeExpandedGraphs::Outcome::kTooLarge) return Outcome::kAborted;
   }
   EpeaStar search(instance_, std::move(graphs), kMaxBytes, apart + known.excess);
-  const Cost cutoff = apart + most + 1;
+  const Cost cutoff = apart + max_excess + 1;
   const std::int64_t max_work = abort_at_ - work();
   auto outcome = EpeaStar::Outcome::kWorking;
   while (outcome == EpeaStar::Outcome::kWorking && search.work() < max_work)

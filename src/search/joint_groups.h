@@ -36,7 +36,7 @@ class JointGroups {
 
  private:
   enum class Outcome : std::uint8_t { kSolved, kAborted, kStopped };
-  Outcome solve_up_to(Cost most, const NodeView& view, std::span<const AgentIndex> group,
+  Outcome solve_up_to(Cost max_excess, const NodeView& view, std::span<const AgentIndex> group,
                       const Limits& limits, Known& known);
 
   const Instance& instance_;

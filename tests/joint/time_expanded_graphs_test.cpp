@@ -36,11 +36,11 @@ class Fuzzer {
   const Instance& instance() const { return instance_; }
   int below(int bound) { return static_cast<int>(random_() % static_cast<unsigned>(bound)); }
 
-  AgentGraph graph(AgentIndex agent, const Constraints& constraints, Time most) {
+  AgentGraph graph(AgentIndex agent, const Constraints& constraints, Time max_cost) {
     AgentStops stops(instance_, distances_, agent);
     SequenceStages goals(stops, SequenceClass());
     AgentGraph graph;
-    EXPECT_EQ(graphs_.make(goals, constraints, most, kPlenty, Limits(), graph),
+    EXPECT_EQ(graphs_.make(goals, constraints, max_cost, kPlenty, Limits(), graph),
               TimeExpandedGraphs::Outcome::kMade);
     return graph;
   }
@@ -87,26 +87,28 @@ class Fuzzer {
   TimeExpandedGraphs graphs_;
 };
 
-// An agent, its constraints, and all its paths that satisfy them and cost at most `most`.
+// An agent, its constraints, and all its paths that satisfy them and cost at most `max_cost`.
 struct Member {
   AgentIndex agent;
   Constraints constraints;
-  Time most = 0;
+  Time max_cost = 0;
   std::vector<Way> ways;
 };
 
 std::optional<Member> member(Fuzzer& fuzzer, AgentIndex agent, Time delta_f) {
-  Member m{.agent = agent, .constraints = {}, .most = 0, .ways = {}};
-  for (Time most = 0; m.ways.empty(); ++most) {
-    const auto ways = oracle::ways_within(fuzzer.instance(), agent, m.constraints, most, kMaxWays);
-    if (!ways || most > 12) return std::nullopt;
+  Member m{.agent = agent, .constraints = {}, .max_cost = 0, .ways = {}};
+  for (Time max_cost = 0; m.ways.empty(); ++max_cost) {
+    const auto ways =
+        oracle::ways_within(fuzzer.instance(), agent, m.constraints, max_cost, kMaxWays);
+    if (!ways || max_cost > 12) return std::nullopt;
     m.ways = *ways;
   }
   for (int n = fuzzer.below(5); n > 0; --n)
     m.constraints.push_back(
         fuzzer.constraint(m.ways[fuzzer.below(static_cast<int>(m.ways.size()))]));
-  m.most = static_cast<Time>(m.ways.front().size()) - 1 + delta_f;
-  const auto ways = oracle::ways_within(fuzzer.instance(), agent, m.constraints, m.most, kMaxWays);
+  m.max_cost = static_cast<Time>(m.ways.front().size()) - 1 + delta_f;
+  const auto ways =
+      oracle::ways_within(fuzzer.instance(), agent, m.constraints, m.max_cost, kMaxWays);
   if (!ways) return std::nullopt;
   m.ways = *ways;
   return m;
@@ -122,7 +124,7 @@ TEST(TimeExpandedGraphs, HaveTheLeastCostUnderConstraints) {
     for (AgentIndex agent = 0; agent < fuzzer.instance().agent_count(); ++agent) {
       const auto m = member(fuzzer, agent, 3);
       if (!m) continue;
-      const AgentGraph graph = fuzzer.graph(agent, m->constraints, m->most);
+      const AgentGraph graph = fuzzer.graph(agent, m->constraints, m->max_cost);
       ASSERT_EQ(graph.count() == 0, m->ways.empty());
       ++(m->ways.empty() ? none : some);
       if (m->ways.empty()) continue;
@@ -147,7 +149,7 @@ TEST(TimeExpandedGraphs, LetJointSearchFindOptimumUnderConstraints) {
       const auto m = member(fuzzer, agent, 2 + fuzzer.below(2));
       if (!m) break;
       ways.push_back(m->ways);
-      graphs.push_back(fuzzer.graph(agent, m->constraints, m->most));
+      graphs.push_back(fuzzer.graph(agent, m->constraints, m->max_cost));
     }
     if (ways.size() < 2) continue;
     const auto least = oracle::min_joint_cost(fuzzer.instance(), ways);

@@ -48,14 +48,14 @@ class Walk {
 
 }  // namespace
 
-std::set<Places> arrangements_from_starts(const Instance& instance, std::size_t most) {
+std::set<Places> arrangements_from_starts(const Instance& instance, std::size_t max_count) {
   Places start;
   for (const Agent& agent : instance.agents()) start.push_back(instance.world().place(agent.start));
   const Walk walk(instance);
   std::set<Places> seen{start};
   std::vector<Places> open{start};
   while (!open.empty()) {
-    if (seen.size() > most) return {};
+    if (seen.size() > max_count) return {};
     const Places now = std::move(open.back());
     open.pop_back();
     Places next;

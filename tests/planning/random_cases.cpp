@@ -86,13 +86,13 @@ Cell random_cell(const Grid& grid, std::mt19937& random) {
     if (const Cell cell = below(random, grid.cell_count()); grid.passable(cell)) return cell;
 }
 
-Path random_walk(const Grid& grid, std::mt19937& random, int most) {
-  return random_walk_from(random_cell(grid, random), grid, random, most);
+Path random_walk(const Grid& grid, std::mt19937& random, int max) {
+  return random_walk_from(random_cell(grid, random), grid, random, max);
 }
 
-Path random_walk_from(Cell start, const Grid& grid, std::mt19937& random, int most) {
+Path random_walk_from(Cell start, const Grid& grid, std::mt19937& random, int max) {
   Path path{start};
-  for (int n = below(random, most + 1); n > 0; --n) {
+  for (int n = below(random, max + 1); n > 0; --n) {
     const auto neighbors = grid.neighbors(path.back());
     const int choice = below(random, static_cast<int>(neighbors.size()) + 1);
     path.push_back(choice == 0 ? path.back() : neighbors[choice - 1]);

@@ -19,9 +19,9 @@ Grid random_small_map(std::mt19937& random);
 // A random passable cell.
 Cell random_cell(const Grid& grid, std::mt19937& random);
 
-// A path of at most `most` steps, some of them waits, from a random cell or from `start`.
-Path random_walk(const Grid& grid, std::mt19937& random, int most = 12);
-Path random_walk_from(Cell start, const Grid& grid, std::mt19937& random, int most = 12);
+// A path of at most `max` steps, some of them waits, from a random cell or from `start`.
+Path random_walk(const Grid& grid, std::mt19937& random, int max = 12);
+Path random_walk_from(Cell start, const Grid& grid, std::mt19937& random, int max = 12);
 
 // A vertex or edge constraint: often on the path, often on one of `goals` (not empty), sometimes
 // for ever.

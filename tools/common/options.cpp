@@ -19,8 +19,8 @@ namespace {
 }
 
 std::string range_text(IntegerRange range) {
-  return range.most == INT64_MAX ? fmt::format("an integer of at least {}", range.least)
-                                 : fmt::format("an integer from {} to {}", range.least, range.most);
+  return range.max == INT64_MAX ? fmt::format("an integer of at least {}", range.min)
+                                : fmt::format("an integer from {} to {}", range.min, range.max);
 }
 
 std::vector<std::int64_t> parse_integers(const std::string& option, const std::string& text,
@@ -64,7 +64,7 @@ std::vector<std::int64_t> parse_steps(const std::string& option, const std::stri
 }  // namespace
 
 std::int64_t parse_integer(const std::string& option, const std::string& text, IntegerRange range) {
-  const auto value = parse_number(text, range.least, range.most);
+  const auto value = parse_number(text, range.min, range.max);
   if (!value) refuse(option, text, range_text(range));
   return *value;
 }
@@ -148,12 +148,12 @@ CLI::Validator one_of(std::vector<std::string> names) {
       "");
 }
 
-CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double least,
-                        double most, const std::string& description) {
-  const auto read = [&value, name, least, most](const CLI::results_t& results) {
+CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double min,
+                        double max, const std::string& description) {
+  const auto read = [&value, name, min, max](const CLI::results_t& results) {
     const std::string& text = results.front();
-    const auto number = parse_number(text, least, most);
-    if (!number) refuse(name, text, fmt::format("a number from {} to {}", least, most));
+    const auto number = parse_number(text, min, max);
+    if (!number) refuse(name, text, fmt::format("a number from {} to {}", min, max));
     value = *number;
     return true;
   };

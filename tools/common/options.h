@@ -13,8 +13,8 @@
 namespace grove::detail {
 
 struct IntegerRange {
-  std::int64_t least = 0;
-  std::int64_t most = 0;
+  std::int64_t min = 0;
+  std::int64_t max = 0;
 };
 
 // Any seed.
@@ -40,9 +40,9 @@ CLI::Option* add_repeated(CLI::App& app, const std::string& name, std::vector<st
                           const std::string& type, const std::string& description);
 // Returns the shortest text that add_ranges() parses as `values`: "1-15,20".
 std::string ranges_text(const std::vector<std::int64_t>& values);
-// A decimal number from `least` to `most`.
-CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double least,
-                        double most, const std::string& description);
+// A decimal number from `min` to `max`.
+CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double min,
+                        double max, const std::string& description);
 
 // Accepts only values in `names`.
 CLI::Validator one_of(std::vector<std::string> names);

@@ -22,7 +22,7 @@ LoadedInstance read_scen(const ConvertArguments& arguments) {
   const auto rows =
       arguments.agents > 0
           ? static_cast<std::size_t>(arguments.agents)
-          : std::min<std::size_t>(read_scenario(arguments.instance).size(), kRowCounts.most);
+          : std::min<std::size_t>(read_scenario(arguments.instance).size(), kRowCounts.max);
   return read_scenario_instance(arguments.instance, arguments.map, static_cast<int>(rows),
                                 arguments.rules());
 }

@@ -95,7 +95,7 @@ std::string Extras::suffix() const {
   std::string text;
   if (turn_steps > 0) text += turn_steps > 1 ? fmt::format("_turning{}", turn_steps) : "_turning";
   if (goal_headings) text += "_headings";
-  if (durations.most > 0) text += fmt::format("_d{}-{}", durations.least, durations.most);
+  if (durations.max > 0) text += fmt::format("_d{}-{}", durations.min, durations.max);
   return text;
 }
 

@@ -19,8 +19,8 @@ struct Scenario {
 // Features that the paper's instances do not have.
 struct Extras {
   struct Range {
-    Time least = 0;
-    Time most = 0;
+    Time min = 0;
+    Time max = 0;
   };
   Time turn_steps = 0;         // duration of a quarter turn; 0: agents turn instantly
   bool goal_headings = false;  // whether agents with turn_steps > 0 have a heading at the goal

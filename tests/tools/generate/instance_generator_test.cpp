@@ -80,7 +80,7 @@ TEST(GenerateInstance, WithMgTurnsGoalsIntoTasks) {
 TEST(GenerateInstance, ExtrasChangeNothingElse) {
   InstanceRequest request{.agents = 20, .tasks = 40, .seed = 1};
   const Instance plain = generate(request);
-  request.extras = {.turn_steps = 2, .goal_headings = true, .durations = {.least = 1, .most = 3}};
+  request.extras = {.turn_steps = 2, .goal_headings = true, .durations = {.min = 1, .max = 3}};
   const Instance with_extras = generate(request);
   std::vector<int> of_heading(4);
   std::vector<int> of_goal_heading(4);
@@ -111,9 +111,9 @@ TEST(GenerateInstance, DrawsHeadingsAndDurationsIndependently) {
   InstanceRequest request{.agents = 10, .tasks = 30, .seed = 7, .extras = {.turn_steps = 1}};
   const Instance turning = generate(request);
   request.extras.goal_headings = true;
-  request.extras.durations = {.least = 0, .most = 10};
+  request.extras.durations = {.min = 0, .max = 10};
   const Instance both = generate(request);
-  request.extras = {.durations = {.least = 0, .most = 10}};
+  request.extras = {.durations = {.min = 0, .max = 10}};
   const Instance slow = generate(request);
   for (AgentIndex i = 0; i < 10; ++i) {
     EXPECT_FALSE(turning.agent(i).goal_heading);
@@ -127,7 +127,7 @@ TEST(Extras, HaveDistinctSuffixes) {
   EXPECT_EQ(Extras{}.suffix(), "");
   EXPECT_EQ((Extras{.turn_steps = 1}).suffix(), "_turning");
   EXPECT_EQ((Extras{.turn_steps = 2, .goal_headings = true}).suffix(), "_turning2_headings");
-  EXPECT_EQ((Extras{.turn_steps = 1, .durations = {.least = 0, .most = 10}}).suffix(),
+  EXPECT_EQ((Extras{.turn_steps = 1, .durations = {.min = 0, .max = 10}}).suffix(),
             "_turning_d0-10");
 }
 

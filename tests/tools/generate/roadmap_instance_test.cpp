@@ -124,7 +124,7 @@ TEST(RoadmapInstance, WithMgTurnsGoalsIntoTasks) {
 
 TEST(RoadmapInstance, DrawsDurations) {
   const Instance instance = generate_instance(
-      hall(), {.agents = 10, .tasks = 60, .extras = {.durations = {.least = 2, .most = 4}}});
+      hall(), {.agents = 10, .tasks = 60, .extras = {.durations = {.min = 2, .max = 4}}});
   std::set<Time> durations;
   for (const Task& task : instance.tasks()) durations.insert(task.duration);
   EXPECT_EQ(durations, (std::set<Time>{2, 3, 4}));

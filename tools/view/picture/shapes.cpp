@@ -9,12 +9,12 @@ void set(cairo_t* cairo, const Color& color) {
   cairo_set_source_rgb(cairo, color.red, color.green, color.blue);
 }
 
-void center_text(cairo_t* cairo, const std::string& text, Point at, double size, double most) {
+void center_text(cairo_t* cairo, const std::string& text, Point at, double size, double max) {
   cairo_set_font_size(cairo, size);
   cairo_text_extents_t extents;
   cairo_text_extents(cairo, text.c_str(), &extents);
-  if (extents.width > most) {
-    size *= most / extents.width;
+  if (extents.width > max) {
+    size *= max / extents.width;
     cairo_set_font_size(cairo, size);
     cairo_text_extents(cairo, text.c_str(), &extents);
   }
@@ -42,9 +42,9 @@ void outlined_text(cairo_t* cairo, const std::string& text, Point at, double siz
   show(0, 0);
 }
 
-std::string shortened(const std::string& id, std::size_t most) {
-  if (id.size() <= most) return id;
-  std::size_t end = most - 1;
+std::string shortened(const std::string& id, std::size_t max) {
+  if (id.size() <= max) return id;
+  std::size_t end = max - 1;
   while (end > 0 && (static_cast<unsigned char>(id[end]) & 0xc0) == 0x80) --end;
   return id.substr(0, end) + "…";
 }
