@@ -15,8 +15,8 @@
 // backwards, begins on e and ends at the start. Hence the cost-to-go table of a matrix whose
 // destination is the start gives, for every stop e, the cost through all other stops. It is exact
 // for ends up to a cost limit above the best end. The limit is raised until no other end can
-// matter: an end outside costs at least beyond(), and an assignment that uses it costs at least
-// that plus the best ends of all other agents.
+// matter: an end outside costs at least outside_bound(), and an assignment that uses it costs at
+// least that plus the best ends of all other agents.
 #include "engine/destinations.h"
 
 #include <algorithm>
@@ -43,17 +43,17 @@ class Ends {
 
   // Computes all ends that cost at most `reach` more than the best one. Returns false if a limit
   // was reached.
-  bool widen(Time reach, const Limits& limits) {
+  bool extend(Time reach, const Limits& limits) {
     if (best_ == kNever && !find_best(limits)) return false;
-    return all_known() || ends_.widen(std::min(best_ + reach, kNever - 1), limits);
+    return all_known() || ends_.extend(std::min(best_ + reach, kNever - 1), limits);
   }
   Time best() const { return best_; }
-  // Least cost of a sequence that ends on the task; kNever: at least beyond().
+  // Least cost of a sequence that ends on the task; kNever: at least outside_bound().
   Time cost(int stop) const {
     return ends_.cost_to_go(ends_.matrix().all() & ~(StopSet{1} << stop), stop);
   }
-  Time beyond() const { return ends_.beyond(); }
-  bool all_known() const { return ends_.beyond() >= kNever; }
+  Time outside_bound() const { return ends_.outside_bound(); }
+  bool all_known() const { return ends_.outside_bound() >= kNever; }
 
  private:
   CostMatrix backwards(const Problem& problem) const {
@@ -66,10 +66,10 @@ class Ends {
 
   bool find_best(const Limits& limits) {
     for (Time reach = relaxation_bound(ends_.matrix()); best_ == kNever; ++reach) {
-      reach = std::max(reach, std::min(ends_.beyond(), kNever - 1));
-      if (!ends_.widen(reach, limits)) return false;
+      reach = std::max(reach, std::min(ends_.outside_bound(), kNever - 1));
+      if (!ends_.extend(reach, limits)) return false;
       for (int stop = 0; stop < ends_.matrix().stops(); ++stop) best_ = std::min(best_, cost(stop));
-      if (best_ > ends_.beyond()) best_ = kNever;  // an unknown end may be better
+      if (best_ > ends_.outside_bound()) best_ = kNever;  // an unknown end may be better
       if (best_ == kNever && all_known()) return false;
     }
     return true;
@@ -95,7 +95,7 @@ class Chooser {
     if (!add_bound_of_others(chosen.bound)) return std::nullopt;
     for (Time reach = kFirstReach;; reach *= 2) {
       for (Ends& ends : ends_)
-        if (!ends.widen(reach, limits_)) return std::nullopt;
+        if (!ends.extend(reach, limits_)) return std::nullopt;
       const auto assignment = min_cost_assignment(costs());
       if (is_best(assignment)) return assignment ? finish(chosen, *assignment) : std::nullopt;
     }
@@ -145,7 +145,7 @@ class Chooser {
     for (std::size_t i = 0; i < ends_.size(); ++i)
       excess += cost_of(ends_[i], (*assignment)[i]) - ends_[i].best();
     return std::ranges::all_of(ends_, [&](const Ends& ends) {
-      return ends.all_known() || excess < ends.beyond() - ends.best();
+      return ends.all_known() || excess < ends.outside_bound() - ends.best();
     });
   }
   std::optional<Destinations> finish(Destinations chosen,

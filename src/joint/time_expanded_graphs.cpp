@@ -40,7 +40,7 @@ TimeExpandedGraphs::Outcome TimeExpandedGraphs::make(SequenceStages& goals,
   graph.first_move_.push_back(0);
   if (max_cost < 0 || !goals.plausible()) return Outcome::kMade;
   CostToGo& cost_to_go = goals.cost_to_go();
-  if (cost_to_go.beyond() <= max_cost && !cost_to_go.widen(max_cost, limits))
+  if (cost_to_go.outside_bound() <= max_cost && !cost_to_go.extend(max_cost, limits))
     return Outcome::kStopped;
   goals_ = &goals;
   max_cost_ = max_cost;

@@ -8,10 +8,10 @@
 // step of delay costs a unit. A label is dropped if this bound reaches the cutoff. The search ends,
 // since the cost rises by at least a unit per layer.
 //
-// *Bound.* A path outside the sequences stored in the costs to go costs at least beyond() steps, so
-// the result never exceeds that. If labels or time run out, the result does not exceed the least
-// bound of a label in the last complete layer either: every path not yet seen passes through that
-// layer.
+// *Bound.* A path outside the sequences stored in the costs to go costs at least outside_bound()
+// steps, so the result never exceeds that. If labels or time run out, the result does not exceed
+// the least bound of a label in the last complete layer either: every path not yet seen passes
+// through that layer.
 #include "lagrangian/penalized_search.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ ScaledCost PenalizedSearch::search(SequenceStages& goals, std::span<const Amount
   goals_ = &goals;
   on_finish_ = on_finish;
   below_ = std::min(
-      {below, kMaxPenaltyCost, ScaledCost{goals.cost_to_go().beyond()} * Penalties::kUnit});
+      {below, kMaxPenaltyCost, ScaledCost{goals.cost_to_go().outside_bound()} * Penalties::kUnit});
   best_.reset();
   labels_.clear();
   rests_.clear();
@@ -189,12 +189,12 @@ Time min_cost(SequenceStages& goals, const Limits& limits) {
   CostToGo& cost_to_go = goals.cost_to_go();
   for (;;) {
     const SequenceStages::StageId stage = goals.first_stage();
-    const Time beyond = cost_to_go.beyond();
+    const Time outside_bound = cost_to_go.outside_bound();
     if (stage != SequenceStages::kOutside) {
       const Time distance = goals.distance(stage, goals.stops().start());
       if (distance < beyond) return distance;
     }
-    if (beyond >= kNever || !cost_to_go.widen(beyond, limits)) return beyond;
+    if (outside_bound >= kNever || !cost_to_go.extend(outside_bound, limits)) return outside_bound;
   }
 }
 

@@ -35,7 +35,7 @@ class PenalizedSearch {
   // the penalty by finish time, 0 beyond its end. If the search ends within the label limit and
   // `limits`, and finds a path below the cutoff, the bound is exact and `*path` (unless `path` is
   // nullptr) becomes such a path; else it is unchanged. The cutoff is the least of `below`,
-  // kMaxPenaltyCost, and beyond() of the costs to go.
+  // kMaxPenaltyCost, and outside_bound() of the costs to go.
   ScaledCost search(SequenceStages& goals, std::span<const Penalties::Amount> on_finish,
                     ScaledCost below, std::int64_t label_limit, const Limits& limits, Path* path);
 

@@ -49,8 +49,8 @@ ScaledCost Pricer::price_below(ScaledCost below, AgentIndex agent, const Limits&
                                Path& path) {
   SequenceStages& goals = this->goals(agent);
   CostToGo& cost_to_go = goals.cost_to_go();
-  if (ScaledCost{cost_to_go.beyond()} * Penalties::kUnit < below)
-    cost_to_go.widen(static_cast<Time>(below / Penalties::kUnit), limits);
+  if (ScaledCost{cost_to_go.outside_bound()} * Penalties::kUnit < below)
+    cost_to_go.extend(static_cast<Time>(below / Penalties::kUnit), limits);
   return search_.search(goals, multipliers_.on_finish(agent), below, kMaxLabels, limits, &path);
 }
 

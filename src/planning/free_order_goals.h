@@ -55,7 +55,7 @@ class FreeOrderGoals {
   void begin(Time cap);
   // Was no label dropped that could matter? Then "no path found" proves that there is none.
   bool is_complete() const {
-    return !over_ && (!outside_ || goals_->cost_to_go().beyond() == kNever);
+    return !over_ && (!outside_ || goals_->cost_to_go().outside_bound() == kNever);
   }
 
   Time first_rest() const { return first_rest_; }

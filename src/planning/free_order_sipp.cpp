@@ -4,32 +4,33 @@
 // widens the costs to go and searches again.
 //
 // *Exactness with a bounded graph.* The costs to go cover every sequence of cost less than
-// beyond(). The search drops labels in stages that they do not cover, and labels of f > beyond().
-// *Claim: no path that costs less than beyond() is lost.* *Proof.* Let P be such a path that
-// realizes a sequence of the class. Counting as early as possible, P realizes a sequence s of the
-// class, too. P visits the stops of s in this order, so s costs at most cost(P) < beyond(). Hence
-// all stages of s are covered with their exact costs to go, and these are at most what P still
-// pays. So every label along P has t + h <= cost(P). Instead of P's label the search may hold an
-// earlier one of the same state, interval and stage. Then the path to that label, a wait, and the
-// remainder of P after it form again a path of the class that costs at most as much as P, and the
-// argument holds for this path. So it does not matter which other paths the graph misses. The
-// same holds for deadlines and for the dominance rule (free_order_goals.h, stop_dominance.cpp): P
-// continues from the label that is kept.
+// outside_bound(). The search drops labels in stages that they do not cover, and labels of f >
+// outside_bound(). *Claim: no path that costs less than outside_bound() is lost.* *Proof.* Let P be
+// such a path that realizes a sequence of the class. Counting as early as possible, P realizes a
+// sequence s of the class, too. P visits the stops of s in this order, so s costs at most cost(P) <
+// outside_bound(). Hence all stages of s are covered with their exact costs to go, and these are at
+// most what P still pays. So every label along P has t + h <= cost(P). Instead of P's label the
+// search may hold an earlier one of the same state, interval and stage. Then the path to that
+// label, a wait, and the remainder of P after it form again a path of the class that costs at most
+// as much as P, and the argument holds for this path. So it does not matter which other paths the
+// graph misses. The same holds for deadlines and for the dominance rule (free_order_goals.h,
+// stop_dominance.cpp): P continues from the label that is kept.
 //
-// *Consequence.* A path found that costs at most beyond() is optimal, because a cheaper one would
-// not have been lost. If none is found, every path costs at least beyond(). Then the graph is
-// widened and the search restarts, unless the cutoff is below beyond(): kAboveCutoff. If no label
-// was dropped for its f or for its stage, the search was exhaustive: kInfeasible, whatever the
-// graph.
+// *Consequence.* A path found that costs at most outside_bound() is optimal, because a cheaper one
+// would not have been lost. If none is found, every path costs at least outside_bound(). Then the
+// graph is widened and the search restarts, unless the cutoff is below outside_bound():
+// kAboveCutoff. If no label was dropped for its f or for its stage, the search was exhaustive:
+// kInfeasible, whatever the graph.
 //
 // *Graphs by direct legs* (sequence_dag.cpp) represent paths instead of sequences: all stages of
-// each path of the class that costs less than beyond(), with stops counted as early as possible,
-// and with costs to go that are at most what the path still pays. So every label along P has t + h
+// each path of the class that costs less than outside_bound(), with stops counted as early as
+// possible, and with costs to go that are at most what the path still pays. So every label along P
+// has t + h
 // <= cost(P) there as well, and the rest of the argument is the same.
 //
 // *Early termination.* No path costs less than the first rest, so a path of exactly that cost is
-// optimal whatever its sequence. If the first rest is later than beyond(), labels are kept up to
-// the first rest.
+// optimal whatever its sequence. If the first rest is later than outside_bound(), labels are kept
+// up to the first rest.
 //
 // *Late costs.* If places are barred for ever, the plain costs to go ignore the detour around them,
 // and a search that they mislead tries all orders. So once per hard call, and before the costs to
@@ -157,8 +158,8 @@ PathOutcome FreeOrderSipp::Workspace::find(SequenceStages& goals, const PathQuer
   if (search_.goals().first_rest() > latest_) return above_;
   if (intervals.start_slot(goals.stops().start()) < 0) return PathOutcome::kInfeasible;
   decide_when(query);
-  return query.known_sequences && goals.cost_to_go().beyond() <= query.cutoff ? find_known()
-                                                                              : find_any();
+  return query.known_sequences && goals.cost_to_go().outside_bound() <= query.cutoff ? find_known()
+                                                                                     : find_any();
 }
 
 void FreeOrderSipp::Workspace::decide_when(const PathQuery& query) {
@@ -173,13 +174,13 @@ PathOutcome FreeOrderSipp::Workspace::find_known() {
   price_at_ = kNotAgain;
   const PathOutcome outcome = *find_within(latest_);
   if (outcome == PathOutcome::kFound) return outcome;
-  if (goals().cost_to_go().beyond() < kNever) return PathOutcome::kStopped;
+  if (goals().cost_to_go().outside_bound() < kNever) return PathOutcome::kStopped;
   return outcome == PathOutcome::kAboveCutoff ? above_ : outcome;
 }
 
 PathOutcome FreeOrderSipp::Workspace::find_any() {
   for (;;) {
-    const Time beyond = goals().cost_to_go().beyond();
+    const Time outside_bound = goals().cost_to_go().outside_bound();
     const Time optimal = std::max(beyond, search_.goals().first_rest());
     const std::optional<PathOutcome> outcome = find_within(std::min(latest_, optimal));
     if (!outcome) continue;
@@ -189,14 +190,15 @@ PathOutcome FreeOrderSipp::Workspace::find_any() {
       if (const auto answer = doubt()) return *answer;
       if (recompute_costs()) continue;
     }
-    if (!goals().cost_to_go().widen(beyond, *limits_)) return PathOutcome::kStopped;
+    if (!goals().cost_to_go().extend(beyond, *limits_)) return PathOutcome::kStopped;
   }
 }
 
 // Searches for a path of cost at most `cap`. A path found has least cost if it costs at most
-// beyond(). Returns nullopt if the goals changed in the meantime and the search must restart.
+// outside_bound(). Returns nullopt if the goals changed in the meantime and the search must
+// restart.
 std::optional<PathOutcome> FreeOrderSipp::Workspace::find_within(Time cap) {
-  const bool all_known = goals().cost_to_go().beyond() == kNever;
+  const bool all_known = goals().cost_to_go().outside_bound() == kNever;
   const SequenceStages::StageId first = goals().first_stage();
   if (first == SequenceStages::kOutside)
     return all_known ? PathOutcome::kInfeasible : PathOutcome::kAboveCutoff;

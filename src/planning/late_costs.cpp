@@ -157,7 +157,7 @@ namespace {
 
 // Lower bound on the cost of every sequence of the class, by the costs to go.
 Time min_cost(SequenceStages& goals) {
-  const Time beyond = goals.cost_to_go().beyond();
+  const Time outside_bound = goals.cost_to_go().outside_bound();
   const SequenceStages::StageId stage = goals.first_stage();
   if (stage == SequenceStages::kOutside) return beyond;
   return std::min(beyond, goals.distance(stage, goals.stops().start()));
@@ -193,8 +193,9 @@ SequenceStages* LateGoals::over(SequenceStages& plain, const Limits& limits) {
   }
   cost_to_go_->reset();
   goals_.emplace(plain.stops(), plain.sequence_class(), *cost_to_go_);
-  while (cost_to_go_->beyond() <= plain_cost && min_cost(*goals_) >= cost_to_go_->beyond())
-    if (!cost_to_go_->widen(cost_to_go_->beyond(), limits)) break;
+  while (cost_to_go_->outside_bound() <= plain_cost &&
+         min_cost(*goals_) >= cost_to_go_->outside_bound())
+    if (!cost_to_go_->extend(cost_to_go_->outside_bound(), limits)) break;
   return min_cost(*goals_) > plain_cost ? &*goals_ : nullptr;
 }
 

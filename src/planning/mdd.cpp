@@ -21,12 +21,12 @@
 // barred. A path that counts its stops as early as possible passes the stages of the search
 // (sequence_stages.cpp: each visit has one successor, or two, and then the search follows both).
 // The costs to go, from which the stages are made, are widened until they cover all sequences of
-// cost C or less: C < beyond(). So all stages along a path of cost C are known, and the path is in
-// them at times t with t + h <= C. Hence no move of such a path is dropped. A path comes to rest at
-// C by a move at C, into a slot where it may rest (or stands there at C = 0): the last step is not
-// a wait. Conversely, each walk to such an end satisfies the constraints, because they concern only
-// slots and moves. The one exception is the time by which the agent must have come to rest; C is
-// compared with it first.
+// cost C or less: C < outside_bound(). So all stages along a path of cost C are known, and the path
+// is in them at times t with t + h <= C. Hence no move of such a path is dropped. A path comes to
+// rest at C by a move at C, into a slot where it may rest (or stands there at C = 0): the last step
+// is not a wait. Conversely, each walk to such an end satisfies the constraints, because they
+// concern only slots and moves. The one exception is the time by which the agent must have come to
+// rest; C is compared with it first.
 //
 // *Measured* against layers that are made forward, time by time, and then cleared of dead ends:
 // that method generated four nodes for each node that it kept. An instance of the paper's data set
@@ -173,7 +173,8 @@ MddBuilder::Outcome MddBuilder::Workspace::build(SequenceStages& goals,
   if (cost < 0 || cost >= kNever || cost > latest || !goals.plausible()) return Outcome::kNone;
   if (limits.stop_requested()) return Outcome::kStopped;
   CostToGo& cost_to_go = goals.cost_to_go();
-  if (cost_to_go.beyond() <= cost && !cost_to_go.widen(cost, limits)) return Outcome::kStopped;
+  if (cost_to_go.outside_bound() <= cost && !cost_to_go.extend(cost, limits))
+    return Outcome::kStopped;
   goals_ = &goals;
   limits_ = &limits;
   cost_ = cost;

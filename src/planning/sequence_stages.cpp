@@ -193,8 +193,8 @@ bool SequenceStages::plausible() const {
 }
 
 SequenceStages::StageId SequenceStages::first_stage() {
-  if (built_beyond_ == cost_to_go_->beyond()) return first_stage_;
-  built_beyond_ = cost_to_go_->beyond();
+  if (built_outside_bound_ == cost_to_go_->outside_bound()) return first_stage_;
+  built_outside_bound_ = cost_to_go_->outside_bound();
   stages_.clear();
   after_.clear();
   onward_.clear();

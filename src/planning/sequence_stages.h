@@ -232,11 +232,11 @@ class SequenceStages {
   std::optional<CostToGo> own_;  // of the class, unless those of all sequences serve it
   CostToGo* cost_to_go_;
   SequenceClass class_;
-  StopSet free_;            // stops that are not in the prefix
-  StopSet first_free_;      // of these, the stops that may be the first
-  bool rest_is_not_first_;  // without a destination: see the .cpp
-  std::size_t stride_;      // of after_
-  Time built_beyond_ = -1;  // beyond() of the costs to go when the stages were made
+  StopSet free_;                   // stops that are not in the prefix
+  StopSet first_free_;             // of these, the stops that may be the first
+  bool rest_is_not_first_;         // without a destination: see the .cpp
+  std::size_t stride_;             // of after_
+  Time built_outside_bound_ = -1;  // outside_bound() of the costs to go when the stages were made
   StageId first_stage_ = kOutside;
   std::vector<Stage> stages_;
   std::vector<StageId> after_;  // by stage, then stop

@@ -8,8 +8,8 @@
 // that is g or later, L is needed for u only in a later interval, which begins at n; such paths
 // cost n + onward(u) or more. For each onward stop u that has no such G the bound is t + dist(L, u)
 // + onward(u). L is postponed to the least of these bounds; if there is none, it is dropped.
-// (Onward stops that the graph does not cover cost beyond() or more. A label dropped with such a
-// stop counts as dropped for its stage.)
+// (Onward stops that the graph does not cover cost outside_bound() or more. A label dropped with
+// such a stop counts as dropped for its stage.)
 //
 // *Soundness* is that of the gates in fixed_order_goals.h: if L is postponed beyond the optimal
 // cost, an optimal path changes over to a G with fewer stops left, so this ends. With a fixed

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // rTSPs by bounded dynamic programming over a sequence graph that grows on demand.
 //
-// *Exactness.* The graph (sequence_dag.cpp) holds every sequence cheaper than its beyond(). Let
-// `value` be the cost of the best member of a class inside the graph, kNever if there is none. It
-// is the cost of a real sequence, and every member outside costs at least beyond(). So if value <=
-// beyond(), `value` is optimal. Otherwise the optimum is at least beyond(): it exceeds the cutoff,
-// or the graph is rebuilt with a greater cost limit.
+// *Exactness.* The graph (sequence_dag.cpp) holds every sequence cheaper than its outside_bound().
+// Let `value` be the cost of the best member of a class inside the graph, kNever if there is none.
+// It is the cost of a real sequence, and every member outside costs at least outside_bound(). So if
+// value <= outside_bound(), `value` is optimal. Otherwise the optimum is at least outside_bound():
+// it exceeds the cutoff, or the graph is rebuilt with a greater cost limit.
 //
 // *Growth.* The size of the increase affects only speed, as in iterative deepening with controlled
 // growth (Sarkar et al. 1991). It admits about as many new states as there are, so that all builds
@@ -55,7 +55,7 @@ class BoundedDp : public RtspSolver {
     turn_to(work, relaxed);
     while (true) {
       const Time value = best_cost(matrix_, root, cost_to_go());
-      const Time bound = std::max(relaxed, dag_.beyond());
+      const Time bound = std::max(relaxed, dag_.outside_bound());
       if (value <= bound) return {value < kNever ? Kind::kExact : Kind::kInfeasible, value};
       if (bound > cutoff) return {Kind::kAboveCutoff, bound};
       if (!extend()) return {Kind::kStopped, bound};
@@ -95,7 +95,7 @@ class BoundedDp : public RtspSolver {
           build({.matrix = matrix_, .relaxation = relaxation_, .max_states = max_states_});
       if (end != End::kTooLarge || matrix_.ports > 1) return end == End::kBuilt;
       passed_.emplace(matrix_);
-      dag_ = SequenceDag(dag_.beyond());
+      dag_ = SequenceDag(dag_.outside_bound());
     }
     if (too_large_) return false;
     const End end = build({.matrix = matrix_,

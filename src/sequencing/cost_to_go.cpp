@@ -4,13 +4,13 @@
 // The table (held_karp.cpp) holds all states or none. The graph (sequence_dag.cpp) is rebuilt with
 // a greater cost limit each time more is needed. The limit admits about as many new states as there
 // were, so that all builds together cost little more than the last one. Each build holds every
-// sequence up to its limit, so a greater limit never has a smaller beyond().
+// sequence up to its limit, so a greater limit never has a smaller outside_bound().
 //
 // If the graph of all sequences becomes too large, a graph by direct legs replaces it. It holds all
-// states that a path of the class can reach within the limit. So its beyond() is a lower bound on
-// paths instead of sequences, and its cost to go of a state is a lower bound on the paths that
-// continue from there. If that graph becomes too large as well, it is not extended further: widen()
-// fails, now and whenever as much is requested again, so that no time or memory is wasted.
+// states that a path of the class can reach within the limit. So its outside_bound() is a lower
+// bound on paths instead of sequences, and its cost to go of a state is a lower bound on the paths
+// that continue from there. If that graph becomes too large as well, it is not extended further:
+// extend() fails, now and whenever as much is requested again, so that no time or memory is wasted.
 #include "sequencing/cost_to_go.h"
 
 #include <algorithm>
@@ -37,10 +37,10 @@ class CostToGo::Store {
 
   const CostMatrix& matrix() const { return *matrix_; }
   virtual Time relaxed_bound() const = 0;
-  virtual Time beyond() const = 0;
+  virtual Time outside_bound() const = 0;
   virtual Time cost_to_go(StopSet left, int port) const = 0;
-  // Returns a store with beyond() > `reach`, or nullptr if it could not be built. Call only if this
-  // store has beyond() <= `reach`.
+  // Returns a store with outside_bound() > `reach`, or nullptr if it could not be built. Call only
+  // if this store has outside_bound() <= `reach`.
   virtual std::shared_ptr<const Store> widened(Time reach, const Limits& limits) const = 0;
   virtual bool knows_all_or_nothing() const { return false; }
   // Returns a store for a sequence class, or nullptr if this store serves it.
@@ -60,7 +60,7 @@ class CostToGo::Table : public Store {
       : Store(std::move(matrix)), shared_(shared) {}
 
   Time relaxed_bound() const override { return relaxation_bound(min_matrix(matrix())); }
-  Time beyond() const override { return table_.built() ? kNever : 0; }
+  Time outside_bound() const override { return table_.built() ? kNever : 0; }
   bool knows_all_or_nothing() const override { return true; }
   Time cost_to_go(StopSet left, int port) const override {
     return table_.built() ? table_.cost_to_go(left, port) : kNever;
@@ -84,11 +84,11 @@ class CostToGo::Graph : public Store {
         dag_(nothing_known()) {}
 
   Time relaxed_bound() const override { return relaxation_->root_bound(); }
-  Time beyond() const override { return dag_->beyond(); }
+  Time outside_bound() const override { return dag_->outside_bound(); }
   Time cost_to_go(StopSet left, int port) const override { return dag_->cost_to_go(left, port); }
   std::shared_ptr<const Store> widened(Time reach, const Limits& limits) const override {
     auto wider = std::make_shared<Graph>(*this);
-    return wider->widen(reach, limits) ? wider : nullptr;
+    return wider->extend(reach, limits) ? wider : nullptr;
   }
   std::shared_ptr<const Store> of_class(const SequenceClass& work) const override {
     if (!make_direct_ || work == work_) return nullptr;
@@ -105,7 +105,7 @@ class CostToGo::Graph : public Store {
  private:
   using End = SequenceDag::End;
 
-  bool widen(Time reach, const Limits& limits) {
+  bool extend(Time reach, const Limits& limits) {
     const Time far = std::max(reach, dag_->next_reach());
     if (!direct_) {
       const End end = build(far, limits);
@@ -157,7 +157,7 @@ class CostToGo::Ordered : public Store {
   }
 
   Time relaxed_bound() const override { return 0; }
-  Time beyond() const override { return 0; }
+  Time outside_bound() const override { return 0; }
   Time cost_to_go(StopSet left, int port) const override {
     const int ports = matrix().ports;
     const int stop = port / ports;
@@ -250,17 +250,17 @@ Time CostToGo::relaxed_bound() const {
   return store_->relaxed_bound();
 }
 
-Time CostToGo::beyond() const {
-  return store_->beyond();
+Time CostToGo::outside_bound() const {
+  return store_->outside_bound();
 }
 
 Time CostToGo::cost_to_go(StopSet left, int port) const {
   return store_->cost_to_go(left, port);
 }
 
-bool CostToGo::widen(Time reach, const Limits& limits) {
+bool CostToGo::extend(Time reach, const Limits& limits) {
   GROVE_ASSERT(reach < kNever, "there is more to know");
-  if (beyond() > reach) return true;
+  if (outside_bound() > reach) return true;
   if (reach >= refused_) return false;
   const auto known = std::ranges::find_if(widened_, [&](const Widened& widened) {
     return widened.from == store_ && widened.reach == reach;
@@ -276,7 +276,7 @@ bool CostToGo::widen(Time reach, const Limits& limits) {
     return false;
   }
   if (resets_) {
-    if (widened_.size() == kMaxWidenedKept) widened_.pop_back();
+    if (widened_.size() == kMaxExtensions) widened_.pop_back();
     widened_.insert(widened_.begin(), {store_, reach, wider});
   }
   store_ = std::move(wider);

@@ -15,11 +15,11 @@
 
 namespace grove::detail {
 
-// Exact costs to go of one agent, for every sequence cheaper than beyond(). Small problems use a
-// table of all states, larger ones a sequence graph that grows on demand. Initially it is empty:
-// call widen(). Any number of threads may read an object while no thread widens it. Copies share
-// the stores built so far, and each copy is widened separately: a copy may be passed to another
-// thread.
+// Exact costs to go of one agent, for every sequence cheaper than outside_bound(). Small problems
+// use a table of all states, larger ones a sequence graph that grows on demand. Initially it is
+// empty: call extend(). Any number of threads may read an object while no thread widens it. Copies
+// share the stores built so far, and each copy is widened separately: a copy may be passed to
+// another thread.
 class CostToGo {
  public:
   // Returns the direct legs of the agent over the same stops (direct_legs.h). Called at most once.
@@ -38,15 +38,15 @@ class CostToGo {
   // For tests: uses a graph also if a table would do, and one by direct legs if `direct` is given.
   // The results must be the same.
   static CostToGo as_graph(CostMatrix matrix, MakeDirectLegs direct = {});
-  // Costs to go of one complete sequence, to find a path without a proof: beyond() is 0. A state is
-  // known if its stop precedes all stops left in `order`; its cost to go is the cost of visiting
-  // the stops left in this order.
+  // Costs to go of one complete sequence, to find a path without a proof: outside_bound() is 0. A
+  // state is known if its stop precedes all stops left in `order`; its cost to go is the cost of
+  // visiting the stops left in this order.
   static CostToGo in_order(const CostMatrix& matrix, Sequence order);
   const CostMatrix& matrix() const;
 
   // Proven lower bound on every sequence of the class with a state outside the store; for a graph
   // by direct legs, on every such path. kNever: there is no such sequence or path.
-  Time beyond() const;
+  Time outside_bound() const;
   // The least cost from `port` (equal to the stop if the matrix has one port per stop) through all
   // stops of `left` (without the stop itself) to the end, over the known routes. Returns kNever if
   // there is none, or if the state is outside.
@@ -56,13 +56,13 @@ class CostToGo {
   // states known.
   Time relaxed_bound() const;
 
-  // Extends the store. Afterwards beyond() > `reach`, and never less than before. Returns false and
-  // changes nothing if a limit of the run was reached, or if the graph had more than
+  // Extends the store. Afterwards outside_bound() > `reach`, and never less than before. Returns
+  // false and changes nothing if a limit of the run was reached, or if the graph had more than
   // kMaxDirectStates states. Requires `reach` < kNever.
-  bool widen(Time reach, const Limits& limits);
+  bool extend(Time reach, const Limits& limits);
 
-  // Undoes widen() since mark(), or since the beginning, because the results of a search depend on
-  // how much is known. A later widen() does the same as before, mostly from memory.
+  // Undoes extend() since mark(), or since the beginning, because the results of a search depend on
+  // how much is known. A later extend() does the same as before, mostly from memory.
   void reset();
   // Makes the present state the one that reset() restores.
   void mark() { marked_ = store_; }
@@ -77,19 +77,19 @@ class CostToGo {
   class Ordered;
   template <class Entry>
   class Table;
-  // Result of a widen(): `from`, extended to `reach`, became `to`.
+  // Result of a extend(): `from`, extended to `reach`, became `to`.
   struct Widened {
     std::shared_ptr<const Store> from;
     Time reach;
     std::shared_ptr<const Store> to;
   };
-  static constexpr std::size_t kMaxWidenedKept = 4;
+  static constexpr std::size_t kMaxExtensions = 4;
 
   std::shared_ptr<const Store> store_;
   std::shared_ptr<const Store> marked_;
   std::vector<Widened> widened_;  // latest first; filled only once reset() was called
   bool resets_ = false;
-  Time refused_ = kNever;  // widen() to this or more failed without a limit of the run
+  Time refused_ = kNever;  // extend() to this or more failed without a limit of the run
 };
 
 }  // namespace grove::detail

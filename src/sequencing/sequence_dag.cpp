@@ -15,14 +15,14 @@
 // the state. b is at most the cost of its remainder. So g + b <= reach.
 //
 // *Consequence.* A sequence with a dropped state has, at the first such state, g + b no greater
-// than its own cost. So beyond(), the least g + b of any dropped state, is a lower bound on all
-// sequences outside the graph, and no reach below it adds any sequence.
+// than its own cost. So outside_bound(), the least g + b of any dropped state, is a lower bound on
+// all sequences outside the graph, and no reach below it adds any sequence.
 //
 // *Ports.* If stops have several ports (cost_matrix.h), a state has one g per port. The statements
 // above then hold per port: each port is kept or dropped by its own g + b.
 //
-// *Backward pass.* It computes the exact cost to go within the graph. For a sequence below beyond()
-// this is its exact cost to go.
+// *Backward pass.* It computes the exact cost to go within the graph. For a sequence below
+// outside_bound() this is its exact cost to go.
 //
 // *Parity.* On a grid all paths between two cells have the same parity, hence so have all complete
 // sequences, also if tasks take time. If the matrix has this property (verified, not assumed), g +
@@ -39,15 +39,15 @@
 // the path are all outside S. In their order they cut the path into segments that pass no other
 // plain stop, and each segment costs at least its direct leg. Consequence: with c(S, v, w) as the
 // cost from v to w, g of a state is at most what a path to this state pays. So the invariant holds
-// for paths: every state of a path that costs <= reach is kept, and beyond() is a lower bound on
-// all paths with a state outside. b remains a lower bound, because no direct leg costs less than
-// the leg of the matrix. Legs of the prefix, and the leg to the first free stop, may pass any stop:
-// they cost what the matrix has. The graph is then valid only for this class: another prefix
-// reaches states that no path of this class can reach.
+// for paths: every state of a path that costs <= reach is kept, and outside_bound() is a lower
+// bound on all paths with a state outside. b remains a lower bound, because no direct leg costs
+// less than the leg of the matrix. Legs of the prefix, and the leg to the first free stop, may pass
+// any stop: they cost what the matrix has. The graph is then valid only for this class: another
+// prefix reaches states that no path of this class can reach.
 //
 // *Passed stops.* If only sequences matter, and only a cheapest member of one class, the graph
-// holds the canonical sequences of the class (passed_stops.cpp). The invariant and beyond() then
-// refer to canonical sequences, and one of them is a cheapest member.
+// holds the canonical sequences of the class (passed_stops.cpp). The invariant and outside_bound()
+// then refer to canonical sequences, and one of them is a cheapest member.
 //
 // *Pairs.* For stops in a row the relaxation is weak for states that leave gaps. So with direct
 // legs b is at least the cost of visiting any two stops left, in the better order, and then going
@@ -233,7 +233,7 @@ class SequenceDagBuilder {
   }
 
   void drop(Time whole) {
-    dag_.beyond_ = std::min(dag_.beyond_, whole);
+    dag_.outside_bound_ = std::min(dag_.outside_bound_, whole);
     const auto excess = static_cast<std::size_t>(whole - reach_ - 1);
     if (excess >= kCountedExcess) return;
     if (excess >= dropped_.size()) dropped_.resize(excess + 1, 0);
@@ -246,8 +246,8 @@ class SequenceDagBuilder {
     std::size_t count = 0;
     for (std::size_t excess = 0; excess < dropped_.size(); ++excess)
       if ((count += dropped_[excess]) >= dag_.cost_to_go_.size() / 2)
-        return std::max(dag_.beyond_, reach_ + 1 + static_cast<Time>(excess));
-    return std::max(dag_.beyond_, reach_ + static_cast<Time>(dropped_.size()));
+        return std::max(dag_.outside_bound_, reach_ + 1 + static_cast<Time>(excess));
+    return std::max(dag_.outside_bound_, reach_ + static_cast<Time>(dropped_.size()));
   }
 
   Time round_up(Time cost) const {

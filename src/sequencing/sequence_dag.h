@@ -20,13 +20,14 @@ class DirectLegs;
 class PassedStops;
 class OneTreeRelaxation;
 
-// Invariant: every sequence that costs less than beyond() runs only through states of the graph,
-// and every state stores its exact cost to go within the graph. Immutable once built: any thread
-// may read it.
+// Invariant: every sequence that costs less than outside_bound() runs only through states of the
+// graph, and every state stores its exact cost to go within the graph. Immutable once built: any
+// thread may read it.
 class SequenceDag {
  public:
   // Without states. `beyond` must be a proven lower bound on every sequence.
-  explicit SequenceDag(Time beyond) : beyond_(beyond), next_reach_(beyond) {}
+  explicit SequenceDag(Time outside_bound)
+      : outside_bound_(outside_bound), next_reach_(outside_bound) {}
 
   // Builds the graph of every sequence of cost <= `reach`. Returns nullopt if a limit was reached.
   static std::optional<SequenceDag> build(const CostMatrix& matrix,
@@ -52,10 +53,10 @@ class SequenceDag {
 
   // Proven lower bound on every sequence with a state outside the graph. kNever: there is no such
   // sequence.
-  Time beyond() const { return beyond_; }
+  Time outside_bound() const { return outside_bound_; }
 
-  // The cost limit to use for the next build, at least beyond(). It admits about as many new states
-  // as there are now, so that all builds together cost little more than the last one.
+  // The cost limit to use for the next build, at least outside_bound(). It admits about as many new
+  // states as there are now, so that all builds together cost little more than the last one.
   Time next_reach() const { return next_reach_; }
 
   // The least cost from `port` through all stops of `left` to the end, over routes inside the
@@ -76,7 +77,7 @@ class SequenceDag {
   };
 
   int ports_ = 1;
-  Time beyond_ = 0;
+  Time outside_bound_ = 0;
   Time next_reach_ = 0;
   std::vector<Node> nodes_;       // in descending order of |left|
   std::vector<Time> cost_to_go_;  // cost to go, `ports_` entries per state

@@ -116,7 +116,7 @@ TEST(PenalizedSearch, FindsTheLeastPrice) {
       if (!graph || graph->count() == 0) continue;
       SequenceStages goals(known.stops.of(agent), SequenceClass{});
       ASSERT_LE(min_cost(goals, {}), graph->to_go(AgentGraph::start()));
-      goals.cost_to_go().widen(kHorizon, {});
+      goals.cost_to_go().extend(kHorizon, {});
       const std::vector<Amount> on_finish = random_on_finish(random);
       const ScaledCost least =
           Reference(*graph, penalties, on_finish).price(ReservationTable(known.instance.world()));
@@ -151,7 +151,7 @@ TEST(PenalizedSearch, ImprovesPathAroundReservations) {
       const auto graph = AgentGraph::make(instance, agent);
       if (!graph || graph->count() == 0) continue;
       SequenceStages goals(known.stops.of(agent), SequenceClass{});
-      goals.cost_to_go().widen(kHorizon, {});
+      goals.cost_to_go().extend(kHorizon, {});
       const std::vector<Amount> on_finish = random_on_finish(random);
       const Time latest = random.below(20);
       const ScaledCost least = Reference(*graph, penalties, on_finish).price(others, latest);

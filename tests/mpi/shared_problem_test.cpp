@@ -75,9 +75,9 @@ std::string difference(const Problem& shared, const Problem& alone) {
         return "to rest";
     }
     if (other.count() == 0) continue;
-    if (!one.cost_to_go().widen(1, Limits()) || !other.cost_to_go().widen(1, Limits()))
+    if (!one.cost_to_go().extend(1, Limits()) || !other.cost_to_go().extend(1, Limits()))
       return "not widened";
-    if (one.cost_to_go().beyond() != other.cost_to_go().beyond()) return "beyond";
+    if (one.cost_to_go().outside_bound() != other.cost_to_go().outside_bound()) return "beyond";
     for (int i = 0; i < 300; ++i) {
       const int port =
           static_cast<int>(dice() % static_cast<unsigned>(other.count() * other.ports()));
@@ -144,7 +144,7 @@ TEST(SharedProblem, LiesInSharedMemory) {
   const SharedProblem shared(instance, Limits(), 1, part);
   AgentStopsCache stops(instance, shared.problem().distances);
   for (AgentIndex agent = 0; agent < 2; ++agent)
-    ASSERT_TRUE(stops.of(agent).cost_to_go().widen(1, Limits()));
+    ASSERT_TRUE(stops.of(agent).cost_to_go().extend(1, Limits()));
   const SharedArrays arrays(part.bytes(), layout, 0, 1);
   const auto is_there = [&](ArrayKind kind, std::size_t number) {
     return arrays.array(kind, number).await(Limits()) != nullptr;

@@ -113,8 +113,8 @@ TEST(SequenceDag, HoldsExactlyTheSequencesBelowItsBound) {
             const Time reach = all.front() + slack;
             const auto dag = SequenceDag::build(matrix, relaxation, reach, limits);
             ASSERT_TRUE(dag);
-            ASSERT_GT(dag->beyond(), reach);
-            const Time below = std::min(dag->beyond(), kNever) - 1;
+            ASSERT_GT(dag->outside_bound(), reach);
+            const Time below = std::min(dag->outside_bound(), kNever) - 1;
             const auto end = std::upper_bound(all.begin(), all.end(), below);
             ASSERT_EQ(costs_within(*dag, matrix, below), std::vector(all.begin(), end));
           }
@@ -151,7 +151,7 @@ TEST(SequenceDag, HasExactCostsToGo) {
         turning_matrix(4, Variant::kMg, random)}) {
     const auto dag = SequenceDag::build(matrix, OneTreeRelaxation(matrix), kNever - 1, limits);
     ASSERT_TRUE(dag);
-    EXPECT_EQ(dag->beyond(), kNever);  // nothing was dropped
+    EXPECT_EQ(dag->outside_bound(), kNever);  // nothing was dropped
     for (StopSet left = 0; left < matrix.all(); ++left)
       for_each_port(matrix, matrix.all() & ~left, [&](int at) {
         EXPECT_EQ(dag->cost_to_go(left, at), cheapest_rest(matrix, left, at));
@@ -169,7 +169,7 @@ TEST(OneTreeRelaxation, AccountsForMostTurnCosts) {
   for (int round = 0; round < 20; ++round) {
     const CostMatrix matrix = turning_matrix(8, Variant::kCts, random);
     CostToGo table(matrix);
-    ASSERT_TRUE(table.widen(0, Limits()));
+    ASSERT_TRUE(table.extend(0, Limits()));
     Time best = kNever;
     for_each_port(matrix, matrix.all(), [&](int first) {
       best = std::min(best,

@@ -45,8 +45,8 @@ Time brute_force(const CostMatrix& matrix, StopSet left, int stop) {
 
 void expect_exact(const CostMatrix& matrix) {
   CostToGo cost_to_go(matrix);
-  ASSERT_TRUE(cost_to_go.widen(0, Limits()));
-  EXPECT_EQ(cost_to_go.beyond(), kNever);
+  ASSERT_TRUE(cost_to_go.extend(0, Limits()));
+  EXPECT_EQ(cost_to_go.outside_bound(), kNever);
   for (StopSet left = 0; left <= matrix.all(); ++left)
     for (int stop : members(matrix.all() & ~left))
       ASSERT_EQ(cost_to_go.cost_to_go(left, stop), brute_force(matrix, left, stop));
@@ -60,7 +60,7 @@ TEST(CostToGo, RelaxedBoundEqualsThatOfTheMatrix) {
     const Time bound = relaxation_bound(matrix);
     EXPECT_EQ(cost_to_go.relaxed_bound(), bound);
     if (bound == kNever) continue;
-    ASSERT_TRUE(cost_to_go.widen(bound + 3, Limits()));
+    ASSERT_TRUE(cost_to_go.extend(bound + 3, Limits()));
     EXPECT_EQ(cost_to_go.relaxed_bound(), bound);
   }
 }
@@ -87,7 +87,7 @@ TEST(CostToGo, IsEmptyBeforeWidening) {
   for (const int n : {4, 16}) {
     const CostMatrix matrix = testing::metric_matrix(n, Variant::kCts, random);
     const CostToGo cost_to_go(matrix);
-    EXPECT_LT(cost_to_go.beyond(), kNever);
+    EXPECT_LT(cost_to_go.outside_bound(), kNever);
     EXPECT_EQ(cost_to_go.cost_to_go(matrix.all() & ~StopSet{1}, 0), kNever);
   }
 }
@@ -95,7 +95,8 @@ TEST(CostToGo, IsEmptyBeforeWidening) {
 // 15 and 16 stops: CostToGo uses the sequence graph; the reference is the Held-Karp table.
 class GraphTest : public ::testing::Test {
  protected:
-  // Expects the exact cost-to-go at every state of each sequence that costs less than beyond().
+  // Expects the exact cost-to-go at every state of each sequence that costs less than
+  // outside_bound().
   void expect_exact_below_beyond(const CostMatrix& matrix, const CostToGo& cost_to_go) {
     const Limits limits;
     const auto table = make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits);
@@ -109,7 +110,7 @@ class GraphTest : public ::testing::Test {
     StopSet left = matrix.all();
     for (Stop stop : work.prefix) left &= ~(StopSet{1} << stop);
     const Time exact = table.best(work, kNever).cost;
-    if (exact >= cost_to_go.beyond() || ++visited_ > kMaxVisited) return;
+    if (exact >= cost_to_go.outside_bound() || ++visited_ > kMaxVisited) return;
     if (!work.prefix.empty()) {
       ASSERT_EQ(cost + cost_to_go.cost_to_go(left, work.prefix.back()), exact);
     }
@@ -130,10 +131,10 @@ TEST_F(GraphTest, EverySequenceBelowTheBoundIsExact) {
   for (const Variant variant : kVariants) {
     const CostMatrix matrix = testing::grid_matrix(15, variant, random);
     CostToGo cost_to_go(matrix);
-    for (int step = 0; step < 3 && cost_to_go.beyond() < kNever; ++step) {
-      const Time reach = cost_to_go.beyond();
-      ASSERT_TRUE(cost_to_go.widen(reach, Limits()));
-      EXPECT_GT(cost_to_go.beyond(), reach);
+    for (int step = 0; step < 3 && cost_to_go.outside_bound() < kNever; ++step) {
+      const Time reach = cost_to_go.outside_bound();
+      ASSERT_TRUE(cost_to_go.extend(reach, Limits()));
+      EXPECT_GT(cost_to_go.outside_bound(), reach);
       expect_exact_below_beyond(matrix, cost_to_go);
     }
   }
@@ -142,21 +143,21 @@ TEST_F(GraphTest, EverySequenceBelowTheBoundIsExact) {
 TEST_F(GraphTest, WideningBelowTheBoundChangesNothing) {
   Random random(5);
   CostToGo cost_to_go(testing::metric_matrix(16, Variant::kCts, random));
-  ASSERT_TRUE(cost_to_go.widen(cost_to_go.beyond(), Limits()));
-  const Time beyond = cost_to_go.beyond();
-  ASSERT_TRUE(cost_to_go.widen(beyond - 1, Limits()));
-  EXPECT_EQ(cost_to_go.beyond(), beyond);
+  ASSERT_TRUE(cost_to_go.extend(cost_to_go.outside_bound(), Limits()));
+  const Time beyond = cost_to_go.outside_bound();
+  ASSERT_TRUE(cost_to_go.extend(beyond - 1, Limits()));
+  EXPECT_EQ(cost_to_go.outside_bound(), beyond);
 }
 
 TEST(CostToGo, ReachedLimitChangesNothing) {
   Random random(6);
   for (const int n : {4, 16}) {
     CostToGo cost_to_go(testing::metric_matrix(n, Variant::kCts, random));
-    const Time beyond = cost_to_go.beyond();
+    const Time beyond = cost_to_go.outside_bound();
     Limits limits;
     limits.set_deadline(testing::kPast);
-    EXPECT_FALSE(cost_to_go.widen(beyond, limits));
-    EXPECT_EQ(cost_to_go.beyond(), beyond);
+    EXPECT_FALSE(cost_to_go.extend(beyond, limits));
+    EXPECT_EQ(cost_to_go.outside_bound(), beyond);
   }
 }
 

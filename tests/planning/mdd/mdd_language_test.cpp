@@ -476,11 +476,11 @@ TEST(MddLanguage, IsCompleteAtTheBoundOfTheSequenceGraph) {
     const DistanceFields distances(instance);
     MddBuilder builder(grid);
     AgentStops narrow(instance, distances, 0);
-    ASSERT_TRUE(narrow.cost_to_go().widen(0, Limits()));
+    ASSERT_TRUE(narrow.cost_to_go().extend(0, Limits()));
     for (int more = 0; more < 3; ++more) {
-      const Time cost = narrow.cost_to_go().beyond();
+      const Time cost = narrow.cost_to_go().outside_bound();
       AgentStops wide(instance, distances, 0);
-      ASSERT_TRUE(wide.cost_to_go().widen(cost + 4, Limits()));
+      ASSERT_TRUE(wide.cost_to_go().extend(cost + 4, Limits()));
       Mdd graphs[2];
       SequenceStages few(narrow, {});
       SequenceStages all(wide, {});
@@ -488,7 +488,7 @@ TEST(MddLanguage, IsCompleteAtTheBoundOfTheSequenceGraph) {
       ASSERT_EQ(of_few, builder.build(all, {}, cost, kPlenty, Limits(), graphs[1])) << cost;
       ASSERT_TRUE(cells_of(graphs[0]) == cells_of(graphs[1])) << cost;
       at_the_bound += static_cast<int>(of_few == MddBuilder::Outcome::kBuilt);
-      ASSERT_TRUE(narrow.cost_to_go().widen(cost, Limits()));
+      ASSERT_TRUE(narrow.cost_to_go().extend(cost, Limits()));
     }
   }
   EXPECT_GT(at_the_bound, 10);
