@@ -192,7 +192,7 @@ Time min_cost(SequenceStages& goals, const Limits& limits) {
     const Time outside_bound = cost_to_go.outside_bound();
     if (stage != SequenceStages::kOutside) {
       const Time distance = goals.distance(stage, goals.stops().start());
-      if (distance < beyond) return distance;
+      if (distance < outside_bound) return distance;
     }
     if (outside_bound >= kNever || !cost_to_go.extend(outside_bound, limits)) return outside_bound;
   }

@@ -18,7 +18,7 @@
 //
 // *Consequence.* A path found that costs at most outside_bound() is optimal, because a cheaper one
 // would not have been lost. If none is found, every path costs at least outside_bound(). Then the
-// graph is widened and the search restarts, unless the cutoff is below outside_bound():
+// graph is extended and the search restarts, unless the cutoff is below outside_bound():
 // kAboveCutoff. If no label was dropped for its f or for its stage, the search was exhaustive:
 // kInfeasible, whatever the graph.
 //
@@ -34,10 +34,10 @@
 //
 // *Late costs.* If places are barred for ever, the plain costs to go ignore the detour around them,
 // and a search that they mislead tries all orders. So once per hard call, and before the costs to
-// go are widened, the costs of the legs are recomputed (late_costs.cpp). If the best sequence costs
-// more with these legs, the search restarts with separate costs to go over them. All of the above
-// holds with these costs in place of the plain ones: a path through the stops of s costs at least
-// as much as s, and from any of its stages on at least the cost to go.
+// go are extended, the costs of the legs are recomputed (late_costs.cpp). If the best sequence
+// costs more with these legs, the search restarts with separate costs to go over them. All of the
+// above holds with these costs in place of the plain ones: a path through the stops of s costs at
+// least as much as s, and from any of its stages on at least the cost to go.
 //
 // *Cutoff.* Labels of f > cutoff are dropped. Then kAboveCutoff proves only that no path costs the
 // cutoff or less. The constraint that the agent comes to rest by t (kRestBy) acts as a cutoff of t
@@ -77,7 +77,7 @@
 namespace grove::detail {
 namespace {
 
-// After this many expansions in one call, or before the costs to go are widened a second time, it
+// After this many expansions in one call, or before the costs to go are extended a second time, it
 // pays to check whether each stop can be visited at all, or within the cutoff.
 constexpr std::int64_t kExpansionsBeforeDoubt = 1 << 12;
 // After this many expansions in one call the costs of the legs are recomputed. Both the expansions
@@ -181,16 +181,16 @@ PathOutcome FreeOrderSipp::Workspace::find_known() {
 PathOutcome FreeOrderSipp::Workspace::find_any() {
   for (;;) {
     const Time outside_bound = goals().cost_to_go().outside_bound();
-    const Time optimal = std::max(beyond, search_.goals().first_rest());
+    const Time optimal = std::max(outside_bound, search_.goals().first_rest());
     const std::optional<PathOutcome> outcome = find_within(std::min(latest_, optimal));
     if (!outcome) continue;
     if (*outcome != PathOutcome::kAboveCutoff) return *outcome;
-    if (latest_ < beyond || beyond == kNever) return above_;
+    if (latest_ < outside_bound || outside_bound == kNever) return above_;
     if (goals().first_stage() != SequenceStages::kOutside) {
       if (const auto answer = doubt()) return *answer;
       if (recompute_costs()) continue;
     }
-    if (!goals().cost_to_go().extend(beyond, *limits_)) return PathOutcome::kStopped;
+    if (!goals().cost_to_go().extend(outside_bound, *limits_)) return PathOutcome::kStopped;
   }
 }
 

@@ -159,8 +159,8 @@ namespace {
 Time min_cost(SequenceStages& goals) {
   const Time outside_bound = goals.cost_to_go().outside_bound();
   const SequenceStages::StageId stage = goals.first_stage();
-  if (stage == SequenceStages::kOutside) return beyond;
-  return std::min(beyond, goals.distance(stage, goals.stops().start()));
+  if (stage == SequenceStages::kOutside) return outside_bound;
+  return std::min(outside_bound, goals.distance(stage, goals.stops().start()));
 }
 
 // A direct leg costs at least as much as the late leg by any path. The last leg is that of the

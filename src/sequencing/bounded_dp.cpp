@@ -107,7 +107,7 @@ class BoundedDp : public RtspSolver {
     return end == End::kBuilt;
   }
   End build(const SequenceDag::Scope& scope) {
-    return SequenceDag::build(scope, dag_.next_reach(), limits_, dag_);
+    return SequenceDag::build(scope, dag_.next_cost_limit(), limits_, dag_);
   }
 
   const CostMatrix& matrix_;

@@ -39,9 +39,9 @@ class CostToGo::Store {
   virtual Time relaxed_bound() const = 0;
   virtual Time outside_bound() const = 0;
   virtual Time cost_to_go(StopSet left, int port) const = 0;
-  // Returns a store with outside_bound() > `reach`, or nullptr if it could not be built. Call only
-  // if this store has outside_bound() <= `reach`.
-  virtual std::shared_ptr<const Store> widened(Time reach, const Limits& limits) const = 0;
+  // Returns a store with outside_bound() > `cost_limit`, or nullptr if it could not be built. Call
+  // only if this store has outside_bound() <= `cost_limit`.
+  virtual std::shared_ptr<const Store> extended(Time cost_limit, const Limits& limits) const = 0;
   virtual bool knows_all_or_nothing() const { return false; }
   // Returns a store for a sequence class, or nullptr if this store serves it.
   virtual std::shared_ptr<const Store> of_class(const SequenceClass&) const { return nullptr; }
@@ -65,7 +65,7 @@ class CostToGo::Table : public Store {
   Time cost_to_go(StopSet left, int port) const override {
     return table_.built() ? table_.cost_to_go(left, port) : kNever;
   }
-  std::shared_ptr<const Store> widened(Time, const Limits& limits) const override {
+  std::shared_ptr<const Store> extended(Time, const Limits& limits) const override {
     auto built = std::make_shared<Table>(this->shared_matrix(), shared_);
     return built->table_.build(matrix(), limits, shared_) ? built : nullptr;
   }
@@ -86,9 +86,9 @@ class CostToGo::Graph : public Store {
   Time relaxed_bound() const override { return relaxation_->root_bound(); }
   Time outside_bound() const override { return dag_->outside_bound(); }
   Time cost_to_go(StopSet left, int port) const override { return dag_->cost_to_go(left, port); }
-  std::shared_ptr<const Store> widened(Time reach, const Limits& limits) const override {
-    auto wider = std::make_shared<Graph>(*this);
-    return wider->extend(reach, limits) ? wider : nullptr;
+  std::shared_ptr<const Store> extended(Time cost_limit, const Limits& limits) const override {
+    auto extended = std::make_shared<Graph>(*this);
+    return extended->extend(cost_limit, limits) ? extended : nullptr;
   }
   std::shared_ptr<const Store> of_class(const SequenceClass& work) const override {
     if (!make_direct_ || work == work_) return nullptr;
@@ -105,20 +105,20 @@ class CostToGo::Graph : public Store {
  private:
   using End = SequenceDag::End;
 
-  bool extend(Time reach, const Limits& limits) {
-    const Time far = std::max(reach, dag_->next_reach());
+  bool extend(Time cost_limit, const Limits& limits) {
+    const Time far = std::max(cost_limit, dag_->next_cost_limit());
     if (!direct_) {
       const End end = build(far, limits);
       if (end != End::kTooLarge) return end == End::kBuilt;
       turn_to_direct_legs();
-      return build(reach, limits) == End::kBuilt;
+      return build(cost_limit, limits) == End::kBuilt;
     }
     End end = build(far, limits);
-    if (end == End::kTooLarge && reach < far) end = build(reach, limits);
+    if (end == End::kTooLarge && cost_limit < far) end = build(cost_limit, limits);
     return end == End::kBuilt;
   }
 
-  End build(Time reach, const Limits& limits) {
+  End build(Time cost_limit, const Limits& limits) {
     SequenceDag::Scope scope{matrix(), *relaxation_};
     if (direct_) {
       scope.direct = direct_.get();
@@ -128,7 +128,7 @@ class CostToGo::Graph : public Store {
       scope.max_states = kMaxStates;
     }
     SequenceDag built(0);
-    const End end = SequenceDag::build(scope, reach, limits, built);
+    const End end = SequenceDag::build(scope, cost_limit, limits, built);
     if (end == End::kBuilt) dag_ = std::make_shared<const SequenceDag>(std::move(built));
     return end;
   }
@@ -173,7 +173,7 @@ class CostToGo::Ordered : public Store {
     go_back_to(stop);
     return onward[port % ports];
   }
-  std::shared_ptr<const Store> widened(Time, const Limits&) const override { return nullptr; }
+  std::shared_ptr<const Store> extended(Time, const Limits&) const override { return nullptr; }
 
  private:
   static constexpr int kMaxPorts = 4;
@@ -258,28 +258,28 @@ Time CostToGo::cost_to_go(StopSet left, int port) const {
   return store_->cost_to_go(left, port);
 }
 
-bool CostToGo::extend(Time reach, const Limits& limits) {
-  GROVE_ASSERT(reach < kNever, "there is more to know");
-  if (outside_bound() > reach) return true;
-  if (reach >= refused_) return false;
-  const auto known = std::ranges::find_if(widened_, [&](const Widened& widened) {
-    return widened.from == store_ && widened.reach == reach;
+bool CostToGo::extend(Time cost_limit, const Limits& limits) {
+  GROVE_ASSERT(cost_limit < kNever, "there is more to know");
+  if (outside_bound() > cost_limit) return true;
+  if (cost_limit >= refused_) return false;
+  const auto known = std::ranges::find_if(extended_, [&](const Extension& extended) {
+    return extended.from == store_ && extended.cost_limit == cost_limit;
   });
-  if (known != widened_.end()) {
-    std::rotate(widened_.begin(), known, known + 1);
-    store_ = widened_.front().to;
+  if (known != extended_.end()) {
+    std::rotate(extended_.begin(), known, known + 1);
+    store_ = extended_.front().to;
     return true;
   }
-  auto wider = store_->widened(reach, limits);
-  if (!wider) {
-    if (!limits.stop_requested()) refused_ = reach;
+  auto extended = store_->extended(cost_limit, limits);
+  if (!extended) {
+    if (!limits.stop_requested()) refused_ = cost_limit;
     return false;
   }
   if (resets_) {
-    if (widened_.size() == kMaxExtensions) widened_.pop_back();
-    widened_.insert(widened_.begin(), {store_, reach, wider});
+    if (extended_.size() == kMaxExtensions) extended_.pop_back();
+    extended_.insert(extended_.begin(), {store_, cost_limit, extended});
   }
-  store_ = std::move(wider);
+  store_ = std::move(extended);
   return true;
 }
 

@@ -17,8 +17,8 @@ namespace grove::detail {
 
 // Exact costs to go of one agent, for every sequence cheaper than outside_bound(). Small problems
 // use a table of all states, larger ones a sequence graph that grows on demand. Initially it is
-// empty: call extend(). Any number of threads may read an object while no thread widens it. Copies
-// share the stores built so far, and each copy is widened separately: a copy may be passed to
+// empty: call extend(). Any number of threads may read an object while no thread extends it. Copies
+// share the stores built so far, and each copy is extended separately: a copy may be passed to
 // another thread.
 class CostToGo {
  public:
@@ -56,10 +56,10 @@ class CostToGo {
   // states known.
   Time relaxed_bound() const;
 
-  // Extends the store. Afterwards outside_bound() > `reach`, and never less than before. Returns
-  // false and changes nothing if a limit of the run was reached, or if the graph had more than
-  // kMaxDirectStates states. Requires `reach` < kNever.
-  bool extend(Time reach, const Limits& limits);
+  // Extends the store. Afterwards outside_bound() > `cost_limit`, and never less than before.
+  // Returns false and changes nothing if a limit of the run was reached, or if the graph had more
+  // than kMaxDirectStates states. Requires `cost_limit` < kNever.
+  bool extend(Time cost_limit, const Limits& limits);
 
   // Undoes extend() since mark(), or since the beginning, because the results of a search depend on
   // how much is known. A later extend() does the same as before, mostly from memory.
@@ -77,17 +77,17 @@ class CostToGo {
   class Ordered;
   template <class Entry>
   class Table;
-  // Result of a extend(): `from`, extended to `reach`, became `to`.
-  struct Widened {
+  // Result of an extend(): `from`, extended to `cost_limit`, became `to`.
+  struct Extension {
     std::shared_ptr<const Store> from;
-    Time reach;
+    Time cost_limit;
     std::shared_ptr<const Store> to;
   };
   static constexpr std::size_t kMaxExtensions = 4;
 
   std::shared_ptr<const Store> store_;
   std::shared_ptr<const Store> marked_;
-  std::vector<Widened> widened_;  // latest first; filled only once reset() was called
+  std::vector<Extension> extended_;  // latest first; filled only once reset() was called
   bool resets_ = false;
   Time refused_ = kNever;  // extend() to this or more failed without a limit of the run
 };

@@ -5,18 +5,18 @@
 // *Definitions.* A state (S, v) means: the agent is at stop v, and the set S of stops is left. g is
 // the least cost of reaching it through kept states. b is a proven lower bound on completing the
 // sequence from it (one_tree_relaxation.cpp; most of b depends only on S, so that part is computed
-// once per set). A state is kept iff g + b <= reach. All predecessors of the states with set S have
-// the set S + v left for some v, so one pass over the layers of equal |S| makes every g final. A
-// weaker b is available at no extra cost from the tree of S + v. About 95 % of the dropped states
+// once per set). A state is kept iff g + b <= cost_limit. All predecessors of the states with set S
+// have the set S + v left for some v, so one pass over the layers of equal |S| makes every g final.
+// A weaker b is available at no extra cost from the tree of S + v. About 95 % of the dropped states
 // are dropped by it, and no tree is built for their sets.
 //
-// *Invariant: every state of a sequence that costs <= reach is kept.* Proof, by induction along the
-// sequence: the predecessor of the state is kept, so g is at most the cost of the sequence up to
-// the state. b is at most the cost of its remainder. So g + b <= reach.
+// *Invariant: every state of a sequence that costs <= cost_limit is kept.* Proof, by induction
+// along the sequence: the predecessor of the state is kept, so g is at most the cost of the
+// sequence up to the state. b is at most the cost of its remainder. So g + b <= cost_limit.
 //
 // *Consequence.* A sequence with a dropped state has, at the first such state, g + b no greater
 // than its own cost. So outside_bound(), the least g + b of any dropped state, is a lower bound on
-// all sequences outside the graph, and no reach below it adds any sequence.
+// all sequences outside the graph, and no cost limit below it adds any sequence.
 //
 // *Ports.* If stops have several ports (cost_matrix.h), a state has one g per port. The statements
 // above then hold per port: each port is kept or dropped by its own g + b.
@@ -39,7 +39,7 @@
 // the path are all outside S. In their order they cut the path into segments that pass no other
 // plain stop, and each segment costs at least its direct leg. Consequence: with c(S, v, w) as the
 // cost from v to w, g of a state is at most what a path to this state pays. So the invariant holds
-// for paths: every state of a path that costs <= reach is kept, and outside_bound() is a lower
+// for paths: every state of a path that costs <= cost_limit is kept, and outside_bound() is a lower
 // bound on all paths with a state outside. b remains a lower bound, because no direct leg costs
 // less than the leg of the matrix. Legs of the prefix, and the leg to the first free stop, may pass
 // any stop: they cost what the matrix has. The graph is then valid only for this class: another
@@ -74,7 +74,7 @@ namespace grove::detail {
 namespace {
 
 constexpr std::size_t kPollInterval = 32;     // sets; each takes a few microseconds
-constexpr std::size_t kCountedExcess = 4096;  // costs this far above `reach` are not counted
+constexpr std::size_t kCountedExcess = 4096;  // costs this far above `cost_limit` are not counted
 
 }  // namespace
 
@@ -91,14 +91,14 @@ Time SequenceDag::cost_to_go(StopSet left, int port) const {
 template <int kPorts>
 class SequenceDagBuilder {
  public:
-  SequenceDagBuilder(const SequenceDag::Scope& scope, Time reach, const Limits& limits)
+  SequenceDagBuilder(const SequenceDag::Scope& scope, Time cost_limit, const Limits& limits)
       : matrix_(scope.matrix),
         relaxation_(scope.relaxation),
         direct_(scope.direct),
         passed_(scope.passed),
         work_(scope.work),
         max_states_(scope.max_states),
-        reach_(reach),
+        cost_limit_(cost_limit),
         limits_(limits),
         ways_(ways(scope.matrix, scope.direct)),
         parity_(direct_ == nullptr || direct_->keeps_parity() ? common_parity(matrix_) : -1) {
@@ -116,7 +116,7 @@ class SequenceDagBuilder {
       layer = end;
     }
     if (!compute_cost_to_go()) return SequenceDag::End::kStopped;
-    dag_.next_reach_ = next_reach();
+    dag_.next_cost_limit_ = next_cost_limit();
     dag = std::move(dag_);
     return SequenceDag::End::kBuilt;
   }
@@ -170,8 +170,8 @@ class SequenceDagBuilder {
 
   static Time least(const PortCosts& costs) { return *std::ranges::min_element(costs); }
 
-  // Keeps the state (left, stop), reached at `costs`, if it lies on a route within `reach_`. Of its
-  // ports it keeps those that do.
+  // Keeps the state (left, stop), reached at `costs`, if it lies on a route within `cost_limit_`.
+  // Of its ports it keeps those that do.
   void reach_state(StopSet left, int stop, PortCosts costs) {
     if (least(costs) >= kNever) return;
     const std::uint32_t number =
@@ -186,7 +186,7 @@ class SequenceDagBuilder {
       const Time rest =
           left == 0 ? matrix_.to_end(port) : relaxation_.bound(group.tail, left, port);
       const Time whole = round_up(add_costs(costs[i], rest));
-      if (whole <= reach_) continue;
+      if (whole <= cost_limit_) continue;
       drop(whole);
       costs[i] = kNever;
     }
@@ -200,7 +200,7 @@ class SequenceDagBuilder {
     const Time rest = bound_of_pairs(left, stop);
     for (Time& cost : costs) {
       const Time whole = round_up(add_costs(cost, rest));
-      if (cost >= kNever || whole <= reach_) continue;
+      if (cost >= kNever || whole <= cost_limit_) continue;
       drop(whole);
       cost = kNever;
     }
@@ -234,7 +234,7 @@ class SequenceDagBuilder {
 
   void drop(Time whole) {
     dag_.outside_bound_ = std::min(dag_.outside_bound_, whole);
-    const auto excess = static_cast<std::size_t>(whole - reach_ - 1);
+    const auto excess = static_cast<std::size_t>(whole - cost_limit_ - 1);
     if (excess >= kCountedExcess) return;
     if (excess >= dropped_.size()) dropped_.resize(excess + 1, 0);
     ++dropped_[excess];
@@ -242,12 +242,12 @@ class SequenceDagBuilder {
 
   // The cost limit up to which half as many dropped costs were counted as are stored. States that
   // follow on these are then admitted too.
-  Time next_reach() const {
+  Time next_cost_limit() const {
     std::size_t count = 0;
     for (std::size_t excess = 0; excess < dropped_.size(); ++excess)
       if ((count += dropped_[excess]) >= dag_.cost_to_go_.size() / 2)
-        return std::max(dag_.outside_bound_, reach_ + 1 + static_cast<Time>(excess));
-    return std::max(dag_.outside_bound_, reach_ + static_cast<Time>(dropped_.size()));
+        return std::max(dag_.outside_bound_, cost_limit_ + 1 + static_cast<Time>(excess));
+    return std::max(dag_.outside_bound_, cost_limit_ + static_cast<Time>(dropped_.size()));
   }
 
   Time round_up(Time cost) const {
@@ -296,7 +296,7 @@ class SequenceDagBuilder {
               whole, add_costs(costs[port],
                                relaxation_.bound_from(tails_[i - begin], next * kPorts + port)));
         whole = round_up(whole);
-        if (whole <= reach_)
+        if (whole <= cost_limit_)
           reach_state(node.left & ~bit(next), next, costs);
         else
           drop(whole);
@@ -443,7 +443,7 @@ class SequenceDagBuilder {
   const PassedStops* const passed_;
   const SequenceClass& work_;
   const std::size_t max_states_;
-  const Time reach_;
+  const Time cost_limit_;
   const Limits& limits_;
   const CostMatrix ways_;  // by stop; empty without direct legs
   const int parity_;
@@ -452,7 +452,7 @@ class SequenceDagBuilder {
   std::vector<Group> groups_;
   std::vector<OneTreeRelaxation::Tail> tails_;  // of the nodes of the last layer
   std::vector<State> states_;
-  std::vector<std::size_t> dropped_;  // counts, by excess over `reach_`, less 1
+  std::vector<std::size_t> dropped_;  // counts, by excess over `cost_limit_`, less 1
   StopSetIndex group_index_;
   std::size_t asked_bytes_ = 0;
   // Of the node in progress, by port of a visited stop; and the ports with a cost, some of them
@@ -462,18 +462,18 @@ class SequenceDagBuilder {
 };
 
 std::optional<SequenceDag> SequenceDag::build(const CostMatrix& matrix,
-                                              const OneTreeRelaxation& relaxation, Time reach,
+                                              const OneTreeRelaxation& relaxation, Time cost_limit,
                                               const Limits& limits) {
   SequenceDag dag(0);
-  if (build({matrix, relaxation}, reach, limits, dag) != End::kBuilt) return std::nullopt;
+  if (build({matrix, relaxation}, cost_limit, limits, dag) != End::kBuilt) return std::nullopt;
   return dag;
 }
 
-SequenceDag::End SequenceDag::build(const Scope& scope, Time reach, const Limits& limits,
+SequenceDag::End SequenceDag::build(const Scope& scope, Time cost_limit, const Limits& limits,
                                     SequenceDag& dag) {
-  if (scope.matrix.ports == 1) return SequenceDagBuilder<1>(scope, reach, limits).build(dag);
+  if (scope.matrix.ports == 1) return SequenceDagBuilder<1>(scope, cost_limit, limits).build(dag);
   GROVE_ASSERT(scope.matrix.ports == 4, "a stop has one port, or one for each heading");
-  return SequenceDagBuilder<4>(scope, reach, limits).build(dag);
+  return SequenceDagBuilder<4>(scope, cost_limit, limits).build(dag);
 }
 
 }  // namespace grove::detail

@@ -25,13 +25,14 @@ class OneTreeRelaxation;
 // thread may read it.
 class SequenceDag {
  public:
-  // Without states. `beyond` must be a proven lower bound on every sequence.
+  // Without states. `outside_bound` must be a proven lower bound on every sequence.
   explicit SequenceDag(Time outside_bound)
-      : outside_bound_(outside_bound), next_reach_(outside_bound) {}
+      : outside_bound_(outside_bound), next_cost_limit_(outside_bound) {}
 
-  // Builds the graph of every sequence of cost <= `reach`. Returns nullopt if a limit was reached.
+  // Builds the graph of every sequence of cost <= `cost_limit`. Returns nullopt if a limit was
+  // reached.
   static std::optional<SequenceDag> build(const CostMatrix& matrix,
-                                          const OneTreeRelaxation& relaxation, Time reach,
+                                          const OneTreeRelaxation& relaxation, Time cost_limit,
                                           const Limits& limits);
 
   // Selects the contents of a graph.
@@ -48,8 +49,8 @@ class SequenceDag {
     std::size_t max_states = SIZE_MAX;
   };
   enum class End : std::uint8_t { kBuilt, kStopped, kTooLarge };
-  // Builds the graph of `scope` up to cost `reach`. Changes `dag` only if it returns kBuilt.
-  static End build(const Scope& scope, Time reach, const Limits& limits, SequenceDag& dag);
+  // Builds the graph of `scope` up to cost `cost_limit`. Changes `dag` only if it returns kBuilt.
+  static End build(const Scope& scope, Time cost_limit, const Limits& limits, SequenceDag& dag);
 
   // Proven lower bound on every sequence with a state outside the graph. kNever: there is no such
   // sequence.
@@ -57,7 +58,7 @@ class SequenceDag {
 
   // The cost limit to use for the next build, at least outside_bound(). It admits about as many new
   // states as there are now, so that all builds together cost little more than the last one.
-  Time next_reach() const { return next_reach_; }
+  Time next_cost_limit() const { return next_cost_limit_; }
 
   // The least cost from `port` through all stops of `left` to the end, over routes inside the
   // graph. Returns kNever if there is none, or if the state is outside the graph.
@@ -78,7 +79,7 @@ class SequenceDag {
 
   int ports_ = 1;
   Time outside_bound_ = 0;
-  Time next_reach_ = 0;
+  Time next_cost_limit_ = 0;
   std::vector<Node> nodes_;       // in descending order of |left|
   std::vector<Time> cost_to_go_;  // cost to go, `ports_` entries per state
   StopSetIndex index_;            // into nodes_

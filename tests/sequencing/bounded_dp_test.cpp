@@ -66,34 +66,35 @@ TEST(OneTreeRelaxation, BoundsEveryState) {
 }
 
 // Enumerates all orders of the stops in `left` and all choices of one port for each stop. Calls
-// visit(cost) for each with cost <= reach whose states all satisfy `may_pass`.
+// visit(cost) for each with cost <= cost_limit whose states all satisfy `may_pass`.
 template <class MayPass, class Visit>
-void walk(const CostMatrix& matrix, StopSet left, int at, Time cost, Time reach,
+void walk(const CostMatrix& matrix, StopSet left, int at, Time cost, Time cost_limit,
           const MayPass& may_pass, const Visit& visit) {
   if (left == 0) {
-    if (add_costs(cost, matrix.to_end(at)) <= reach) visit(cost + matrix.to_end(at));
+    if (add_costs(cost, matrix.to_end(at)) <= cost_limit) visit(cost + matrix.to_end(at));
     return;
   }
   for_each_port(matrix, left, [&](int next) {
     const StopSet after = left & ~stop_of(matrix, next);
     const Time here = add_costs(cost, matrix.between(at, next));
-    if (here <= reach && may_pass(after, next, here))
-      walk(matrix, after, next, here, reach, may_pass, visit);
+    if (here <= cost_limit && may_pass(after, next, here))
+      walk(matrix, after, next, here, cost_limit, may_pass, visit);
   });
 }
 
 template <class MayPass>
-std::vector<Time> costs_of_walks(const CostMatrix& matrix, Time reach, const MayPass& may_pass) {
+std::vector<Time> costs_of_walks(const CostMatrix& matrix, Time cost_limit,
+                                 const MayPass& may_pass) {
   std::vector<Time> costs;
-  walk(matrix, matrix.all(), matrix.stops() * matrix.ports, 0, reach, may_pass,
+  walk(matrix, matrix.all(), matrix.stops() * matrix.ports, 0, cost_limit, may_pass,
        [&](Time cost) { costs.push_back(cost); });
   std::sort(costs.begin(), costs.end());
   return costs;
 }
 
-std::vector<Time> costs_within(const SequenceDag& dag, const CostMatrix& matrix, Time reach) {
-  return costs_of_walks(matrix, reach, [&](StopSet left, int port, Time cost) {
-    return add_costs(cost, dag.cost_to_go(left, port)) <= reach;
+std::vector<Time> costs_within(const SequenceDag& dag, const CostMatrix& matrix, Time cost_limit) {
+  return costs_of_walks(matrix, cost_limit, [&](StopSet left, int port, Time cost) {
+    return add_costs(cost, dag.cost_to_go(left, port)) <= cost_limit;
   });
 }
 
@@ -110,10 +111,10 @@ TEST(SequenceDag, HoldsExactlyTheSequencesBelowItsBound) {
           if (all.empty()) continue;
           const OneTreeRelaxation relaxation(matrix);
           for (Time slack : {-1, 0, 1, 5}) {
-            const Time reach = all.front() + slack;
-            const auto dag = SequenceDag::build(matrix, relaxation, reach, limits);
+            const Time cost_limit = all.front() + slack;
+            const auto dag = SequenceDag::build(matrix, relaxation, cost_limit, limits);
             ASSERT_TRUE(dag);
-            ASSERT_GT(dag->outside_bound(), reach);
+            ASSERT_GT(dag->outside_bound(), cost_limit);
             const Time below = std::min(dag->outside_bound(), kNever) - 1;
             const auto end = std::upper_bound(all.begin(), all.end(), below);
             ASSERT_EQ(costs_within(*dag, matrix, below), std::vector(all.begin(), end));

@@ -97,7 +97,7 @@ class GraphTest : public ::testing::Test {
  protected:
   // Expects the exact cost-to-go at every state of each sequence that costs less than
   // outside_bound().
-  void expect_exact_below_beyond(const CostMatrix& matrix, const CostToGo& cost_to_go) {
+  void expect_exact_below_outside_bound(const CostMatrix& matrix, const CostToGo& cost_to_go) {
     const Limits limits;
     const auto table = make_rtsp_solver(RtspBackend::kHeldKarp, matrix, limits);
     SequenceClass work;
@@ -132,10 +132,10 @@ TEST_F(GraphTest, EverySequenceBelowTheBoundIsExact) {
     const CostMatrix matrix = testing::grid_matrix(15, variant, random);
     CostToGo cost_to_go(matrix);
     for (int step = 0; step < 3 && cost_to_go.outside_bound() < kNever; ++step) {
-      const Time reach = cost_to_go.outside_bound();
-      ASSERT_TRUE(cost_to_go.extend(reach, Limits()));
-      EXPECT_GT(cost_to_go.outside_bound(), reach);
-      expect_exact_below_beyond(matrix, cost_to_go);
+      const Time cost_limit = cost_to_go.outside_bound();
+      ASSERT_TRUE(cost_to_go.extend(cost_limit, Limits()));
+      EXPECT_GT(cost_to_go.outside_bound(), cost_limit);
+      expect_exact_below_outside_bound(matrix, cost_to_go);
     }
   }
 }
@@ -144,20 +144,20 @@ TEST_F(GraphTest, WideningBelowTheBoundChangesNothing) {
   Random random(5);
   CostToGo cost_to_go(testing::metric_matrix(16, Variant::kCts, random));
   ASSERT_TRUE(cost_to_go.extend(cost_to_go.outside_bound(), Limits()));
-  const Time beyond = cost_to_go.outside_bound();
-  ASSERT_TRUE(cost_to_go.extend(beyond - 1, Limits()));
-  EXPECT_EQ(cost_to_go.outside_bound(), beyond);
+  const Time outside_bound = cost_to_go.outside_bound();
+  ASSERT_TRUE(cost_to_go.extend(outside_bound - 1, Limits()));
+  EXPECT_EQ(cost_to_go.outside_bound(), outside_bound);
 }
 
 TEST(CostToGo, ReachedLimitChangesNothing) {
   Random random(6);
   for (const int n : {4, 16}) {
     CostToGo cost_to_go(testing::metric_matrix(n, Variant::kCts, random));
-    const Time beyond = cost_to_go.outside_bound();
+    const Time outside_bound = cost_to_go.outside_bound();
     Limits limits;
     limits.set_deadline(testing::kPast);
-    EXPECT_FALSE(cost_to_go.extend(beyond, limits));
-    EXPECT_EQ(cost_to_go.outside_bound(), beyond);
+    EXPECT_FALSE(cost_to_go.extend(outside_bound, limits));
+    EXPECT_EQ(cost_to_go.outside_bound(), outside_bound);
   }
 }
 
