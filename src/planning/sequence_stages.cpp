@@ -166,10 +166,10 @@ Time AgentStops::turn(State state, int port) const {
   return std::min(quarters, ports_ - quarters) * turn_steps_;
 }
 
-SequenceStages::SequenceStages(AgentStops& stops, SequenceClass work)
+SequenceStages::SequenceStages(AgentStops& stops, SequenceClass sequence_class)
     : stops_(stops),
       cost_to_go_(&stops.cost_to_go()),
-      class_(std::move(work)),
+      class_(std::move(sequence_class)),
       free_(stops.all() & ~checked_set(class_.prefix, stops.all())),
       first_free_(free_ & ~class_.forbidden_next),
       rest_is_not_first_(stops.rests_on_last_stop() && first_free_ != free_ &&
@@ -179,8 +179,9 @@ SequenceStages::SequenceStages(AgentStops& stops, SequenceClass work)
   if (own_) cost_to_go_ = &*own_;
 }
 
-SequenceStages::SequenceStages(AgentStops& stops, SequenceClass work, CostToGo& cost_to_go)
-    : SequenceStages(stops, std::move(work)) {
+SequenceStages::SequenceStages(AgentStops& stops, SequenceClass sequence_class,
+                               CostToGo& cost_to_go)
+    : SequenceStages(stops, std::move(sequence_class)) {
   own_.reset();
   cost_to_go_ = &cost_to_go;
 }
@@ -300,11 +301,13 @@ void SequenceStages::add_onward(Stage& stage) {
 
 Sequence realized_sequence(const SequenceStages& goals, const Path& path) {
   const AgentStops& stops = goals.stops();
-  const SequenceClass& work = goals.sequence_class();
+  const SequenceClass& sequence_class = goals.sequence_class();
   const auto next_in_class = [&](const Sequence& so_far, int stop) {
     if (std::ranges::count(so_far, stop) > 0) return false;
-    if (so_far.size() < work.prefix.size()) return work.prefix[so_far.size()] == stop;
-    return so_far.size() > work.prefix.size() || !holds(work.forbidden_next, stop);
+    if (so_far.size() < sequence_class.prefix.size())
+      return sequence_class.prefix[so_far.size()] == stop;
+    return so_far.size() > sequence_class.prefix.size() ||
+           !holds(sequence_class.forbidden_next, stop);
   };
   const auto complete = static_cast<std::size_t>(stops.count());
   const int last = !stops.rests_on_last_stop() || path.empty() ? AgentStops::kNoStop

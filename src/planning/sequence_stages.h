@@ -139,10 +139,10 @@ class SequenceStages {
 
   // `stops` must outlive this. Throws std::invalid_argument if the prefix repeats a stop or
   // contains a stop that the agent does not have.
-  SequenceStages(AgentStops& stops, SequenceClass work);
+  SequenceStages(AgentStops& stops, SequenceClass sequence_class);
   // The same with costs to go other than those of `stops`. They must be for this class and for as
   // many stops, and must outlive this.
-  SequenceStages(AgentStops& stops, SequenceClass work, CostToGo& cost_to_go);
+  SequenceStages(AgentStops& stops, SequenceClass sequence_class, CostToGo& cost_to_go);
 
   AgentStops& stops() { return stops_; }
   const AgentStops& stops() const { return stops_; }

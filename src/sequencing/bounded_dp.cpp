@@ -48,11 +48,11 @@ class BoundedDp : public RtspSolver {
         relaxation_(matrix),
         dag_(relaxation_.root_bound()) {}
 
-  RtspAnswer best(const SequenceClass& work, Time cutoff) override {
+  RtspAnswer best(const SequenceClass& sequence_class, Time cutoff) override {
     using Kind = RtspAnswer::Kind;
-    const ClassRoot root = class_root(matrix_, work);
+    const ClassRoot root = class_root(matrix_, sequence_class);
     const Time relaxed = class_bound(root);
-    turn_to(work, relaxed);
+    turn_to(sequence_class, relaxed);
     while (true) {
       const Time value = best_cost(matrix_, root, cost_to_go());
       const Time bound = std::max(relaxed, dag_.outside_bound());
@@ -62,9 +62,9 @@ class BoundedDp : public RtspSolver {
     }
   }
 
-  Sequence best_sequence(const SequenceClass& work) override {
-    if (passed_ && work != class_) best(work, kNever);
-    return best_member(matrix_, work, cost_to_go());
+  Sequence best_sequence(const SequenceClass& sequence_class) override {
+    if (passed_ && sequence_class != class_) best(sequence_class, kNever);
+    return best_member(matrix_, sequence_class, cost_to_go());
   }
 
   Time root_bound() const override { return relaxation_.root_bound(); }
@@ -83,9 +83,9 @@ class BoundedDp : public RtspSolver {
   }
 
   // A graph of canonical sequences serves only one class.
-  void turn_to(const SequenceClass& work, Time relaxed) {
-    if (work == class_) return;
-    class_ = work;
+  void turn_to(const SequenceClass& sequence_class, Time relaxed) {
+    if (sequence_class == class_) return;
+    class_ = sequence_class;
     if (passed_) dag_ = SequenceDag(relaxed);
   }
 
@@ -101,7 +101,7 @@ class BoundedDp : public RtspSolver {
     const End end = build({.matrix = matrix_,
                            .relaxation = relaxation_,
                            .passed = &*passed_,
-                           .work = class_,
+                           .sequence_class = class_,
                            .max_states = kMaxCanonicalStates});
     too_large_ = end == End::kTooLarge;
     return end == End::kBuilt;

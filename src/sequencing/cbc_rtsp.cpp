@@ -265,10 +265,10 @@ class CbcRtsp : public RtspSolver {
   CbcRtsp(const CostMatrix& matrix, const Limits& limits)
       : matrix_(matrix), limits_(limits), root_bound_(relaxation_bound(matrix)) {}
 
-  RtspAnswer best(const SequenceClass& work, Time cutoff) override {
+  RtspAnswer best(const SequenceClass& sequence_class, Time cutoff) override {
     using Kind = RtspAnswer::Kind;
-    const ClassRoot root = class_root(matrix_, work);
-    if (root.left == 0) return remember(work, work.prefix);
+    const ClassRoot root = class_root(matrix_, sequence_class);
+    if (root.left == 0) return remember(sequence_class, sequence_class.prefix);
     const Contracted rest = contract(matrix_, root);
     const Time bound = add_costs(root.cost, relaxation_bound(rest.matrix));
     if (bound >= kNever) return {Kind::kInfeasible, kNever};
@@ -288,26 +288,29 @@ class CbcRtsp : public RtspSolver {
     const Sequence path = program.path();
     if (std::abs(sequence_cost(rest.matrix, path) - program.objective()) > 0.5)
       throw std::runtime_error("CBC returned a wrong cost");
-    Sequence sequence = work.prefix;
+    Sequence sequence = sequence_class.prefix;
     for (Stop stop : path) sequence.push_back(rest.stops[stop]);
-    return remember(work, std::move(sequence));
+    return remember(sequence_class, std::move(sequence));
   }
 
-  Sequence best_sequence(const SequenceClass& work) override { return solved_.at(key(work)); }
+  Sequence best_sequence(const SequenceClass& sequence_class) override {
+    return solved_.at(key(sequence_class));
+  }
 
   Time root_bound() const override { return root_bound_; }
 
  private:
   using Key = std::pair<std::string, StopSet>;  // prefix, forbidden next stops
 
-  static Key key(const SequenceClass& work) {
-    return {{work.prefix.begin(), work.prefix.end()}, work.forbidden_next};
+  static Key key(const SequenceClass& sequence_class) {
+    return {{sequence_class.prefix.begin(), sequence_class.prefix.end()},
+            sequence_class.forbidden_next};
   }
 
-  RtspAnswer remember(const SequenceClass& work, Sequence sequence) {
+  RtspAnswer remember(const SequenceClass& sequence_class, Sequence sequence) {
     const Time cost = sequence_cost(matrix_, sequence);
     if (cost >= kNever) return {RtspAnswer::Kind::kInfeasible, kNever};
-    solved_[key(work)] = std::move(sequence);
+    solved_[key(sequence_class)] = std::move(sequence);
     return {RtspAnswer::Kind::kExact, cost};
   }
 

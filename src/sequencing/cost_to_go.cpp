@@ -90,10 +90,10 @@ class CostToGo::Graph : public Store {
     auto extended = std::make_shared<Graph>(*this);
     return extended->extend(cost_limit, limits) ? extended : nullptr;
   }
-  std::shared_ptr<const Store> of_class(const SequenceClass& work) const override {
-    if (!make_direct_ || work == work_) return nullptr;
+  std::shared_ptr<const Store> of_class(const SequenceClass& sequence_class) const override {
+    if (!make_direct_ || sequence_class == sequence_class_) return nullptr;
     auto other = std::make_shared<Graph>(*this);
-    other->work_ = work;
+    other->sequence_class_ = sequence_class;
     if (direct_) other->dag_ = nothing_known();
     return other;
   }
@@ -122,7 +122,7 @@ class CostToGo::Graph : public Store {
     SequenceDag::Scope scope{matrix(), *relaxation_};
     if (direct_) {
       scope.direct = direct_.get();
-      scope.work = work_;
+      scope.sequence_class = sequence_class_;
       scope.max_states = kMaxDirectStates;
     } else if (make_direct_) {
       scope.max_states = kMaxStates;
@@ -140,7 +140,7 @@ class CostToGo::Graph : public Store {
   std::shared_ptr<const OneTreeRelaxation> relaxation_;
   MakeDirectLegs make_direct_;                // may be empty
   std::shared_ptr<const DirectLegs> direct_;  // once the graph of all sequences was too large
-  SequenceClass work_;
+  SequenceClass sequence_class_;
   std::shared_ptr<const SequenceDag> dag_;
 };
 
@@ -234,11 +234,11 @@ CostToGo CostToGo::as_graph(CostMatrix matrix, MakeDirectLegs direct) {
   return CostToGo(std::move(graph));
 }
 
-std::optional<CostToGo> CostToGo::of_class(const SequenceClass& work) const {
-  auto other = store_->of_class(work);
+std::optional<CostToGo> CostToGo::of_class(const SequenceClass& sequence_class) const {
+  auto other = store_->of_class(sequence_class);
   if (!other) return std::nullopt;
   CostToGo cost_to_go(std::move(other));
-  if (marked_ != store_) cost_to_go.marked_ = marked_->of_class(work);
+  if (marked_ != store_) cost_to_go.marked_ = marked_->of_class(sequence_class);
   return cost_to_go;
 }
 

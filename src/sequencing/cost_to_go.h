@@ -31,7 +31,7 @@ class CostToGo {
   explicit CostToGo(CostMatrix matrix, SharedArray table = {}, MakeDirectLegs direct = {});
   // Returns the costs to go of one class of sequences, because a graph by direct legs is valid for
   // one class only. Returns nullopt if *this serves every class.
-  std::optional<CostToGo> of_class(const SequenceClass& work) const;
+  std::optional<CostToGo> of_class(const SequenceClass& sequence_class) const;
   // Size in bytes of a table for `stops` stops with `ports` ports each, with 16-bit entries (the
   // largest costs need wider ones). 0: no table is used.
   static std::size_t table_bytes(int stops, int ports);

@@ -29,16 +29,16 @@ class HeldKarp : public RtspSolver {
   HeldKarp(const CostMatrix& matrix, const Limits& limits)
       : matrix_(matrix), limits_(limits), root_bound_(relaxation_bound(matrix)) {}
 
-  RtspAnswer best(const SequenceClass& work, Time) override {
+  RtspAnswer best(const SequenceClass& sequence_class, Time) override {
     if (!table_.built() && !table_.build(matrix_, limits_))
       return {RtspAnswer::Kind::kStopped, root_bound_};
-    const Time cost = best_cost(matrix_, class_root(matrix_, work), cost_to_go());
+    const Time cost = best_cost(matrix_, class_root(matrix_, sequence_class), cost_to_go());
     if (cost >= kNever) return {RtspAnswer::Kind::kInfeasible, kNever};
     return {RtspAnswer::Kind::kExact, cost};
   }
 
-  Sequence best_sequence(const SequenceClass& work) override {
-    return best_member(matrix_, work, cost_to_go());
+  Sequence best_sequence(const SequenceClass& sequence_class) override {
+    return best_member(matrix_, sequence_class, cost_to_go());
   }
 
   Time root_bound() const override { return root_bound_; }

@@ -45,13 +45,14 @@ class RtspSolver {
  public:
   virtual ~RtspSolver() = default;
 
-  // Solves the class `work`, if its best member costs at most `cutoff`. Back ends that compute the
-  // optimum anyway return kExact even above the cutoff. `work.prefix` must not repeat a stop.
-  virtual RtspAnswer best(const SequenceClass& work, Time cutoff) = 0;
+  // Solves the class `sequence_class`, if its best member costs at most `cutoff`. Back ends that
+  // compute the optimum anyway return kExact even above the cutoff. `sequence_class.prefix` must
+  // not repeat a stop.
+  virtual RtspAnswer best(const SequenceClass& sequence_class, Time cutoff) = 0;
 
-  // Returns a complete sequence of the cost that the last call best(work, ...) proved. Call only
-  // after kExact.
-  virtual Sequence best_sequence(const SequenceClass& work) = 0;
+  // Returns a complete sequence of the cost that the last call best(sequence_class, ...) proved.
+  // Call only after kExact.
+  virtual Sequence best_sequence(const SequenceClass& sequence_class) = 0;
 
   // Returns a proven lower bound on every complete sequence, without search.
   virtual Time root_bound() const = 0;

@@ -18,15 +18,15 @@ struct ClassRoot {
   StopSet next = 0;  // stops of `left` that may come next
 };
 
-inline ClassRoot class_root(const CostMatrix& matrix, const SequenceClass& work) {
+inline ClassRoot class_root(const CostMatrix& matrix, const SequenceClass& sequence_class) {
   ClassRoot root{0, matrix.stops(), matrix.all(), 0};
-  for (Stop stop : work.prefix) {
+  for (Stop stop : sequence_class.prefix) {
     GROVE_ASSERT((root.left & bit(stop)) != 0, "a prefix repeats no stop");
     root.cost = add_costs(root.cost, matrix.between(root.last, stop));
     root.last = stop;
     root.left &= ~bit(stop);
   }
-  root.next = root.left & ~work.forbidden_next;
+  root.next = root.left & ~sequence_class.forbidden_next;
   return root;
 }
 
@@ -46,10 +46,10 @@ Time best_cost(const CostMatrix& matrix, const ClassRoot& root, const Completion
 // Returns a member of that cost: of several, the first in lexicographic order. The class must not
 // be empty.
 template <class Completion>
-Sequence best_member(const CostMatrix& matrix, const SequenceClass& work,
+Sequence best_member(const CostMatrix& matrix, const SequenceClass& sequence_class,
                      const Completion& cost_to_go) {
-  Sequence sequence = work.prefix;
-  for (ClassRoot root = class_root(matrix, work); root.left != 0;) {
+  Sequence sequence = sequence_class.prefix;
+  for (ClassRoot root = class_root(matrix, sequence_class); root.left != 0;) {
     int best_stop = std::countr_zero(root.next);
     Time best = kNever;
     for_each_stop(root.next, [&](int stop) {

@@ -96,7 +96,7 @@ class SequenceDagBuilder {
         relaxation_(scope.relaxation),
         direct_(scope.direct),
         passed_(scope.passed),
-        work_(scope.work),
+        sequence_class_(scope.sequence_class),
         max_states_(scope.max_states),
         cost_limit_(cost_limit),
         limits_(limits),
@@ -154,12 +154,12 @@ class SequenceDagBuilder {
       return costs;
     };
     StopSet left = matrix_.all();
-    for (const Stop stop : work_.prefix) {
+    for (const Stop stop : sequence_class_.prefix) {
       at_last = costs_at(stop);
       last = stop;
       left &= ~bit(stop);
     }
-    for_each_stop(left & ~work_.forbidden_next,
+    for_each_stop(left & ~sequence_class_.forbidden_next,
                   [&](int stop) { reach_state(left & ~bit(stop), stop, costs_at(stop)); });
     if (left == 0 && last != kStart) {
       reach_state(0, last, at_last);
@@ -441,7 +441,7 @@ class SequenceDagBuilder {
   const OneTreeRelaxation& relaxation_;
   const DirectLegs* const direct_;
   const PassedStops* const passed_;
-  const SequenceClass& work_;
+  const SequenceClass& sequence_class_;
   const std::size_t max_states_;
   const Time cost_limit_;
   const Limits& limits_;

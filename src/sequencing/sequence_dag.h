@@ -40,12 +40,12 @@ class SequenceDag {
     const CostMatrix& matrix;
     const OneTreeRelaxation& relaxation;
     // If given, the graph holds only the routes, with their costs, of an agent that visits each
-    // plain stop that it passes, for the class `work`. See "Direct legs" in the .cpp.
+    // plain stop that it passes, for the class `sequence_class`. See "Direct legs" in the .cpp.
     const DirectLegs* direct = nullptr;
-    // If given, the graph holds only the canonical sequences of `work` (passed_stops.cpp). Requires
-    // a matrix with one port per stop.
+    // If given, the graph holds only the canonical sequences of `sequence_class`
+    // (passed_stops.cpp). Requires a matrix with one port per stop.
     const PassedStops* passed = nullptr;
-    SequenceClass work = {};  // all sequences; set only with `direct` or `passed`
+    SequenceClass sequence_class = {};  // all sequences; set only with `direct` or `passed`
     std::size_t max_states = SIZE_MAX;
   };
   enum class End : std::uint8_t { kBuilt, kStopped, kTooLarge };
