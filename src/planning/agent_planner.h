@@ -22,7 +22,7 @@ enum class PathOutcome : std::uint8_t {
   kAboveCutoff,  // proven: no path costs `cutoff` or less (there may be none at all)
   kInfeasible,   // proven: there is no path
   kStopped,  // nothing is proven: a limit or label_limit was reached, the costs to go would be too
-             // large, or see known_sequences
+             // large, or see known_sequences_only
 };
 
 // Constraints and preferences for the path of one agent. All pointers and spans must stay valid
@@ -44,7 +44,7 @@ struct PathQuery {
   int inflation_percent = 0;
   // Use only the sequences that the costs to go cover, at least one; kStopped if no path is found
   // because of that. Another sequence may have a cheaper path.
-  bool known_sequences = false;
+  bool known_sequences_only = false;
 };
 
 // Interface of an exact single-agent planner. Grove's own is FreeOrderSipp; those of other methods

@@ -158,8 +158,9 @@ PathOutcome FreeOrderSipp::Workspace::find(SequenceStages& goals, const PathQuer
   if (search_.goals().first_rest() > latest_) return above_;
   if (intervals.start_slot(goals.stops().start()) < 0) return PathOutcome::kInfeasible;
   decide_when(query);
-  return query.known_sequences && goals.cost_to_go().outside_bound() <= query.cutoff ? find_known()
-                                                                                     : find_any();
+  return query.known_sequences_only && goals.cost_to_go().outside_bound() <= query.cutoff
+             ? find_known()
+             : find_any();
 }
 
 void FreeOrderSipp::Workspace::decide_when(const PathQuery& query) {

@@ -128,7 +128,7 @@ bool LargeNeighborhoodSearch::find(AgentIndex agent, Cost cutoff, RepairOperator
       .label_limit = repair.found > 0 ? static_cast<std::int64_t>(of_others) : repair.first_labels,
       .reservations = &paths_.reservations(),
       .inflation_percent = repair.inflation_percent,
-      .known_sequences = true};
+      .known_sequences_only = true};
   const std::int64_t before = low_level_.expanded();
   if (low_level_.find(agent, query, limits, path_) != PathOutcome::kFound) {
     if (repair.found <= 0 && repair.first_labels < kMaxFirstLabels) repair.first_labels *= 2;

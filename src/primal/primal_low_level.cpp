@@ -52,7 +52,7 @@ bool PrimalLowLevel::follow_good_sequence(AgentIndex agent, const Limits& limits
   in_order_[agent] = std::make_unique<CostToGo>(CostToGo::in_order(matrix, good_sequence(matrix)));
   goals_[agent] = std::make_unique<SequenceStages>(stops, SequenceClass(), *in_order_[agent]);
   ++calls_;
-  const PathQuery query{.known_sequences = true};
+  const PathQuery query{.known_sequences_only = true};
   return low_level_.find(goals(agent), query, limits, own_paths_[agent]) == PathOutcome::kFound;
 }
 

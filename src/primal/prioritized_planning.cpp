@@ -79,7 +79,7 @@ PrioritizedPlanning::Outcome PrioritizedPlanning::step(const Limits& limits,
   const PathQuery query{.label_limit = std::min(patience, most),
                         .reservations = &paths_.reservations(),
                         .inflation_percent = greedily_ ? kGreedPercent : 0,
-                        .known_sequences = true};
+                        .known_sequences_only = true};
   const PathOutcome outcome = low_level_.find(agent, query, limits, path_);
   const std::int64_t labels = low_level_.expanded() - before;
   labels_of_order_ += labels;

@@ -58,7 +58,7 @@ class Repair {
   bool plan(AgentIndex agent) {
     const PathQuery query{.label_limit = kLabels + kLabelsOfOwn * low_level_.individual_cost(agent),
                           .reservations = &paths_.reservations(),
-                          .known_sequences = true};
+                          .known_sequences_only = true};
     Path path;
     if (low_level_.find(agent, query, limits_, path) != PathOutcome::kFound) return false;
     paths_.put(agent, std::move(path));
