@@ -42,11 +42,11 @@ void ConflictFinder::all(std::span<const Path> paths, std::span<const AgentIndex
   Time time = 0;
   for (; !moving_.empty(); ++time) {
     step(paths, time);
-    meet_all(time, conflicts);
+    find_vertex_conflicts(time, conflicts);
     if (time == 0) continue;
-    for (const AgentIndex agent : moving_) swap_all(agent, time, conflicts);
+    for (const AgentIndex agent : moving_) find_edge_conflicts(agent, time, conflicts);
     if (may_follow_) continue;
-    for (const AgentIndex agent : moving_) follow_all(agent, time, conflicts);
+    for (const AgentIndex agent : moving_) find_following_conflicts(agent, time, conflicts);
   }
   base_ += time + 1;
 }
@@ -76,9 +76,9 @@ void ConflictFinder::step(std::span<const Path> paths, Time time) {
 }
 
 // Sorts the conflicts of one time by `second` ascending, then `first` descending.
-void ConflictFinder::meet_all(Time time, std::vector<Conflict>& conflicts) {
+void ConflictFinder::find_vertex_conflicts(Time time, std::vector<Conflict>& conflicts) {
   const auto first = std::ssize(conflicts);
-  for (const AgentIndex agent : moving_) meet(agent, time, conflicts);
+  for (const AgentIndex agent : moving_) add_vertex_conflicts(agent, time, conflicts);
   if (std::ssize(conflicts) - first < 2) return;
   std::sort(conflicts.begin() + first, conflicts.end(), [](const Conflict& c, const Conflict& d) {
     return c.second != d.second ? c.second < d.second : c.first > d.first;
@@ -86,7 +86,8 @@ void ConflictFinder::meet_all(Time time, std::vector<Conflict>& conflicts) {
 }
 
 // Enters the agent at its place and reports its vertex conflicts there.
-void ConflictFinder::meet(AgentIndex agent, Time time, std::vector<Conflict>& conflicts) {
+void ConflictFinder::add_vertex_conflicts(AgentIndex agent, Time time,
+                                          std::vector<Conflict>& conflicts) {
   const Place place = now_[agent];
   Visit& visit = visits_[time % 2][place];
   auto& also_there = also_there_[time % 2];
@@ -104,7 +105,8 @@ void ConflictFinder::meet(AgentIndex agent, Time time, std::vector<Conflict>& co
 }
 
 // A resting agent swaps with no other.
-void ConflictFinder::swap_all(AgentIndex agent, Time time, std::vector<Conflict>& conflicts) const {
+void ConflictFinder::find_edge_conflicts(AgentIndex agent, Time time,
+                                         std::vector<Conflict>& conflicts) const {
   const Place to = now_[agent];
   const Place from = before_[agent];
   const Visit& visit = visits_[(time - 1) % 2][to];
@@ -115,8 +117,8 @@ void ConflictFinder::swap_all(AgentIndex agent, Time time, std::vector<Conflict>
 }
 
 // Agents that stay are vertex conflicts, and agents in the opposite direction are swaps.
-void ConflictFinder::follow_all(AgentIndex agent, Time time,
-                                std::vector<Conflict>& conflicts) const {
+void ConflictFinder::find_following_conflicts(AgentIndex agent, Time time,
+                                              std::vector<Conflict>& conflicts) const {
   const Place to = now_[agent];
   const Place from = before_[agent];
   const Visit& visit = visits_[(time - 1) % 2][to];

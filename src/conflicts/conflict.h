@@ -56,10 +56,11 @@ class ConflictFinder {
 
   void begin(std::span<const Path> paths, std::span<const AgentIndex> agents);
   void step(std::span<const Path> paths, Time time);
-  void meet_all(Time time, std::vector<Conflict>& conflicts);
-  void meet(AgentIndex agent, Time time, std::vector<Conflict>& conflicts);
-  void swap_all(AgentIndex agent, Time time, std::vector<Conflict>& conflicts) const;
-  void follow_all(AgentIndex agent, Time time, std::vector<Conflict>& conflicts) const;
+  void find_vertex_conflicts(Time time, std::vector<Conflict>& conflicts);
+  void add_vertex_conflicts(AgentIndex agent, Time time, std::vector<Conflict>& conflicts);
+  void find_edge_conflicts(AgentIndex agent, Time time, std::vector<Conflict>& conflicts) const;
+  void find_following_conflicts(AgentIndex agent, Time time,
+                                std::vector<Conflict>& conflicts) const;
 
   const World& world_;
   const bool may_follow_;
