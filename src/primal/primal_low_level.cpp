@@ -29,7 +29,7 @@ SequenceStages& PrimalLowLevel::goals(AgentIndex agent) {
   return *goals;
 }
 
-bool PrimalLowLevel::meet(AgentIndex agent, const Limits& limits) {
+bool PrimalLowLevel::plan_individually(AgentIndex agent, const Limits& limits) {
   Path& path = own_paths_[agent];
   if (!path.empty()) return true;
   ++calls_;

@@ -26,7 +26,7 @@ class PrimalLowLevel {
   // Individual planning: finds the agent's best path without the other agents, or a good path if it
   // has too many sequences to find the best one. Must be called for an agent before any other
   // method. Returns false if a limit was reached.
-  bool meet(AgentIndex agent, const Limits& limits);
+  bool plan_individually(AgentIndex agent, const Limits& limits);
 
   // As FreeOrderSipp::find.
   PathOutcome find(AgentIndex agent, const PathQuery& query, const Limits& limits, Path& path);
@@ -45,7 +45,7 @@ class PrimalLowLevel {
 
   // Whether the individual path is proven to be optimal.
   bool knows_best(AgentIndex agent) const { return in_order_[agent] == nullptr; }
-  // The path found by meet(), and its cost.
+  // The path found by plan_individually(), and its cost.
   const Path& individual_path(AgentIndex agent) const { return own_paths_[agent]; }
   Time individual_cost(AgentIndex agent) const {
     return static_cast<Time>(own_paths_[agent].size()) - 1;

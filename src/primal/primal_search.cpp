@@ -126,7 +126,9 @@ class PrimalSearch::Impl {
     return (plans && planning_work_ < meetings * meeting_work_) ||
            (guided_ && guided_work_ < meetings * meeting_work_);
   }
-  bool optimal() const { return met_ == agents_ && own_costs_are_minimal_ && best_ <= own_costs_; }
+  bool optimal() const {
+    return individually_planned_ == agents_ && own_costs_are_minimal_ && best_ <= own_costs_;
+  }
   std::int64_t work() const {
     return low_level_.work() + (paths_.steps_moved() + planned_.steps_moved()) / work::kStepsMoved +
            joint_steps_ * agents_ + guided_work_;
@@ -151,7 +153,7 @@ class PrimalSearch::Impl {
   void keep_best();
   bool may_tell(const Limits& limits) const;
   void advance(const Limits& limits);
-  void meet(const Limits& limits);
+  void plan_individually(const Limits& limits);
   void begin_round(bool first);
   // Whether LaCAM or LNS can use part of the work.
   bool is_raced() const { return improving_ || may_configure_; }
@@ -182,8 +184,8 @@ class PrimalSearch::Impl {
   std::unique_ptr<TrafficGuidedLacam> guided_;  // while it finds cheaper plans
   LargeNeighborhoodSearch neighborhoods_;
 
-  AgentIndex met_ = 0;  // agents from here on have no individual path yet
-  Cost own_costs_ = 0;  // of agents with an individual path
+  AgentIndex individually_planned_ = 0;  // agents from here on have no individual path yet
+  Cost own_costs_ = 0;                   // of agents with an individual path
   bool own_costs_are_minimal_ = true;
   std::int64_t meeting_work_ = 0;
   std::optional<Plan> adopted_;  // adopted before all individual paths were known
@@ -251,7 +253,7 @@ bool PrimalSearch::Impl::may_tell(const Limits& limits) const {
 }
 
 void PrimalSearch::Impl::advance(const Limits& limits) {
-  if (met_ < agents_) return meet(limits);
+  if (individually_planned_ < agents_) return plan_individually(limits);
   const std::int64_t before = work();
   if (planning_is_due()) {
     plan(limits);
@@ -267,14 +269,14 @@ void PrimalSearch::Impl::advance(const Limits& limits) {
   other_work_ += work() - before;
 }
 
-void PrimalSearch::Impl::meet(const Limits& limits) {
+void PrimalSearch::Impl::plan_individually(const Limits& limits) {
   const std::int64_t before = work();
-  const bool met = low_level_.meet(met_, limits);
+  const bool met = low_level_.plan_individually(individually_planned_, limits);
   meeting_work_ += work() - before;
   if (!met) return;
-  own_costs_are_minimal_ = own_costs_are_minimal_ && low_level_.knows_best(met_);
-  own_costs_ += low_level_.individual_cost(met_++);
-  if (met_ < agents_) return;
+  own_costs_are_minimal_ = own_costs_are_minimal_ && low_level_.knows_best(individually_planned_);
+  own_costs_ += low_level_.individual_cost(individually_planned_++);
+  if (individually_planned_ < agents_) return;
   begin_round(true);
   if (adopted_) put_all(*std::exchange(adopted_, std::nullopt), PlanSource::kStart);
 }
@@ -409,7 +411,7 @@ bool PrimalSearch::Impl::stalled() const {
 void PrimalSearch::Impl::adopt(const Plan& plan) {
   if (plan.cost >= best_) return;
   best_ = told_ = plan.cost;
-  if (met_ < agents_) {
+  if (individually_planned_ < agents_) {
     adopted_ = plan;
     return;
   }

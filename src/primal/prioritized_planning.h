@@ -30,7 +30,7 @@ class PrioritizedPlanning {
       : world_(world), low_level_(low_level), paths_(paths), random_(random), tuning_(tuning) {}
 
   // Removes all paths and starts with `order`. All agents must have individual paths
-  // (PrimalLowLevel::meet()).
+  // (PrimalLowLevel::plan_individually()).
   void begin(std::vector<AgentIndex> order);
   // Plans one agent. A low-level call of more than `patience` labels is postponed to the next step,
   // where it starts again. Must not be called after kDone.

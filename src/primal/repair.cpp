@@ -41,7 +41,7 @@ class Repair {
     std::int64_t left = kFailuresPerAgent * agents_;
     while (!queue_.empty()) {
       const AgentIndex agent = queue_.front();
-      if (!low_level_.meet(agent, limits_)) return std::nullopt;
+      if (!low_level_.plan_individually(agent, limits_)) return std::nullopt;
       if (plan(agent)) {
         queue_.pop_front();
         continue;
@@ -50,7 +50,7 @@ class Repair {
       remove_blocking_agents(agent, ++failures_);
     }
     for (AgentIndex agent = 0; agent < agents_; ++agent)
-      if (!low_level_.meet(agent, limits_)) return std::nullopt;
+      if (!low_level_.plan_individually(agent, limits_)) return std::nullopt;
     return low_level_.plan(paths_.paths());
   }
 
@@ -118,7 +118,7 @@ Cost sum_of_individual_costs(const Problem& problem, AgentStopsCache& stops, con
   PrimalLowLevel low_level(problem, stops);
   Cost sum = 0;
   for (AgentIndex agent = 0; agent < problem.instance.agent_count(); ++agent)
-    if (low_level.meet(agent, limits))
+    if (low_level.plan_individually(agent, limits))
       sum += low_level.knows_best(agent) ? low_level.individual_cost(agent)
                                          : stops.of(agent).cost_to_go().relaxed_bound();
   return sum;

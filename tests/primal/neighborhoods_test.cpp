@@ -27,7 +27,7 @@ struct Planned {
     PrioritizedPlanning planning(instance.world(), low_level, paths, random, tuning);
     std::vector<AgentIndex> order;
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
-      EXPECT_TRUE(low_level.meet(agent, Limits()));
+      EXPECT_TRUE(low_level.plan_individually(agent, Limits()));
       order.push_back(agent);
     }
     planning.begin(order);
