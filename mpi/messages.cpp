@@ -20,7 +20,7 @@ void serialize(Archive& archive, SubproblemRecord& s) {
 
 template <class Archive>
 void serialize(Archive& archive, LearnedBound& fact) {
-  archive(fact.agents, fact.cost.at_least, fact.cost.exact, fact.cost.hard, fact.excess.excess,
+  archive(fact.agents, fact.cost.lower_bound, fact.cost.exact, fact.cost.hard, fact.excess.excess,
           fact.excess.exact, fact.excess.expansions);
 }
 

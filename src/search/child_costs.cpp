@@ -28,9 +28,9 @@ ChildCosts::Outcome ChildCosts::cost(NodeView& view, AgentIndex agent, const Con
                                      Time& cost) {
   const auto constraints = view.constraints_with(agent, more);
   const SubproblemTable::Id id = memory_.id(agent, view.order(agent), constraints);
-  SubproblemTable::Known known = memory_.known(id);
+  SubproblemTable::CostBound known = memory_.known(id);
   ++asked_;
-  if (known.exact || known.at_least > cutoff) {
+  if (known.exact || known.lower_bound > cutoff) {
     ++known_;
   } else {
     if (known.hard && label_limit < PathQuery::kUnlimited) return Outcome::kTooHard;
@@ -53,7 +53,7 @@ ChildCosts::Outcome ChildCosts::cost(NodeView& view, AgentIndex agent, const Con
     memory_.merge(id, known);
     if (known.hard) return Outcome::kTooHard;
   }
-  cost = known.at_least;
+  cost = known.lower_bound;
   return Outcome::kDone;
 }
 

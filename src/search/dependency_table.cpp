@@ -63,14 +63,14 @@ std::size_t DependencyTable::Part::bytes() const {
          listed_partners * kBytesPerPartner + all_groups.size() * kBytesPerGroup;
 }
 
-DependencyTable::Known DependencyTable::of_pair(Id first, Id second) const {
+DependencyTable::ExcessBound DependencyTable::of_pair(Id first, Id second) const {
   return parts_.with(parts_.part_of(first), [&](const Part& part) {
     const HashIndex::Number found = part.find(first, second);
-    return found == HashIndex::kNone ? Known() : part.pairs[found].known;
+    return found == HashIndex::kNone ? ExcessBound() : part.pairs[found].known;
   });
 }
 
-bool DependencyTable::merge_pair(Id first, Id second, AgentIndex agent, Known known) {
+bool DependencyTable::merge_pair(Id first, Id second, AgentIndex agent, ExcessBound known) {
   return merge(first, [&](Part& part) {
     HashIndex::Number at = part.find(first, second);
     const bool is_new = at == HashIndex::kNone;
@@ -79,8 +79,8 @@ bool DependencyTable::merge_pair(Id first, Id second, AgentIndex agent, Known kn
       part.pairs.push_back({first, second, {}});
       at = part.index.add(hash_of(first, second));
     }
-    const Known before = part.pairs[at].known;
-    const Known now = part.pairs[at].known = join(before, known);
+    const ExcessBound before = part.pairs[at].known;
+    const ExcessBound now = part.pairs[at].known = join(before, known);
     if (known.excess > 0) part.list({agent, second, now.excess}, first);
     return is_new || now != before;
   });
@@ -115,16 +115,16 @@ std::int32_t DependencyTable::Part::find_group(Id rarest, Id next,
   return -1;
 }
 
-DependencyTable::Known DependencyTable::of_group(const std::vector<Id>& subproblems) const {
+DependencyTable::ExcessBound DependencyTable::of_group(const std::vector<Id>& subproblems) const {
   const auto [rarest, next] = rarest_two(subproblems);
   return parts_.with(parts_.part_of(subproblems[rarest]), [&](const Part& part) {
     const auto found = part.find_group(subproblems[rarest], subproblems[next], subproblems);
-    return found < 0 ? Known() : part.all_groups[found].known;
+    return found < 0 ? ExcessBound() : part.all_groups[found].known;
   });
 }
 
 bool DependencyTable::merge_group(const std::vector<AgentIndex>& agents,
-                                  const std::vector<Id>& subproblems, Known known) {
+                                  const std::vector<Id>& subproblems, ExcessBound known) {
   GROVE_ASSERT(
       agents.size() > 2 && agents.size() == subproblems.size() && std::ranges::is_sorted(agents),
       "a group is its agents in ascending order, and their subproblems");
@@ -138,8 +138,8 @@ bool DependencyTable::merge_group(const std::vector<AgentIndex>& agents,
       part.groups.at(under).push_back({agents[next], subproblems[next], number});
       return true;
     }
-    Known& now = part.all_groups[found].known;
-    const Known before = std::exchange(now, join(now, known));
+    ExcessBound& now = part.all_groups[found].known;
+    const ExcessBound before = std::exchange(now, join(now, known));
     return now != before;
   });
 }

@@ -29,17 +29,17 @@ class DependencyTable {
  public:
   using Id = SubproblemTable::Id;
 
-  struct Known {
+  struct ExcessBound {
     Cost excess = 0;              // proven lower bound
     bool exact = false;           // conflict-free paths with this excess exist
     std::int32_t expansions = 0;  // effort spent on it
-    friend bool operator==(const Known&, const Known&) = default;
+    friend bool operator==(const ExcessBound&, const ExcessBound&) = default;
   };
   // Several agents, in ascending order.
   struct Group {
     std::vector<AgentIndex> agents;
     std::vector<Id> subproblems;
-    Known known;
+    ExcessBound known;
 
     // Does the group apply to a node whose subproblems are `now`, by AgentIndex?
     bool is_at(const std::vector<Id>& now) const {
@@ -55,23 +55,23 @@ class DependencyTable {
   };
 
   // The conjunction of two entries. It is commutative, so the order of merges does not matter.
-  static Known join(Known a, Known b) {
+  static ExcessBound join(ExcessBound a, ExcessBound b) {
     return {std::max(a.excess, b.excess), a.exact || b.exact, std::max(a.expansions, b.expansions)};
   }
 
   // `subproblems` numbers the subproblems and must outlive this object.
   explicit DependencyTable(const SubproblemTable& subproblems) : subproblems_(subproblems) {}
 
-  Known of_pair(Id first, Id second) const;
+  ExcessBound of_pair(Id first, Id second) const;
   // `agent` is the agent of `second`. merge_pair() and merge_group() return true if the table
   // changed.
-  bool merge_pair(Id first, Id second, AgentIndex agent, Known known);
+  bool merge_pair(Id first, Id second, AgentIndex agent, ExcessBound known);
   // Appends the partners of greater index with which the agent of `first` has positive excess.
   void partners(Id first, std::vector<Partner>& partners) const;
 
-  Known of_group(const std::vector<Id>& subproblems) const;
+  ExcessBound of_group(const std::vector<Id>& subproblems) const;
   bool merge_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& subproblems,
-                   Known known);
+                   ExcessBound known);
   // Calls use(group) once for each group that applies to a node with the subproblems `now`, by
   // AgentIndex. `use` must not call this object, and must copy what it keeps. Returns the number of
   // groups that were compared in full.
@@ -97,7 +97,7 @@ class DependencyTable {
   struct Pair {
     Id first;
     Id second;
-    Known known;
+    ExcessBound known;
   };
   // Lists of items by subproblem. The subproblems of a part have consecutive places.
   template <class Item>

@@ -22,9 +22,9 @@ namespace grove::detail {
 namespace {
 
 using Id = SubproblemTable::Id;
-using Known = DependencyTable::Known;
+using ExcessBound = DependencyTable::ExcessBound;
 
-bool says_something(const Known& known) {
+bool says_something(const ExcessBound& known) {
   return known.exact || known.excess > 0 || known.expansions > 0;
 }
 
@@ -63,7 +63,7 @@ class Collector {
     for (std::size_t a = 0; a < ids.size(); ++a)
       for (std::size_t b = a + 1; b < ids.size(); ++b) {
         if (!is_new_[a] && !is_new_[b]) continue;
-        const Known known = memory_.excesses.of_pair(ids[a], ids[b]);
+        const ExcessBound known = memory_.excesses.of_pair(ids[a], ids[b]);
         if (says_something(known))
           findings.push_back(
               {place, {static_cast<AgentIndex>(a), static_cast<AgentIndex>(b)}, known});

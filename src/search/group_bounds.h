@@ -18,7 +18,7 @@ namespace grove::detail {
 struct GroupBound {
   std::int32_t node = 0;           // index in the list of nodes
   std::vector<AgentIndex> agents;  // two or more, in ascending order
-  DependencyTable::Known known;
+  DependencyTable::ExcessBound known;
 };
 
 // Returns the entries of `memory` on pairs and groups of agents at these nodes, each entry at one

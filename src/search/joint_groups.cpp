@@ -44,7 +44,7 @@ std::int64_t JointGroups::work() const {
 }
 
 bool JointGroups::solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
-                        const Limits& limits, Known& known) {
+                        const Limits& limits, ExcessBound& known) {
   if (std::ssize(group) > tuning_.joint_group_agents) return true;
   abort_at_ = work() + tuning_.joint_group_work;
   for (Cost more = 1; !known.exact && known.excess <= slack; more *= 2) {
@@ -58,7 +58,7 @@ bool JointGroups::solve(const NodeView& view, std::span<const AgentIndex> group,
 
 JointGroups::Outcome JointGroups::solve_up_to(Cost max_excess, const NodeView& view,
                                               std::span<const AgentIndex> group,
-                                              const Limits& limits, Known& known) {
+                                              const Limits& limits, ExcessBound& known) {
   Cost apart = 0;
   std::vector<AgentGraph> graphs(group.size());
   for (std::size_t i = 0; i < group.size(); ++i) {

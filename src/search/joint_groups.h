@@ -17,7 +17,7 @@ namespace grove::detail {
 // argument is at the head of joint_groups.cpp. One thread at a time.
 class JointGroups {
  public:
-  using Known = DependencyTable::Known;
+  using ExcessBound = DependencyTable::ExcessBound;
 
   // All arguments must outlive this. `planner` may be shared with others of the same thread.
   JointGroups(const Instance& instance, const Tuning& tuning, PathPlanner& planner)
@@ -28,7 +28,7 @@ class JointGroups {
   // `view` and in ascending order. Stops at an excess above `slack`. Returns false if a limit was
   // reached.
   bool solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
-             const Limits& limits, Known& known);
+             const Limits& limits, ExcessBound& known);
 
   // Joint states expanded so far, and the effort of all calls in the unit of search/work.h.
   std::int64_t states() const { return states_; }
@@ -37,7 +37,7 @@ class JointGroups {
  private:
   enum class Outcome : std::uint8_t { kSolved, kAborted, kStopped };
   Outcome solve_up_to(Cost max_excess, const NodeView& view, std::span<const AgentIndex> group,
-                      const Limits& limits, Known& known);
+                      const Limits& limits, ExcessBound& known);
 
   const Instance& instance_;
   const Tuning& tuning_;

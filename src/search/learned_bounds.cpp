@@ -37,8 +37,8 @@ class Facts {
  public:
   Facts(const SharedCache& memory, const TreeIndex& trees) : memory_(memory), trees_(trees) {}
 
-  void add(std::span<const SubproblemTable::Id> ids, SubproblemTable::Known cost,
-           DependencyTable::Known excess) {
+  void add(std::span<const SubproblemTable::Id> ids, SubproblemTable::CostBound cost,
+           DependencyTable::ExcessBound excess) {
     LearnedBound fact{{}, cost, excess};
     for (const SubproblemTable::Id id : ids) {
       AgentSubproblem subproblem = memory_.subproblems.subproblem(id);
@@ -64,7 +64,7 @@ void require(bool possible) {
 
 void require_order(const LearnedBound& fact) {
   const auto& agents = fact.agents;
-  require(!agents.empty() && fact.excess.excess >= 0 && fact.cost.at_least >= 0 &&
+  require(!agents.empty() && fact.excess.excess >= 0 && fact.cost.lower_bound >= 0 &&
           std::ranges::adjacent_find(agents, std::greater_equal<>(), &SubproblemRecord::agent) ==
               agents.end());
 }

@@ -28,8 +28,8 @@ struct SubproblemRecord {
 // of their individual costs.
 struct LearnedBound {
   std::vector<SubproblemRecord> agents;  // one or more, in ascending order of `agent`
-  SubproblemTable::Known cost;           // if there is one agent
-  DependencyTable::Known excess;         // if there are several
+  SubproblemTable::CostBound cost;       // if there is one agent
+  DependencyTable::ExcessBound excess;   // if there are several
 
   // Expected benefit of sending this bound. It rises with the expansions that the bound took, is
   // higher if the excess is positive, and falls with the size of the constraints, because

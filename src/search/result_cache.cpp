@@ -40,7 +40,7 @@ void WorkerCache::turn_to(std::shared_ptr<SharedCache> common) {
   common_ = std::move(common);
 }
 
-SubproblemTable::Known WorkerCache::known(Id id) const {
+SubproblemTable::CostBound WorkerCache::known(Id id) const {
   const auto found = found_.costs.find(id);
   return found == found_.costs.end() ? common_->subproblems.known(id) : found->second;
 }
@@ -59,7 +59,7 @@ const Mdd* WorkerCache::paths(Id id, AgentIndex agent, const AgentSequencing& or
   return (found_.sets[id] = std::move(set)).get();
 }
 
-DependencyTable::Known WorkerCache::of_pair(Id first, Id second) const {
+DependencyTable::ExcessBound WorkerCache::of_pair(Id first, Id second) const {
   const auto same = [&](const CacheDelta::Pair& p) {
     return p.first == first && p.second == second;
   };
@@ -67,7 +67,8 @@ DependencyTable::Known WorkerCache::of_pair(Id first, Id second) const {
   return found == found_.pairs.end() ? common_->excesses.of_pair(first, second) : found->known;
 }
 
-void WorkerCache::merge_pair(Id first, Id second, AgentIndex agent, DependencyTable::Known known) {
+void WorkerCache::merge_pair(Id first, Id second, AgentIndex agent,
+                             DependencyTable::ExcessBound known) {
   found_.pairs.push_back({first, second, agent, known});
 }
 
@@ -78,16 +79,17 @@ void WorkerCache::partners(Id first, std::vector<DependencyTable::Partner>& part
       partners.push_back({p.agent, p.second, p.known.excess});
 }
 
-DependencyTable::Known WorkerCache::of_group(const std::vector<Id>& subproblems) const {
+DependencyTable::ExcessBound WorkerCache::of_group(const std::vector<Id>& subproblems) const {
   ++groups_asked_;
-  DependencyTable::Known known = common_->excesses.of_group(subproblems);
+  DependencyTable::ExcessBound known = common_->excesses.of_group(subproblems);
   for (const DependencyTable::Group& group : found_.groups)
     if (group.subproblems == subproblems) known = DependencyTable::join(known, group.known);
   return known;
 }
 
 void WorkerCache::merge_group(const std::vector<AgentIndex>& agents,
-                              const std::vector<Id>& subproblems, DependencyTable::Known known) {
+                              const std::vector<Id>& subproblems,
+                              DependencyTable::ExcessBound known) {
   found_.groups.push_back({agents, subproblems, known});
 }
 

@@ -26,9 +26,9 @@ struct CacheDelta {
     Id first;
     Id second;
     AgentIndex agent;
-    DependencyTable::Known known;
+    DependencyTable::ExcessBound known;
   };
-  std::unordered_map<Id, SubproblemTable::Known> costs;
+  std::unordered_map<Id, SubproblemTable::CostBound> costs;
   std::unordered_map<Id, MddCache::Set> sets;  // all that were requested
   // Searched linearly, because there are few at a time.
   std::vector<Pair> pairs;
@@ -38,7 +38,7 @@ struct CacheDelta {
 // Entries added to a SharedCache since the last call of take_new_entries(); see CacheDelta. A
 // value.
 struct NewEntries {
-  std::vector<std::pair<SubproblemTable::Id, SubproblemTable::Known>> costs;
+  std::vector<std::pair<SubproblemTable::Id, SubproblemTable::CostBound>> costs;
   std::vector<CacheDelta::Pair> pairs;
   std::vector<DependencyTable::Group> groups;
 };
@@ -112,8 +112,8 @@ class WorkerCache {
   // MDD queries so far, and those of them that the cache could answer.
   std::int64_t sets_asked() const { return sets_asked_; }
   std::int64_t sets_known() const { return sets_known_; }
-  SubproblemTable::Known known(Id id) const;
-  void merge(Id id, SubproblemTable::Known known) { found_.costs[id] = known; }
+  SubproblemTable::CostBound known(Id id) const;
+  void merge(Id id, SubproblemTable::CostBound known) { found_.costs[id] = known; }
 
   // MDD of a subproblem, built if it is not cached; empty if it would be too large. Returns nullptr
   // if a limit was reached. Valid until take_delta().
@@ -122,12 +122,12 @@ class WorkerCache {
 
   // As the methods of DependencyTable. Partners and groups come in any order and possibly
   // repeatedly.
-  DependencyTable::Known of_pair(Id first, Id second) const;
-  void merge_pair(Id first, Id second, AgentIndex agent, DependencyTable::Known known);
+  DependencyTable::ExcessBound of_pair(Id first, Id second) const;
+  void merge_pair(Id first, Id second, AgentIndex agent, DependencyTable::ExcessBound known);
   void partners(Id first, std::vector<DependencyTable::Partner>& partners) const;
-  DependencyTable::Known of_group(const std::vector<Id>& subproblems) const;
+  DependencyTable::ExcessBound of_group(const std::vector<Id>& subproblems) const;
   void merge_group(const std::vector<AgentIndex>& agents, const std::vector<Id>& subproblems,
-                   DependencyTable::Known known);
+                   DependencyTable::ExcessBound known);
   template <class Use>
   void groups_at(const std::vector<Id>& now, Use use) const {
     groups_asked_ += common_->excesses.groups_at(now, use);

@@ -108,7 +108,7 @@ std::size_t SubproblemTable::constraint_bytes(Id id) const {
   });
 }
 
-SubproblemTable::Known SubproblemTable::known(Id id) const {
+SubproblemTable::CostBound SubproblemTable::known(Id id) const {
   return parts_.with(parts_.part_of(id),
                      [&](const Part& part) { return part.entries[place_of(id)].known; });
 }
@@ -119,11 +119,11 @@ AgentSubproblem SubproblemTable::subproblem(Id id) const {
   });
 }
 
-bool SubproblemTable::merge(Id id, Known learnt) {
+bool SubproblemTable::merge(Id id, CostBound learnt) {
   return parts_.with(parts_.part_of(id), [&](Part& part) {
-    Known& known = part.entries[place_of(id)].known;
-    const Known before = known;
-    if (!known.exact && (learnt.exact || learnt.at_least > known.at_least)) known = learnt;
+    CostBound& known = part.entries[place_of(id)].known;
+    const CostBound before = known;
+    if (!known.exact && (learnt.exact || learnt.lower_bound > known.lower_bound)) known = learnt;
     known.hard = before.hard || learnt.hard;
     return known != before;
   });

@@ -33,11 +33,11 @@ class SubproblemTable {
  public:
   using Id = std::int32_t;
 
-  struct Known {
-    Time at_least = 0;   // no path costs less; kNever: no path exists
-    bool exact = false;  // a path of that cost exists, or `at_least` is kNever
-    bool hard = false;   // a computation of the cost was once aborted
-    friend bool operator==(const Known&, const Known&) = default;
+  struct CostBound {
+    Time lower_bound = 0;  // no path costs less; kNever: no path exists
+    bool exact = false;    // a path of that cost exists, or `lower_bound` is kNever
+    bool hard = false;     // a computation of the cost was once aborted
+    friend bool operator==(const CostBound&, const CostBound&) = default;
   };
 
   // Number of a subproblem, which is added if it is new. `constraints` must be in canonical order,
@@ -52,10 +52,10 @@ class SubproblemTable {
   // subproblem.
   std::size_t constraint_bytes(Id id) const;
 
-  Known known(Id id) const;
+  CostBound known(Id id) const;
   // Merges `known` into the entry; the stronger statement is kept. Returns true if the entry
   // changed.
-  bool merge(Id id, Known known);
+  bool merge(Id id, CostBound known);
 
   // Memory in use, in bytes (approximate).
   std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
@@ -63,7 +63,7 @@ class SubproblemTable {
  private:
   struct Entry {
     std::uint32_t first;  // offset of its key in `keys`
-    Known known;
+    CostBound known;
   };
   struct Part {
     std::vector<Entry> entries;

@@ -133,8 +133,8 @@ void WdgHeuristic::look_at(NodeView& view) {
 // The excess of a pair or group counts from the costs of its agents' paths at the node where it was
 // proven. It is valid at other nodes because the paths cost the same there; this is the check.
 bool WdgHeuristic::may_cost(AgentIndex agent, Time cost) const {
-  const SubproblemTable::Known known = memory_.known(subproblem_[agent]);
-  return known.exact ? cost == known.at_least : cost >= known.at_least;
+  const SubproblemTable::CostBound known = memory_.known(subproblem_[agent]);
+  return known.exact ? cost == known.lower_bound : cost >= known.lower_bound;
 }
 
 // Bounds the excess of every pair that conflicts at the node.
@@ -147,7 +147,7 @@ WdgHeuristic::Outcome WdgHeuristic::solve_conflicting(NodeView& view, Cost slack
   const auto first = static_cast<std::ptrdiff_t>(share * static_cast<double>(pairs.size()));
   std::rotate(pairs.begin(), pairs.begin() + first, pairs.end());
   for (const auto& [a, b] : pairs) {
-    Known known = this->known(a, b);
+    ExcessBound known = this->known(a, b);
     if (known.exact || known.excess > slack || known.expansions > 0) continue;
     if (work() >= abort_at_) return Outcome::kUnfinished;
     if (techniques_.has(Technique::kJointMdd) && known.excess == 0) {
@@ -190,7 +190,7 @@ WdgHeuristic::Outcome WdgHeuristic::solve_groups(NodeView& view, Cost slack, con
   for (const auto& group : groups_in_conflict(view)) {
     if (group.size() < 3 || std::ssize(group) > kMaxGroupAgents) continue;
     const auto subproblems = key(group);
-    Known known = memory_.of_group(subproblems);
+    ExcessBound known = memory_.of_group(subproblems);
     if (known.exact || known.expansions > 0) continue;
     if (work() >= abort_at_) return Outcome::kUnfinished;
     if (!solve(view, group, slack, tuning_.group_expansions, limits, known))
@@ -231,7 +231,7 @@ std::vector<SubproblemTable::Id> WdgHeuristic::key(std::span<const AgentIndex> g
 
 // Returns false if a limit was reached.
 bool WdgHeuristic::solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
-                         std::int64_t max_expansions, const Limits& limits, Known& known) {
+                         std::int64_t max_expansions, const Limits& limits, ExcessBound& known) {
   if (!solve_by_splits(view.node(), group, slack, max_expansions, limits, known)) return false;
   if (known.exact || known.excess > slack || !techniques_.has(Technique::kJointGroups)) return true;
   const Cost by_splits = known.excess;
@@ -243,7 +243,7 @@ bool WdgHeuristic::solve(const NodeView& view, std::span<const AgentIndex> group
 
 bool WdgHeuristic::solve_by_splits(const NodePtr& node, std::span<const AgentIndex> group,
                                    Cost slack, std::int64_t max_expansions, const Limits& limits,
-                                   Known& known) {
+                                   ExcessBound& known) {
   const Cost base = node->cost();
   // If every branch is pruned because no path exists, the result holds for any cutoff.
   const Cost closed = base + slack + 1 >= kInfiniteCost ? kInfiniteCost : slack + 1;

@@ -71,7 +71,7 @@ class WdgHeuristic {
   std::int64_t optimal_nodes() const { return pair_brancher_.optimal_nodes(); }
 
  private:
-  using Known = DependencyTable::Known;
+  using ExcessBound = DependencyTable::ExcessBound;
 
   struct Open {
     Cost cost;
@@ -81,7 +81,7 @@ class WdgHeuristic {
   void look_at(NodeView& view);
   bool may_cost(AgentIndex agent, Time cost) const;
   Outcome compute_weights(NodeView& view, Cost slack, const Limits& limits);
-  Known known(AgentIndex a, AgentIndex b) const {
+  ExcessBound known(AgentIndex a, AgentIndex b) const {
     return memory_.of_pair(subproblem_[a], subproblem_[b]);
   }
   Outcome solve_conflicting(NodeView& view, Cost slack, double share, const Limits& limits);
@@ -92,9 +92,9 @@ class WdgHeuristic {
   std::vector<std::vector<AgentIndex>> groups_in_conflict(const NodeView& view) const;
   std::vector<SubproblemTable::Id> key(std::span<const AgentIndex> group) const;
   bool solve(const NodeView& view, std::span<const AgentIndex> group, Cost slack,
-             std::int64_t max_expansions, const Limits& limits, Known& known);
+             std::int64_t max_expansions, const Limits& limits, ExcessBound& known);
   bool solve_by_splits(const NodePtr& node, std::span<const AgentIndex> group, Cost slack,
-                       std::int64_t max_expansions, const Limits& limits, Known& known);
+                       std::int64_t max_expansions, const Limits& limits, ExcessBound& known);
   void collect(std::vector<GroupExcess>& statements);
   void log_splits(const Open& from, Cost base, Cost closed);
   void log_lemma(const NodeView& view, std::span<const AgentIndex> group, Cost excess,

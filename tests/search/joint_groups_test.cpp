@@ -16,7 +16,7 @@
 namespace grove::detail {
 namespace joint_groups_test {
 
-using Known = JointGroups::Known;
+using ExcessBound = JointGroups::ExcessBound;
 constexpr std::size_t kMaxPaths = 1500;
 
 SearchOptions options_of(std::uint64_t seed) {
@@ -84,13 +84,13 @@ TEST(JointGroups, ExcessEqualsThatOfAnExhaustiveSearch) {
     if (!truth) continue;
     Tuning tuning;
     JointGroups groups(s.instance, tuning, s.planner);
-    Known known;
+    ExcessBound known;
     ASSERT_TRUE(groups.solve(s.view, group, slack, s.limits, known));
     ASSERT_EQ(known.excess, *truth);
     ASSERT_EQ(known.exact, *truth <= slack);
     ++(known.exact ? exact : above);
     tuning.joint_group_work = s.below(40);
-    Known less;
+    ExcessBound less;
     ASSERT_TRUE(groups.solve(s.view, group, slack, s.limits, less));
     ASSERT_LE(less.excess, *truth);
     if (less.exact) {

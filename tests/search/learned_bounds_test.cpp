@@ -100,8 +100,8 @@ struct TwoTrees {
     trees[1].orders = {orders[0], orders[2]};
     for (const Tree& tree : trees) known.add(tree);
   }
-  DependencyTable::Known of_pair(std::size_t first, std::size_t second,
-                                 const std::vector<Constraint>& constraints) {
+  DependencyTable::ExcessBound of_pair(std::size_t first, std::size_t second,
+                                       const std::vector<Constraint>& constraints) {
     return memory.excesses.of_pair(memory.subproblems.id(0, *orders[first], {}),
                                    memory.subproblems.id(1, *orders[second], constraints));
   }

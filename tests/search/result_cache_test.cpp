@@ -10,9 +10,9 @@
 namespace grove::detail {
 namespace result_cache_test {
 
-using Known = DependencyTable::Known;
+using ExcessBound = DependencyTable::ExcessBound;
 
-bool same(const Known& a, const Known& b) {
+bool same(const ExcessBound& a, const ExcessBound& b) {
   return a.excess == b.excess && a.exact == b.exact && a.expansions == b.expansions;
 }
 
@@ -32,12 +32,12 @@ std::vector<DependencyTable::Group> groups_at(const auto& memory,
 TEST(DependencyTable, KeepsTheStrongerBound) {
   const SubproblemTable subproblems;
   DependencyTable table(subproblems);
-  EXPECT_TRUE(same(table.of_pair(3, 5), Known()));
+  EXPECT_TRUE(same(table.of_pair(3, 5), ExcessBound()));
   table.merge_pair(3, 5, 1, {2, false, 16});
   table.merge_pair(3, 5, 1, {1, true, 4});
   EXPECT_TRUE(same(table.of_pair(3, 5), {2, true, 16}));
-  EXPECT_TRUE(same(table.of_pair(5, 3), Known()));
-  EXPECT_TRUE(same(table.of_pair(3, 6), Known()));
+  EXPECT_TRUE(same(table.of_pair(5, 3), ExcessBound()));
+  EXPECT_TRUE(same(table.of_pair(3, 6), ExcessBound()));
 }
 
 TEST(DependencyTable, ListsPartnersWithExcessOnce) {
@@ -82,7 +82,7 @@ TEST_F(DependencyTableGroups, AreIdentifiedByTheirSubproblems) {
   EXPECT_FALSE(table_.merge_group({0, 2, 4}, some, {2, false, 2}));
   EXPECT_EQ(table_.bytes(), bytes);
   EXPECT_TRUE(same(table_.of_group(some), {3, false, 8}));
-  EXPECT_TRUE(same(table_.of_group(others), Known()));
+  EXPECT_TRUE(same(table_.of_group(others), ExcessBound()));
   table_.merge_group({0, 2, 4}, others, {1, true, 1});
   EXPECT_GT(table_.bytes(), bytes);
   EXPECT_TRUE(same(table_.of_group(some), {3, false, 8}));
@@ -193,23 +193,23 @@ TEST(WorkerCache, IsPrivateUntilPublished) {
   s.memory.merge(id, {7, true});
   s.memory.merge_pair(1, 2, 1, {3, true, 1});
   s.memory.merge_group({0, 1, 2}, trio, {5, false, 1});
-  EXPECT_EQ(s.memory.known(id).at_least, 7);
+  EXPECT_EQ(s.memory.known(id).lower_bound, 7);
   EXPECT_EQ(s.memory.of_pair(1, 2).excess, 3);
   EXPECT_EQ(s.memory.of_group(trio).excess, 5);
   EXPECT_EQ(groups_at(s.memory, trio).size(), 1u);
   EXPECT_TRUE(groups_at(s.memory, elsewhere).empty());
   EXPECT_EQ(partners_of(s.memory, 1).size(), 1u);
-  EXPECT_EQ(s.other.known(id).at_least, 0);
+  EXPECT_EQ(s.other.known(id).lower_bound, 0);
   EXPECT_EQ(s.other.of_pair(1, 2).excess, 0);
   EXPECT_EQ(s.other.of_group(trio).excess, 0);
   EXPECT_TRUE(groups_at(s.other, trio).empty());
   EXPECT_TRUE(partners_of(s.other, 1).empty());
 
   const CacheDelta found = s.memory.take_delta();
-  EXPECT_EQ(s.memory.known(id).at_least, 0);
+  EXPECT_EQ(s.memory.known(id).lower_bound, 0);
   s.memory.common()->merge(found);
   for (const WorkerCache* memory : {&s.memory, &s.other}) {
-    EXPECT_EQ(memory->known(id).at_least, 7);
+    EXPECT_EQ(memory->known(id).lower_bound, 7);
     EXPECT_EQ(memory->of_pair(1, 2).excess, 3);
     EXPECT_EQ(memory->of_group(trio).excess, 5);
     EXPECT_EQ(groups_at(*memory, trio).size(), 1u);

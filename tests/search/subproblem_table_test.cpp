@@ -38,7 +38,7 @@ TEST(SubproblemTable, IdIsUniquePerAgentOrderAndConstraints) {
     const Key key{agent, &order, constraints};
     if (!keys.contains(id)) {
       EXPECT_TRUE(std::ranges::none_of(keys, [&](const auto& k) { return k.second == key; }));
-      EXPECT_EQ(subproblems.known(id), SubproblemTable::Known());
+      EXPECT_EQ(subproblems.known(id), SubproblemTable::CostBound());
       keys.emplace(id, key);
       subproblems.merge(id, {id, true});
     }
@@ -48,7 +48,7 @@ TEST(SubproblemTable, IdIsUniquePerAgentOrderAndConstraints) {
     EXPECT_EQ(subproblem.order, &order);
     EXPECT_EQ(subproblem.constraints, PackedConstraints(constraints));
     EXPECT_EQ(subproblems.id(subproblem), id);
-    EXPECT_EQ(subproblems.known(id).at_least, id);
+    EXPECT_EQ(subproblems.known(id).lower_bound, id);
   }
   EXPECT_GT(keys.size(), 500u);
   EXPECT_GT(subproblems.bytes(), keys.size() * (sizeof(AgentIndex) + sizeof(AgentSequencing*)));
@@ -60,10 +60,10 @@ TEST(SubproblemTable, KeepsTheStrongerBound) {
   const SubproblemTable::Id id = subproblems.id(0, order, {});
   subproblems.merge(id, {5, false});
   subproblems.merge(id, {3, false});
-  EXPECT_EQ(subproblems.known(id), (SubproblemTable::Known{5, false}));
+  EXPECT_EQ(subproblems.known(id), (SubproblemTable::CostBound{5, false}));
   subproblems.merge(id, {7, true});
   subproblems.merge(id, {6, false});
-  EXPECT_EQ(subproblems.known(id), (SubproblemTable::Known{7, true}));
+  EXPECT_EQ(subproblems.known(id), (SubproblemTable::CostBound{7, true}));
 }
 
 TEST(SubproblemTable, IdsAreTheSameForAllThreads) {
@@ -85,7 +85,7 @@ TEST(SubproblemTable, IdsAreTheSameForAllThreads) {
   threads.clear();
   for (int thread = 1; thread < kThreads; ++thread)
     EXPECT_EQ(ids[static_cast<std::size_t>(thread)], ids[0]);
-  for (const SubproblemTable::Id id : ids[0]) EXPECT_EQ(subproblems.known(id).at_least, id);
+  for (const SubproblemTable::Id id : ids[0]) EXPECT_EQ(subproblems.known(id).lower_bound, id);
 }
 
 TEST(SubproblemTable, CanonicalListsAreSortedAndUnique) {
