@@ -20,8 +20,8 @@ void serialize(Archive& archive, SubproblemRecord& s) {
 
 template <class Archive>
 void serialize(Archive& archive, LearnedBound& fact) {
-  archive(fact.agents, fact.cost.lower_bound, fact.cost.exact, fact.cost.hard, fact.excess.excess,
-          fact.excess.exact, fact.excess.expansions);
+  archive(fact.agents, fact.cost.lower_bound, fact.cost.exact, fact.cost.was_aborted,
+          fact.excess.excess, fact.excess.exact, fact.excess.expansions);
 }
 
 // Writes the number without compression. The memory of a process differs from run to run, so with a

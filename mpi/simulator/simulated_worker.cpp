@@ -25,9 +25,9 @@ void SimulatedWorker::begin(double now, Expander& expander) {
   if (!turn_) return;
   const double before = expander.whole_work();
   const double before_s = processor_time();
-  expander.exchange(kept_);
+  expander.swap_cache(agent_caches_);
   worker_.perform(*turn_, expander);
-  expander.exchange(kept_);
+  expander.swap_cache(agent_caches_);
   for (auto& [id, set] : turn_->found.sets)
     if (set.use_count() == 1) set = sets_.one_of(set);  // just built
   // Not too early: a simulated rank has one worker, so no other worker of the rank reads the

@@ -66,7 +66,7 @@ class SimulatedWorker {
   const Machine& machine_;
   MddInterner& sets_;
   std::optional<Worker::WorkItem> turn_;  // nullopt: not busy
-  Expander::Kept kept_;                   // per-agent data that an expander of its own would keep
+  Expander::AgentCaches agent_caches_;    // per-agent data that an expander of its own would keep
   double began_ = 0;
   double busy_until_ = 0;
   Tally tally_;

@@ -33,7 +33,7 @@ ChildCosts::Outcome ChildCosts::cost(NodeView& view, AgentIndex agent, const Con
   if (known.exact || known.lower_bound > cutoff) {
     ++known_;
   } else {
-    if (known.hard && label_limit < PathQuery::kUnlimited) return Outcome::kTooHard;
+    if (known.was_aborted && label_limit < PathQuery::kUnlimited) return Outcome::kTooHard;
     const PathQuery query{.constraints = constraints, .cutoff = cutoff, .label_limit = label_limit};
     switch (planner_.find(agent, view.order(agent), query, limits, path_)) {
       case PathOutcome::kFound:
@@ -47,11 +47,11 @@ ChildCosts::Outcome ChildCosts::cost(NodeView& view, AgentIndex agent, const Con
         break;
       case PathOutcome::kStopped:
         if (limits.stop_requested()) return Outcome::kStopped;
-        known.hard = true;
+        known.was_aborted = true;
         break;
     }
     memory_.merge(id, known);
-    if (known.hard) return Outcome::kTooHard;
+    if (known.was_aborted) return Outcome::kTooHard;
   }
   cost = known.lower_bound;
   return Outcome::kDone;

@@ -100,14 +100,14 @@ class Expander {
   // Continues with another shared cache, possibly an empty one.
   void turn_to(std::shared_ptr<SharedCache> memory) { memory_.turn_to(std::move(memory)); }
   const std::shared_ptr<SharedCache>& memory() const { return memory_.common(); }
-  // Per-agent data kept between nodes; see NodeView::exchange.
-  struct Kept {
-    NodeView::Kept of_nodes;
-    NodeView::Kept of_groups;
+  // Per-agent data cache between nodes; see NodeView::swap_cache.
+  struct AgentCaches {
+    NodeView::AgentCache of_nodes;
+    NodeView::AgentCache of_groups;
   };
-  void exchange(Kept& kept) {
-    view_.exchange(kept.of_nodes);
-    dependencies_.exchange(kept.of_groups);
+  void swap_cache(AgentCaches& cache) {
+    view_.swap_cache(cache.of_nodes);
+    dependencies_.swap_cache(cache.of_groups);
   }
 
  private:

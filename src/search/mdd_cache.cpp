@@ -39,8 +39,7 @@ MddCache::Set MddCache::make(PathPlanner& planner, AgentIndex agent, const Agent
                              std::span<const Constraint> constraints, Time cost,
                              std::size_t max_nodes, const Limits& limits) {
   Mdd paths;
-  const auto outcome =
-      planner.optimal_paths(agent, order, constraints, cost, max_nodes, limits, paths);
+  const auto outcome = planner.mdd(agent, order, constraints, cost, max_nodes, limits, paths);
   if (outcome == MddBuilder::Outcome::kStopped) return nullptr;
   return std::make_shared<const Mdd>(std::move(paths));
 }

@@ -28,15 +28,16 @@ void NodeView::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
 // Updates only agents whose constraints differ from those at the last node; most have the same.
 void NodeView::look_at_constraints() {
   node_->constraints(constraints_);
-  for (auto* by_agent : {&kept_.node_constraints, &kept_.constraints})
+  for (auto* by_agent : {&agent_cache_.node_constraints, &agent_cache_.constraints})
     by_agent->resize(constraints_.size());
-  kept_.subproblems.resize(constraints_.size());
+  agent_cache_.subproblems.resize(constraints_.size());
   for (const AgentIndex agent : scope_) {
-    if (constraints_[agent] == kept_.node_constraints[agent]) continue;
-    kept_.constraints[agent] = constraints_[agent];
-    canonical(kept_.constraints[agent]);
-    kept_.subproblems[agent] = {};
-    std::swap(constraints_[agent], kept_.node_constraints[agent]);  // last: the rest may throw
+    if (constraints_[agent] == agent_cache_.node_constraints[agent]) continue;
+    agent_cache_.constraints[agent] = constraints_[agent];
+    canonical(agent_cache_.constraints[agent]);
+    agent_cache_.subproblems[agent] = {};
+    std::swap(constraints_[agent],
+              agent_cache_.node_constraints[agent]);  // last: the rest may throw
   }
 }
 
@@ -47,15 +48,16 @@ void NodeView::find_conflicts() {
 
 SubproblemTable::Id NodeView::subproblem(AgentIndex agent) {
   GROVE_ASSERT(is_in_scope(agent), "of others nothing is kept up to date");
-  Kept::KnownSituation& known = kept_.subproblems[agent];
+  AgentCache::CachedSubproblem& known = agent_cache_.subproblems[agent];
   const AgentSequencing& order = this->order(agent);
   if (known.order != &order || known.numbering != memory_.numbering())
-    known = {&order, memory_.numbering(), memory_.id(agent, order, kept_.constraints[agent])};
+    known = {&order, memory_.numbering(),
+             memory_.id(agent, order, agent_cache_.constraints[agent])};
   return known.id;
 }
 
 std::span<const Constraint> NodeView::constraints_with(AgentIndex agent, const Constraint& more) {
-  extended_ = kept_.constraints[agent];
+  extended_ = agent_cache_.constraints[agent];
   add_to_canonical(extended_, more);
   return extended_;
 }

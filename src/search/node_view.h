@@ -20,12 +20,12 @@ namespace grove::detail {
 // with a few agents it is CBS on these, under the node's constraints. One thread at a time.
 class NodeView {
  public:
-  // Per-agent data kept from one node to the next, because most agents have the same constraints at
-  // both.
-  class Kept {
+  // Per-agent data other from one node to the next, because most agents have the same constraints
+  // at both.
+  class AgentCache {
     friend class NodeView;
 
-    struct KnownSituation {
+    struct CachedSubproblem {
       const AgentSequencing* order = nullptr;  // nullptr: unknown
       std::int64_t numbering = 0;              // WorkerCache::numbering()
       SubproblemTable::Id id = 0;
@@ -34,7 +34,7 @@ class NodeView {
     // node.
     std::vector<std::vector<Constraint>> constraints;       // in canonical order
     std::vector<std::vector<Constraint>> node_constraints;  // in the order of the node
-    std::vector<KnownSituation> subproblems;
+    std::vector<CachedSubproblem> subproblems;
   };
 
   // All arguments must outlive this. `memory` may be shared with others of the same thread.
@@ -46,7 +46,7 @@ class NodeView {
   void leave() { node_ = nullptr; }
   // Swaps the per-agent data between two nodes. So one view can serve several workers as if each
   // had its own view: the caller keeps the data of each and swaps them in.
-  void exchange(Kept& kept) { std::swap(kept, kept_); }
+  void swap_cache(AgentCache& other) { std::swap(other, agent_cache_); }
 
   const NodePtr& node() const { return node_; }
   std::span<const AgentIndex> scope() const { return scope_; }
@@ -54,8 +54,8 @@ class NodeView {
   // Of an agent in scope: what the tree fixes about it, and its constraints in canonical order.
   const AgentSequencing& order(AgentIndex agent) const { return *node_->tree().orders[agent]; }
   std::span<const Constraint> constraints(AgentIndex agent) const {
-    GROVE_ASSERT(is_in_scope(agent), "of others nothing is kept up to date");
-    return kept_.constraints[agent];
+    GROVE_ASSERT(is_in_scope(agent), "of others nothing is other up to date");
+    return agent_cache_.constraints[agent];
   }
   SubproblemTable::Id subproblem(AgentIndex agent);
   // Its constraints and `more`, in canonical order. Valid until the next call.
@@ -97,7 +97,7 @@ class NodeView {
   NodePtr node_;
   std::vector<AgentIndex> scope_;
   std::vector<Path> paths_;  // by AgentIndex
-  Kept kept_;
+  AgentCache agent_cache_;
   std::vector<std::vector<Constraint>> constraints_;
   std::vector<Conflict> conflicts_;
   std::vector<AgentIndex> rerouted_;

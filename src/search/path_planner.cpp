@@ -24,10 +24,9 @@ PathOutcome PathPlanner::find(AgentIndex agent, const AgentSequencing& order, Pa
   return free_->find(free_goals(agent, order), query, limits, path);
 }
 
-MddBuilder::Outcome PathPlanner::optimal_paths(AgentIndex agent, const AgentSequencing& order,
-                                               std::span<const Constraint> constraints, Time cost,
-                                               std::size_t max_nodes, const Limits& limits,
-                                               Mdd& paths) {
+MddBuilder::Outcome PathPlanner::mdd(AgentIndex agent, const AgentSequencing& order,
+                                     std::span<const Constraint> constraints, Time cost,
+                                     std::size_t max_nodes, const Limits& limits, Mdd& paths) {
   return optimal_.build(free_goals(agent, order), constraints, cost, max_nodes, limits, paths);
 }
 

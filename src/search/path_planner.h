@@ -32,9 +32,9 @@ class PathPlanner {
                    const Limits& limits, Path& path);
 
   // As MddBuilder::build().
-  MddBuilder::Outcome optimal_paths(AgentIndex agent, const AgentSequencing& order,
-                                    std::span<const Constraint> constraints, Time cost,
-                                    std::size_t max_nodes, const Limits& limits, Mdd& paths);
+  MddBuilder::Outcome mdd(AgentIndex agent, const AgentSequencing& order,
+                          std::span<const Constraint> constraints, Time cost, std::size_t max_nodes,
+                          const Limits& limits, Mdd& paths);
 
   // As TimeExpandedGraphs::make().
   TimeExpandedGraphs::Outcome timed_graph(AgentIndex agent, const AgentSequencing& order,

@@ -124,7 +124,7 @@ bool SubproblemTable::merge(Id id, CostBound learnt) {
     CostBound& known = part.entries[place_of(id)].known;
     const CostBound before = known;
     if (!known.exact && (learnt.exact || learnt.lower_bound > known.lower_bound)) known = learnt;
-    known.hard = before.hard || learnt.hard;
+    known.was_aborted = before.was_aborted || learnt.was_aborted;
     return known != before;
   });
 }

@@ -73,7 +73,7 @@ WdgHeuristic::WdgHeuristic(const Problem& problem, const SearchOptions& options,
       memory_(memory),
       pair_view_(problem, options, memory),
       pair_brancher_(problem, options, planner, memory),
-      pair_dependency_(problem.instance.world()),
+      joint_mdd_search_(problem.instance.world()),
       joint_groups_(problem.instance, tuning_, planner),
       subproblem_(static_cast<std::size_t>(agents_)) {}
 
@@ -169,17 +169,17 @@ WdgHeuristic::Outcome WdgHeuristic::solve_conflicting(NodeView& view, Cost slack
 // Tests whether both agents can keep their costs. Returns nullopt if a limit was reached.
 std::optional<Dependence> WdgHeuristic::compare(NodeView& view, AgentIndex a, AgentIndex b,
                                                 const Limits& limits) {
-  const Mdd* of_a = optimal_paths(view, a, limits);
-  const Mdd* of_b = optimal_paths(view, b, limits);
+  const Mdd* of_a = mdd(view, a, limits);
+  const Mdd* of_b = mdd(view, b, limits);
   if (!of_a || !of_b) return std::nullopt;
   if (of_a->empty() || of_b->empty()) return Dependence::kUnknown;
-  const Dependence dependence = pair_dependency_.find(
+  const Dependence dependence = joint_mdd_search_.find(
       *of_a, *of_b, static_cast<std::size_t>(tuning_.joint_mdd_nodes), limits);
   if (limits.stop_requested()) return std::nullopt;
   return dependence;
 }
 
-const Mdd* WdgHeuristic::optimal_paths(NodeView& view, AgentIndex agent, const Limits& limits) {
+const Mdd* WdgHeuristic::mdd(NodeView& view, AgentIndex agent, const Limits& limits) {
   const Time cost = view.cost_of(agent);
   return memory_.paths(subproblem_[agent], agent, view.order(agent), view.constraints(agent), cost,
                        limits);

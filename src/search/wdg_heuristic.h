@@ -62,10 +62,10 @@ class WdgHeuristic {
   // Counters since construction: expansions for pairs and groups, pairs of places compared in joint
   // MDDs, and below, the counters of the view and the brancher of pairs and groups.
   std::int64_t expansions() const { return expansions_; }
-  std::int64_t joint_mdd_nodes() const { return pair_dependency_.pairs(); }
+  std::int64_t joint_mdd_nodes() const { return joint_mdd_search_.pairs(); }
   std::int64_t steps() const { return pair_view_.steps(); }
-  // As NodeView::exchange(), for the view of pairs and groups.
-  void exchange(NodeView::Kept& kept) { pair_view_.exchange(kept); }
+  // As NodeView::swap_cache(), for the view of pairs and groups.
+  void swap_cache(NodeView::AgentCache& cache) { pair_view_.swap_cache(cache); }
   // Solver of groups by joint search.
   const JointGroups& joint_groups() const { return joint_groups_; }
   std::int64_t optimal_nodes() const { return pair_brancher_.optimal_nodes(); }
@@ -87,7 +87,7 @@ class WdgHeuristic {
   Outcome solve_conflicting(NodeView& view, Cost slack, double share, const Limits& limits);
   std::optional<Dependence> compare(NodeView& view, AgentIndex a, AgentIndex b,
                                     const Limits& limits);
-  const Mdd* optimal_paths(NodeView& view, AgentIndex agent, const Limits& limits);
+  const Mdd* mdd(NodeView& view, AgentIndex agent, const Limits& limits);
   Outcome solve_groups(NodeView& view, Cost slack, const Limits& limits);
   std::vector<std::vector<AgentIndex>> groups_in_conflict(const NodeView& view) const;
   std::vector<SubproblemTable::Id> key(std::span<const AgentIndex> group) const;
@@ -111,7 +111,7 @@ class WdgHeuristic {
   WorkerCache& memory_;
   NodeView pair_view_;  // of a pair or group
   Brancher pair_brancher_;
-  JointMddSearch pair_dependency_;
+  JointMddSearch joint_mdd_search_;
   JointGroups joint_groups_;
   std::vector<SubproblemTable::Id> subproblem_;  // by AgentIndex, at the node
   std::vector<Open> open_;  // unsorted; the search takes the node of least cost

@@ -160,7 +160,7 @@ TEST(Expander, OneExpanderServesTwoWorkersLikeTwoExpanders) {
   const NodePtr root = forest.next_root();
   struct Worker {
     std::shared_ptr<SharedCache> memory = std::make_shared<SharedCache>();
-    Expander::Kept kept;
+    Expander::AgentCaches caches;
   };
   // Expands with `expander_of` (worker 0 or 1); with `exchanges` the agent caches of the workers
   // are swapped in and out. Returns the number of nodes and of subproblems.
@@ -171,13 +171,13 @@ TEST(Expander, OneExpanderServesTwoWorkersLikeTwoExpanders) {
       Worker& worker = workers[i % 2];
       Expander& expander = expander_of(i % 2);
       expander.turn_to(worker.memory);
-      if (exchanges) expander.exchange(worker.kept);
+      if (exchanges) expander.swap_cache(worker.caches);
       Expansion expansion;
       do {
         expansion = expander.expand(nodes[i], kInfiniteCost, limits);
         expander.publish();
       } while (expansion.unfinished);
-      if (exchanges) expander.exchange(worker.kept);
+      if (exchanges) expander.swap_cache(worker.caches);
       for (NodePtr& child : expansion.children) nodes.push_back(std::move(child));
     }
     return std::pair(
