@@ -285,7 +285,8 @@ void Rank::speak_of_prices() {
 void Rank::speak_of_facts(double now) {
   if (!bound_broadcast_.is_on()) return;
   const auto memory = search_.memory();
-  for (const LearnedBound& fact : facts_of(memory->take_new_entries(), *memory, trees_of_facts_))
+  for (const LearnedBound& fact :
+       learned_bounds_of(memory->take_new_entries(), *memory, trees_of_facts_))
     bound_broadcast_.add(fact);
   for (auto& [rank, facts] : bound_broadcast_.due(now)) {
     facts_sent_ += std::ssize(facts.facts);

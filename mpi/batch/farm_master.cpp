@@ -122,7 +122,7 @@ void FarmMaster::answer() {
 void FarmMaster::assign_next(int leader) {
   const std::size_t run = todo_[next_++];
   const Entry& entry = entries_[run];
-  table_.note_begun(runs_[run]);
+  table_.mark_started(runs_[run]);
   under_way_[leader] = {entry.id, seconds()};
   tell(leader, Assignment{entry});
 }

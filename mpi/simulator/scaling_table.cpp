@@ -45,7 +45,7 @@ void count_messages(const SimulatedRun& run, ScalingRow& row) {
   row.coordinator_wait_s = ratio(coordinator.waited_s, static_cast<double>(coordinator.received));
 }
 
-void weigh_loads(const SimulatedRun& run, ScalingRow& row) {
+void measure_load_balance(const SimulatedRun& run, ScalingRow& row) {
   double max_s = 0;
   std::int64_t working = 0;
   for (const SimulatedRun::Rank& rank : run.ranks) {
@@ -81,7 +81,7 @@ ScalingRow scaling_row(const SimulatedRun& run, const SimulatedRun& alone) {
     row.expanding_overhead = growth(row.expanding_s, expanding_of(alone));
   }
   count_messages(run, row);
-  weigh_loads(run, row);
+  measure_load_balance(run, row);
   return row;
 }
 

@@ -13,10 +13,10 @@ namespace {
 using InstanceKey = std::pair<std::string, std::string>;  // its id and digest
 
 // The rows with the strongest results on an instance; nullptr: there is none.
-struct Known {
-  const Row* cheapest = nullptr;  // the cheapest plan that was re-checked
-  const Row* highest = nullptr;   // the highest lower bound that Grove has proven
-  const Row* hopeless = nullptr;  // Grove has proven that there is no plan
+struct BestResults {
+  const Row* cheapest = nullptr;    // the cheapest plan that was re-checked
+  const Row* highest = nullptr;     // the highest lower bound that Grove has proven
+  const Row* infeasible = nullptr;  // Grove has proven that there is no plan
 };
 
 InstanceKey key_of(const Row& row) {
@@ -31,23 +31,23 @@ bool has_proof(const Row& row) {
   return row.solver.empty() && row.outcome.lower_bound;
 }
 
-std::map<InstanceKey, Known> known_of(std::span<const Row> rows) {
-  std::map<InstanceKey, Known> all;
+std::map<InstanceKey, BestResults> best_results(std::span<const Row> rows) {
+  std::map<InstanceKey, BestResults> all;
   for (const Row& row : rows) {
-    Known& known = all[key_of(row)];
+    BestResults& known = all[key_of(row)];
     const Outcome& outcome = row.outcome;
     if (outcome.cost && (!known.cheapest || *outcome.cost < *known.cheapest->outcome.cost))
       known.cheapest = &row;
     if (has_proof(row) &&
         (!known.highest || *outcome.lower_bound > *known.highest->outcome.lower_bound))
       known.highest = &row;
-    if (says_infeasible(row)) known.hopeless = &row;
+    if (says_infeasible(row)) known.infeasible = &row;
   }
   return all;
 }
 
 // The contradiction to the claimed cost; empty: none is known.
-std::string against_cost(const Row& row, const Known& known) {
+std::string against_cost(const Row& row, const BestResults& known) {
   const Outcome& outcome = row.outcome;
   if (!outcome.claimed_cost) return "";
   const Cost claimed = *outcome.claimed_cost;
@@ -62,19 +62,20 @@ std::string against_cost(const Row& row, const Known& known) {
   return "";
 }
 
-std::string against_bound(std::optional<Cost> bound, std::string_view verb, const Known& known) {
+std::string against_bound(std::optional<Cost> bound, std::string_view verb,
+                          const BestResults& known) {
   if (!bound || !known.cheapest || *bound <= *known.cheapest->outcome.cost) return "";
   return fmt::format("{} a lower bound of {}, but {} has a plan that costs {}", verb, *bound,
                      known.cheapest->run.settings.method, *known.cheapest->outcome.cost);
 }
 
-std::string against_plan(const Row& row, const Known& known) {
-  if (row.outcome.status != kClaimed || !known.hopeless) return "";
+std::string against_plan(const Row& row, const BestResults& known) {
+  if (row.outcome.status != kClaimed || !known.infeasible) return "";
   return fmt::format("claims a plan, but {} has proven that there is none",
-                     known.hopeless->run.settings.method);
+                     known.infeasible->run.settings.method);
 }
 
-std::string against_despair(const Row& row, const Known& known) {
+std::string against_infeasibility(const Row& row, const BestResults& known) {
   if (!says_infeasible(row) || !known.cheapest) return "";
   return fmt::format("proves that there is no plan, but {} has one that costs {}",
                      known.cheapest->run.settings.method, *known.cheapest->outcome.cost);
@@ -83,13 +84,13 @@ std::string against_despair(const Row& row, const Known& known) {
 }  // namespace
 
 std::vector<FalseClaim> false_claims(std::span<const Row> rows) {
-  const auto all = known_of(rows);
+  const auto all = best_results(rows);
   std::vector<FalseClaim> found;
   for (const Row& row : rows) {
-    const Known& known = all.at(key_of(row));
+    const BestResults& known = all.at(key_of(row));
     const auto proven = has_proof(row) ? row.outcome.lower_bound : std::nullopt;
     for (std::string what :
-         {against_plan(row, known), against_despair(row, known), against_cost(row, known),
+         {against_plan(row, known), against_infeasibility(row, known), against_cost(row, known),
           against_bound(row.outcome.claimed_lower_bound, "claims", known),
           against_bound(proven, "proves", known)})
       if (!what.empty())

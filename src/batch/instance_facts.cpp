@@ -64,7 +64,7 @@ std::string problem_of(const Instance& instance) {
 
 }  // namespace
 
-InstanceFacts facts_of(const Entry& entry, const LoadedInstance& loaded) {
+InstanceMetadata metadata_of(const Entry& entry, const LoadedInstance& loaded) {
   const Instance& instance = loaded.instance;
   const NamedNumbers named = numbers_in(fs::path(entry.id).filename().string());
   return {.map = loaded.map_path.stem().string(),

@@ -10,20 +10,20 @@
 
 namespace grove::detail::batch {
 
-struct InstanceFacts {
+struct InstanceMetadata {
   std::string map;                            // the file's name without .map
   std::optional<std::int64_t> scenario = {};  // from its name
   std::int64_t agents = 0;
   std::int64_t tasks = 0;
   std::string problem;  // cts, mg, mapf, mixed
 
-  friend bool operator==(const InstanceFacts&, const InstanceFacts&) = default;
+  friend bool operator==(const InstanceMetadata&, const InstanceMetadata&) = default;
 };
 
 // Determines the properties. The scenario is the number in an id such as room_s3_n5_m20_mg or
 // den312d-random-3-50; other ids have none. The number of tasks is M if the id has the form
 // ..._mM_...: an MG-MAPF instance of the paper has M tasks, plus one for each former destination.
 // Otherwise all tasks are counted.
-InstanceFacts facts_of(const Entry& entry, const LoadedInstance& loaded);
+InstanceMetadata metadata_of(const Entry& entry, const LoadedInstance& loaded);
 
 }  // namespace grove::detail::batch

@@ -132,13 +132,13 @@ std::vector<std::size_t> ResultTable::begin(const std::vector<Run>& runs) {
     left.push_back(i);
     pairs.push_back(pair_of(runs[i]));
   }
-  keep_rows_but_of(pairs);
-  put_last_what_was_begun(left, runs);
+  erase_rows_of(pairs);
+  defer_started_runs(left, runs);
   return left;
 }
 
 // Of two rows of one pair, which only manual editing can produce, the later one is kept.
-void ResultTable::keep_rows_but_of(const std::vector<Pair>& pairs) {
+void ResultTable::erase_rows_of(const std::vector<Pair>& pairs) {
   for (const Pair& pair : pairs) index_.erase(pair);
   std::vector<Row> kept;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -156,8 +156,7 @@ void ResultTable::keep_rows_but_of(const std::vector<Pair>& pairs) {
   lines_.emplace(file());
 }
 
-void ResultTable::put_last_what_was_begun(std::vector<std::size_t>& left,
-                                          const std::vector<Run>& runs) {
+void ResultTable::defer_started_runs(std::vector<std::size_t>& left, const std::vector<Run>& runs) {
   if (!fs::exists(begun_file())) return;
   std::map<std::string, int, std::less<>> times;
   for (const std::size_t i : left) times[runs[i].instance] = 0;
@@ -173,7 +172,7 @@ void ResultTable::put_last_what_was_begun(std::vector<std::size_t>& left,
 }
 
 // Not flushed, because a system crash is not caused by the instance.
-void ResultTable::note_begun(const Run& run) {
+void ResultTable::mark_started(const Run& run) {
   if (!begun_) begun_.emplace(begun_file());
   begun_->append(run.instance + "\n");
 }

@@ -84,7 +84,7 @@ class ResultTable {
   std::vector<std::size_t> begin(const std::vector<Run>& runs);
 
   // Records that `run` begins. Call it only for runs whose crash ends the whole program.
-  void note_begun(const Run& run);
+  void mark_started(const Run& run);
   // Appends rows of pairs that have none. When it returns, they survive the end of this process.
   void append(std::span<const Row> rows);
   // When it returns, all rows survive a system crash.
@@ -110,8 +110,8 @@ class ResultTable {
   void read();
   void require_same(const Row& row, const Run& run) const;
   bool stands(const Run& run) const;
-  void keep_rows_but_of(const std::vector<Pair>& pairs);
-  void put_last_what_was_begun(std::vector<std::size_t>& left, const std::vector<Run>& runs);
+  void erase_rows_of(const std::vector<Pair>& pairs);
+  void defer_started_runs(std::vector<std::size_t>& left, const std::vector<Run>& runs);
   void index_rows();
   std::filesystem::path file() const { return folder_ / "results.jsonl"; }
   std::filesystem::path begun_file() const { return folder_ / ".begun"; }

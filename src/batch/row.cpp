@@ -48,7 +48,7 @@ Json gap(const Outcome& outcome) {
 // The columns, defined once for all formats.
 std::vector<std::pair<std::string, Json>> columns(const Row& row) {
   const Settings& settings = row.run.settings;
-  const InstanceFacts& facts = row.facts;
+  const InstanceMetadata& facts = row.facts;
   const Outcome& outcome = row.outcome;
   const bool is_known = !facts.problem.empty();
   return {
@@ -125,7 +125,7 @@ Settings settings_of(const nlohmann::json& json) {
           .memory_limit_gb = optional_member<double>(json, "memory_limit_gb")};
 }
 
-InstanceFacts facts_of(const nlohmann::json& json) {
+InstanceMetadata metadata_of(const nlohmann::json& json) {
   return {.map = text_member(json, "map"),
           .scenario = optional_member<std::int64_t>(json, "scenario"),
           .agents = optional_member<std::int64_t>(json, "agents").value_or(0),
@@ -192,7 +192,7 @@ Row parse_json_line(std::string_view line) {
     return {.run = {.instance = json.at("instance").get<std::string>(),
                     .digest = json.at("instance_digest").get<std::string>(),
                     .settings = settings_of(json)},
-            .facts = facts_of(json),
+            .facts = metadata_of(json),
             .outcome = outcome_of(json),
             .root_cost = optional_member<Cost>(json, "root_cost"),
             .wall_s = json.at("wall_s").get<double>(),

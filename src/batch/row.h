@@ -5,9 +5,9 @@
 // in steps, memory in MB (1e6 bytes).
 //
 //     instance, method, options      Entry::id; name of the method; its options as typed
-//     map, scenario, agents, tasks, problem     InstanceFacts; missing: the instance is unreadable
-//     omega, seed, time_limit_s      settings of the run
-//     solved                         the run ended by itself, before any limit, with a re-checked
+//     map, scenario, agents, tasks, problem     InstanceMetadata; missing: the instance is
+//     unreadable omega, seed, time_limit_s      settings of the run solved the run ended by itself,
+//     before any limit, with a re-checked
 //                                    plan; anytime: it had a plan in time
 //     status                         as in the plan file; or "error": it crashed, or Grove's plan
 //                                    is invalid; or "unsupported": the method does not support the
@@ -77,7 +77,7 @@ struct Run {
 
 struct Row {
   Run run;
-  InstanceFacts facts = {};
+  InstanceMetadata facts = {};
   Outcome outcome = {};
   std::optional<Cost> root_cost = {};
   double wall_s = 0;  // microseconds in files

@@ -121,8 +121,9 @@ class WholePlans : public ForwardingObserver {
 };
 
 // State kept between solves: the next solve reuses the distances.
-struct Kept {
-  Kept(Instance the_instance, const Limits& limits, int threads, const Kept* before)
+struct SolvedInstance {
+  SolvedInstance(Instance the_instance, const Limits& limits, int threads,
+                 const SolvedInstance* before)
       : instance(std::move(the_instance)),
         problem(instance, limits, threads, before ? &before->problem.distances : nullptr) {}
 
@@ -274,13 +275,13 @@ class Session::Impl {
   Solution search(const Instance& instance, const std::vector<bool>& affected,
                   const SolveOptions& options, const Limits& limits, RunObserver& observer,
                   Time commit) {
-    auto now = std::make_unique<Kept>(instance, limits, options.threads, kept_.get());
+    auto now = std::make_unique<SolvedInstance>(instance, limits, options.threads, solved_.get());
     Solution solution = commit > 0 && old_ && is_searched(now->problem)
                             ? solve_later(*now, affected, options, limits, observer, commit)
                             : solve_from(old_ ? &*old_ : nullptr, affected, now->problem, options,
                                          limits, observer);
     require_valid_plan(now->instance, solution);
-    kept_ = std::move(now);
+    solved_ = std::move(now);
     return solution;
   }
 
@@ -307,7 +308,7 @@ class Session::Impl {
     }
   }
 
-  Solution solve_later(const Kept& now, const std::vector<bool>& affected,
+  Solution solve_later(const SolvedInstance& now, const std::vector<bool>& affected,
                        const SolveOptions& options, const Limits& limits, RunObserver& observer,
                        Time commit) {
     require_open(commit);
@@ -317,7 +318,7 @@ class Session::Impl {
     } catch (const InstanceError& error) {
       return unknown(options, error.what());
     }
-    const Kept later(std::move(rest->instance), limits, options.threads, &now);
+    const SolvedInstance later(std::move(rest->instance), limits, options.threads, &now);
     AgentStopsCache stops(now.instance, now.problem.distances);
     const Cost individual_costs = sum_of_individual_costs(now.problem, stops, limits);
     WholePlans plans(observer, now.instance, *old_, commit, later.instance, individual_costs);
@@ -331,7 +332,7 @@ class Session::Impl {
   std::vector<bool> affected_;  // by agent
   std::vector<bool> cut_;       // by agent: its path reaches a closed place; empty: no agent's
   std::vector<bool> ends_with_plan_;  // by agent (execution/advance.h)
-  std::unique_ptr<Kept> kept_;
+  std::unique_ptr<SolvedInstance> solved_;
 };
 
 Session::Session(Instance instance)

@@ -27,7 +27,7 @@ std::string count_of_splits(ConstraintKind kind) {
 
 // Runs `what` on an expander and records its work, counts and new cache entries in the item.
 template <class What>
-void weigh(Worker::WorkItem& turn, Expander& by, const What& what) {
+void run_and_measure(Worker::WorkItem& turn, Expander& by, const What& what) {
   by.turn_to(turn.memory);
   const std::int64_t work = by.work();
   const ExpansionCounts counts = by.counts();
@@ -136,7 +136,7 @@ void Worker::perform(WorkItem& turn, Expander& by) {
 }
 
 void Worker::expand(WorkItem& turn, Expander& by) const {
-  weigh(turn, by, [&] {
+  run_and_measure(turn, by, [&] {
     turn.expansion =
         by.expand(turn.node, shared_.shared_bounds().cutoff(), limits_, turn.bounding_effort);
   });
@@ -144,7 +144,7 @@ void Worker::expand(WorkItem& turn, Expander& by) const {
 
 void Worker::help(WorkItem& turn, Expander& by) {
   const double share = number_ * kGoldenRatio - std::floor(number_ * kGoldenRatio);
-  weigh(turn, by, [&] {
+  run_and_measure(turn, by, [&] {
     if (!by.help(turn.node, shared_.shared_bounds().cutoff(), share, limits_)) helped_ = turn.node;
   });
 }

@@ -45,9 +45,9 @@ namespace {
 constexpr const char* kCollides = "a passing order requires a plan without collisions";
 constexpr int kLanes = 16;
 // By robot of a group: the number of its actions that are completed when a given action is.
-using Known = std::array<std::int32_t, kLanes>;
+using VectorClock = std::array<std::int32_t, kLanes>;
 
-void learn(Known& known, const Known& more) {
+void merge_into(VectorClock& known, const VectorClock& more) {
   for (int lane = 0; lane < kLanes; ++lane) known[lane] = std::max(known[lane], more[lane]);
 }
 
@@ -163,20 +163,20 @@ void ActionDependencyGraph::order_steps() {
 }
 
 void ActionDependencyGraph::leave_out_transitive() {
-  std::vector<Known> known(actions_.size());
+  std::vector<VectorClock> known(actions_.size());
   std::vector<bool> is_transitive(actions_.size());
   for (AgentIndex group = 0; group < agent_count(); group += kLanes) {
     const auto lane_of = [&](ActionIndex a) { return actions_[a].agent - group; };
     const auto is_in_group = [&](ActionIndex a) { return lane_of(a) >= 0 && lane_of(a) < kLanes; };
     for (std::int32_t number = 0; number < step_count(); ++number) {
-      Known now{};
+      VectorClock now{};
       for (const ActionIndex a : step(number)) {
-        if (before(a) != kNoAction) learn(now, known[before(a)]);
+        if (before(a) != kNoAction) merge_into(now, known[before(a)]);
         const ActionIndex other = after_[a];
         if (other == kNoAction) continue;
         if (is_in_group(other) && now[lane_of(other)] > other - begin_of(actions_[other].agent))
           is_transitive[a] = true;
-        learn(now, known[other]);
+        merge_into(now, known[other]);
       }
       for (const ActionIndex a : step(number))
         if (is_in_group(a)) now[lane_of(a)] = a - begin_of(actions_[a].agent) + 1;

@@ -29,9 +29,9 @@ bool FinishTimeConflicts::are_incompatible(const FinishTimeConflict& pair, const
       known_[static_cast<std::uint64_t>(pair.a) << 32 | static_cast<std::uint32_t>(pair.b)];
   for (Time a = 0; a <= later_a; ++a)
     for (Time b = 0; b <= later_b; ++b) {
-      Known& known = grid[static_cast<std::size_t>(a * kGrid + b)];
-      if (known == Known::kNot) known = compared(pair, a, b, limits);
-      if (known == Known::kNotExcluded) return false;
+      Verdict& known = grid[static_cast<std::size_t>(a * kGrid + b)];
+      if (known == Verdict::kUnknown) known = compared(pair, a, b, limits);
+      if (known == Verdict::kNotExcluded) return false;
     }
   return true;
 }
@@ -52,16 +52,16 @@ FinishTimeConflict FinishTimeConflicts::extended(FinishTimeConflict pair, const 
 }
 
 // Tests the paths that finish exactly `later_a` and `later_b` steps after the least finish times.
-FinishTimeConflicts::Known FinishTimeConflicts::compared(const FinishTimeConflict& pair,
-                                                         Time later_a, Time later_b,
-                                                         const Limits& limits) {
+FinishTimeConflicts::Verdict FinishTimeConflicts::compared(const FinishTimeConflict& pair,
+                                                           Time later_a, Time later_b,
+                                                           const Limits& limits) {
   const Mdd* const a = set(pair.a, later_a, limits);
   const Mdd* const b = a ? set(pair.b, later_b, limits) : nullptr;
-  if (b == nullptr) return Known::kNotExcluded;
+  if (b == nullptr) return Verdict::kNotExcluded;
   const bool is_excluded =
       a->empty() || b->empty() ||
       dependency_.find(*a, *b, max_sizes_.joint_mdd_nodes, limits) == Dependence::kDependent;
-  return is_excluded ? Known::kExcluded : Known::kNotExcluded;
+  return is_excluded ? Verdict::kExcluded : Verdict::kNotExcluded;
 }
 
 const Mdd* FinishTimeConflicts::set(AgentIndex agent, Time later, const Limits& limits) {

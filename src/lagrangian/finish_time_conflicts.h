@@ -50,7 +50,7 @@ class FinishTimeConflicts {
   std::int64_t work() const { return builder_.nodes() + dependency_.pairs(); }
 
  private:
-  enum class Known : std::uint8_t { kNot, kExcluded, kNotExcluded };  // 0 first: see Grid
+  enum class Verdict : std::uint8_t { kUnknown, kExcluded, kNotExcluded };  // 0 first: see Grid
   struct OfAgent {
     std::unique_ptr<SequenceStages> goals;
     Time earliest = 0;  // earliest finish, or a lower bound on it
@@ -60,9 +60,10 @@ class FinishTimeConflicts {
   };
 
   static constexpr Time kGrid = 16;  // number of finish times examined, from least on
-  using Grid = std::array<Known, kGrid * kGrid>;
+  using Grid = std::array<Verdict, kGrid * kGrid>;
 
-  Known compared(const FinishTimeConflict& pair, Time later_a, Time later_b, const Limits& limits);
+  Verdict compared(const FinishTimeConflict& pair, Time later_a, Time later_b,
+                   const Limits& limits);
   const Mdd* set(AgentIndex agent, Time later, const Limits& limits);
   OfAgent& of(AgentIndex agent, const Limits& limits);
 

@@ -91,8 +91,8 @@ const Tree* TreeIndex::numbered(std::uint32_t number) const {
   return found == by_number_.end() ? nullptr : found->second;
 }
 
-std::vector<LearnedBound> facts_of(const NewEntries& news, const SharedCache& memory,
-                                   const TreeIndex& trees) {
+std::vector<LearnedBound> learned_bounds_of(const NewEntries& news, const SharedCache& memory,
+                                            const TreeIndex& trees) {
   Facts facts(memory, trees);
   for (const auto& [id, known] : news.costs) facts.add(std::array{id}, known, {});
   for (const auto& pair : news.pairs)

@@ -53,8 +53,8 @@ class TreeIndex {
 
 // Converts new entries of `memory` to learned bounds. Leaves out those of trees that are not in
 // `trees`.
-std::vector<LearnedBound> facts_of(const NewEntries& news, const SharedCache& memory,
-                                   const TreeIndex& trees);
+std::vector<LearnedBound> learned_bounds_of(const NewEntries& news, const SharedCache& memory,
+                                            const TreeIndex& trees);
 
 // Merges a learned bound into `memory`, or ignores it if its tree is not in `trees`. Throws
 // std::invalid_argument, and changes nothing, if the bound is impossible: no agent, an agent that

@@ -11,24 +11,25 @@ namespace instance_facts_test {
 using grove::detail::testing::AgentSpec;
 using grove::detail::testing::instance_of;
 
-InstanceFacts facts(const std::string& id, const std::vector<AgentSpec>& agents) {
-  return facts_of({.id = id, .path = ""},
-                  {instance_of({"....", "...."}, agents), "x/room-32.map", {}});
+InstanceMetadata facts(const std::string& id, const std::vector<AgentSpec>& agents) {
+  return metadata_of({.id = id, .path = ""},
+                     {instance_of({"....", "...."}, agents), "x/room-32.map", {}});
 }
 
-TEST(InstanceFacts, AreReadFromTheInstanceAndItsName) {
+TEST(InstanceMetadata, AreReadFromTheInstanceAndItsName) {
   const AgentSpec with_goal{{0, 0}, Position{3, 0}, {{1, 1}, {2, 1}}};
   const AgentSpec free{{1, 0}, std::nullopt, {{2, 0}}};
-  EXPECT_EQ(facts("set/room_s12_n1_m2", {with_goal}), (InstanceFacts{"room-32", 12, 1, 2, "cts"}));
+  EXPECT_EQ(facts("set/room_s12_n1_m2", {with_goal}),
+            (InstanceMetadata{"room-32", 12, 1, 2, "cts"}));
   EXPECT_EQ(facts("anything", {with_goal, free}),
-            (InstanceFacts{"room-32", std::nullopt, 2, 3, "mixed"}));
-  EXPECT_EQ(facts("a_s3_x", {free}), (InstanceFacts{"room-32", 3, 1, 1, "mg"}));
+            (InstanceMetadata{"room-32", std::nullopt, 2, 3, "mixed"}));
+  EXPECT_EQ(facts("a_s3_x", {free}), (InstanceMetadata{"room-32", 3, 1, 1, "mg"}));
   EXPECT_EQ(facts("_s3_n1_m9/x", {{{0, 0}, Position{3, 0}}}),
-            (InstanceFacts{"room-32", std::nullopt, 1, 0, "mapf"}));
+            (InstanceMetadata{"room-32", std::nullopt, 1, 0, "mapf"}));
 }
 
 // The former destination is one more task of an MG-MAPF instance.
-TEST(InstanceFacts, TakeTheNumberOfTasksFromTheName) {
+TEST(InstanceMetadata, TakeTheNumberOfTasksFromTheName) {
   const AgentSpec free{{1, 0}, std::nullopt, {{2, 0}, {3, 1}}};
   EXPECT_EQ(facts("room_s1_n1_m1_mg", {free}).tasks, 1);
   EXPECT_EQ(facts("room_s1_n1_m1", {free}).tasks, 1);
@@ -37,7 +38,7 @@ TEST(InstanceFacts, TakeTheNumberOfTasksFromTheName) {
     EXPECT_EQ(facts(other, {free}).tasks, 2) << other;
 }
 
-TEST(InstanceFacts, ReadTheScenarioNumberFromTheName) {
+TEST(InstanceMetadata, ReadTheScenarioNumberFromTheName) {
   const AgentSpec agent{{0, 0}, Position{3, 0}};
   EXPECT_EQ(facts("a_small_set_s07_n1", {agent}).scenario, 7);
   for (const char* other :
@@ -45,7 +46,7 @@ TEST(InstanceFacts, ReadTheScenarioNumberFromTheName) {
     EXPECT_EQ(facts(other, {agent}).scenario, std::nullopt) << other;
 }
 
-TEST(InstanceFacts, ReadScenarioNumbersOfMovingAiNames) {
+TEST(InstanceMetadata, ReadScenarioNumbersOfMovingAiNames) {
   const AgentSpec agent{{0, 0}, Position{3, 0}};
   EXPECT_EQ(facts("den312d-random-3-50", {agent}).scenario, 3);
   EXPECT_EQ(facts("scen-even/den312d-even-12", {agent}).scenario, 12);

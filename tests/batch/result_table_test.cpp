@@ -240,7 +240,7 @@ TEST_F(Tables, PutRunsThatNeverEndedLast) {
   rows_ = {solved_row("a"), solved_row("b"), solved_row("c"), solved_row("d")};
   {
     ResultTable table = open();
-    for (const std::size_t i : table.begin(runs())) table.note_begun(rows_[i].run);
+    for (const std::size_t i : table.begin(runs())) table.mark_started(rows_[i].run);
     table.append({&rows_[1], 1});
   }
   std::ofstream(folder_ + "/.begun", std::ios::app) << "torn";
@@ -248,8 +248,8 @@ TEST_F(Tables, PutRunsThatNeverEndedLast) {
   {
     ResultTable table = open();
     EXPECT_EQ(table.begin(runs()), (Positions{4, 0, 2, 3}));
-    table.note_begun(rows_[4].run);
-    table.note_begun(rows_[0].run);
+    table.mark_started(rows_[4].run);
+    table.mark_started(rows_[0].run);
     table.append({&rows_[4], 1});
   }
   EXPECT_EQ(left(), (Positions{2, 3, 0}));

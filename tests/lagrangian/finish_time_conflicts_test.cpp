@@ -47,7 +47,7 @@ TEST(FinishTimeConflicts, AgreeWithJointBreadthFirstSearch) {
   int excluded = 0, others = 0;
   for (std::uint64_t seed = 1; seed <= 120; ++seed) {
     SCOPED_TRACE(seed);
-    Known known(tiny_instance(seed));
+    TinyProblem known(tiny_instance(seed));
     if (known.instance.agent_count() < 2) continue;
     const auto a = AgentGraph::make(known.instance, 0);
     const auto b = AgentGraph::make(known.instance, 1);
@@ -77,7 +77,7 @@ TEST(FinishTimeConflicts, ProveNothingWithoutEffort) {
   int excluded = 0;
   for (std::uint64_t seed = 1; seed <= 120; ++seed) {
     SCOPED_TRACE(seed);
-    Known known(tiny_instance(seed));
+    TinyProblem known(tiny_instance(seed));
     if (known.instance.agent_count() < 2) continue;
     const auto finds_incompatible = [&](FinishTimeConflicts::Most most,
                                         const FinishTimeConflict& pair) {

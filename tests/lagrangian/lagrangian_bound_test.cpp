@@ -28,7 +28,7 @@ Tuning wild_tuning(fuzz::Random& random) {
 class LagrangianBoundTest : public ::testing::Test {
  protected:
   // Returns the bound after `rounds` rounds. After each round the bound must not exceed `optimum`.
-  static Cost bound_of(Known& known, const Tuning& tuning, int rounds, Cost optimum) {
+  static Cost bound_of(TinyProblem& known, const Tuning& tuning, int rounds, Cost optimum) {
     const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
     if (!bound) return 0;
     Pricer pricer(bound->multipliers(), known.stops);
@@ -60,7 +60,7 @@ TEST_F(LagrangianBoundTest, IsNeverAboveTheOptimum) {
     if (seed % 5 == 0) instance = instance.without_following();
     const oracle::Answer truth = oracle::solve_jointly(instance);
     if (!truth.plan) continue;
-    Known known(instance);
+    TinyProblem known(instance);
     fuzz::Random random(seed);
     const Cost first = bound_of(known, Tuning(), 1, truth.plan->cost);
     const Cost last = bound_of(known, wild_tuning(random), 60, truth.plan->cost);
@@ -74,7 +74,7 @@ TEST_F(LagrangianBoundTest, IsNeverAboveTheOptimum) {
 
 // Two agents that must pass each other in a corridor with one bay: the multipliers raise the bound.
 TEST_F(LagrangianBoundTest, RisesForAgentsThatMustPassEachOther) {
-  Known known(corridor());
+  TinyProblem known(corridor());
   const oracle::Answer truth = oracle::solve_jointly(known.instance);
   ASSERT_TRUE(truth.plan);
   EXPECT_GE(bound_of(known, Tuning(), 300, truth.plan->cost), 9);
@@ -83,7 +83,7 @@ TEST_F(LagrangianBoundTest, RisesForAgentsThatMustPassEachOther) {
 // A new dual solution comes from a round with the best bound, and its values add up to that bound.
 // It is not visible before commit().
 TEST_F(LagrangianBoundTest, HasTheDualSolutionOfItsBestRounds) {
-  Known known(corridor());
+  TinyProblem known(corridor());
   Tuning tuning;
   tuning.first_dual_solution_round = 3;
   const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);

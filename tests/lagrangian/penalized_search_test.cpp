@@ -106,7 +106,7 @@ TEST(PenalizedSearch, FindsTheLeastPrice) {
   int tried = 0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     SCOPED_TRACE(seed);
-    Known known(tiny_instance(seed));
+    TinyProblem known(tiny_instance(seed));
     fuzz::Random random(seed);
     Penalties penalties(known.instance.world());
     penalize(penalties, random);
@@ -141,7 +141,7 @@ TEST(PenalizedSearch, ImprovesPathAroundReservations) {
   int improved = 0, infeasible = 0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     SCOPED_TRACE(seed);
-    Known known(tiny_instance(seed));
+    TinyProblem known(tiny_instance(seed));
     const Instance& instance = known.instance;
     fuzz::Random random(seed);
     Penalties penalties(instance.world());
@@ -182,7 +182,7 @@ TEST(PenalizedSearch, IsNeverAboveTheLeastPriceWhenCutShort) {
   int cut_short = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
-    Known known(tiny_instance(seed));
+    TinyProblem known(tiny_instance(seed));
     fuzz::Random random(seed);
     Penalties penalties(known.instance.world());
     penalize(penalties, random);

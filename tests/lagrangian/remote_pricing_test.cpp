@@ -31,7 +31,7 @@ Tuning tuning_with_short_rounds(fuzz::Random& random) {
 
 // One process that computes prices for the bound, and its replies in transit.
 struct HelpingProcess {
-  explicit HelpingProcess(Known& known)
+  explicit HelpingProcess(TinyProblem& known)
       : help(known.instance), pricer(help.multipliers(), known.stops) {}
 
   bool work() {
@@ -53,7 +53,7 @@ struct HelpingProcess {
 // The bound and its helpers, simulated in one thread in random order.
 class Ascent {
  public:
-  Ascent(Known& known, const Tuning& tuning, int helpers, fuzz::Random& random)
+  Ascent(TinyProblem& known, const Tuning& tuning, int helpers, fuzz::Random& random)
       : bound(LagrangianBound::make(known.instance, known.stops, tuning)),
         pricer(bound->multipliers(), known.stops),
         random_(random) {
@@ -96,7 +96,7 @@ TEST(RemotePricing, NeverRaisesTheBoundAboveTheOptimum) {
     const Instance instance = tiny_instance(seed);
     const oracle::Answer truth = oracle::solve_jointly(instance);
     if (!truth.plan || instance.agent_count() < 2) continue;
-    Known known(instance);
+    TinyProblem known(instance);
     fuzz::Random random(seed);
     const Tuning tuning = tuning_with_short_rounds(random);
     if (!LagrangianBound::make(instance, known.stops, tuning)) continue;
@@ -146,7 +146,7 @@ class OneHelper : public ::testing::Test {
     process.answers.pop_back();
     return answer;
   }
-  Known known{corridor()};
+  TinyProblem known{corridor()};
   Tuning tuning = [] {
     Tuning t;
     t.lagrangian_step_work = t.lagrangian_min_remote_work = 1;

@@ -32,8 +32,8 @@ inline Instance corridor() {
 }
 
 // An instance with the distances and stops of its agents.
-struct Known {
-  explicit Known(Instance the_instance)
+struct TinyProblem {
+  explicit TinyProblem(Instance the_instance)
       : instance(std::move(the_instance)), distances(instance), stops(instance, distances) {}
 
   Instance instance;

@@ -45,7 +45,7 @@ struct Process {
     return all;
   }
   std::vector<LearnedBound> learned_bounds() {
-    return facts_of(expander.memory()->take_new_entries(), *expander.memory(), trees);
+    return learned_bounds_of(expander.memory()->take_new_entries(), *expander.memory(), trees);
   }
 
   Limits limits;
@@ -124,7 +124,7 @@ TEST(LearnedBound, AppliesToTheOrdersItWasProvenFor) {
                          1,
                          {5, true, 9}});
   here.memory.merge(found);
-  const auto bounds = facts_of(here.memory.take_new_entries(), here.memory, here.known);
+  const auto bounds = learned_bounds_of(here.memory.take_new_entries(), here.memory, here.known);
   ASSERT_EQ(bounds.size(), 1u);
 
   TwoTrees there;

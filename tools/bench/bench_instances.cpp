@@ -12,7 +12,7 @@ namespace {
 
 // The properties on which it depends whether a method accepts an instance (require_fit() of
 // engine/method.h).
-std::string kind_of(const batch::InstanceFacts& facts, const Instance& instance) {
+std::string kind_of(const batch::InstanceMetadata& facts, const Instance& instance) {
   const bool idles = std::ranges::any_of(instance.agents(), &Agent::is_idle);
   const bool shares_cells = std::ranges::any_of(instance.agents(), [](const Agent& agent) {
     return agent.stops.size() < agent.tasks.size();
@@ -25,7 +25,7 @@ std::string kind_of(const batch::InstanceFacts& facts, const Instance& instance)
 BenchInstance read(const batch::Entry& entry) {
   try {
     const LoadedInstance loaded = load(entry);
-    const batch::InstanceFacts facts = facts_of(entry, loaded);
+    const batch::InstanceMetadata facts = metadata_of(entry, loaded);
     return {.entry = entry, .facts = facts, .kind = kind_of(facts, loaded.instance)};
   } catch (const InputError& error) {
     return {.entry = entry, .facts = {}, .error = error.what()};

@@ -11,7 +11,7 @@ namespace grove::detail::bench {
 
 struct BenchInstance {
   batch::Entry entry;
-  batch::InstanceFacts facts;
+  batch::InstanceMetadata facts;
   std::string kind = {};   // problem class; whether a method supports an instance depends on it
   std::string error = {};  // why the instance cannot be read; "" if it can
 };

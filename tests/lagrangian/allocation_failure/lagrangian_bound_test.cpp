@@ -19,7 +19,7 @@ struct End {
 };
 
 // `refuse_at`: number of the allocation within the jobs that fails, from 0; negative: none.
-End run(Known& known, int refuse_at) {
+End run(TinyProblem& known, int refuse_at) {
   const Tuning tuning;
   const auto bound = LagrangianBound::make(known.instance, known.stops, tuning);
   Pricer pricer(bound->multipliers(), known.stops);
@@ -39,7 +39,7 @@ End run(Known& known, int refuse_at) {
 }
 
 TEST(LagrangianBoundWithoutMemory, EndsAndKeepsItsBound) {
-  Known known(corridor());
+  TinyProblem known(corridor());
   const Cost whole = run(known, -1).lower_bound;
   int failures = 0;
   for (int at = 0;; at += 1 + at / 20, ++failures) {
