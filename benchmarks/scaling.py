@@ -261,7 +261,7 @@ def simulated_table(rows, free):
                       percent(free_one) if free_one else "",
                       f"{int(row['nodes']):,}", overhead(row),
                       percent(first), percent(later), f"{float(row['messages_per_node']):.2f}",
-                      percent(row["coordinator_talking_share"])])
+                      percent(row["coordinator_communication_share"])])
     return tables.table(head, lines)
 
 
@@ -288,7 +288,7 @@ def weak_table(rows):
         lines.append([alone["instance"], f"{int(alone['nodes']):,}", f"{float(alone['wall_s']):.3g} s", many["ranks"],
                       f"{float(many['wall_s']):.3g} s", f"**{percent(many['efficiency'])}**",
                       overhead(many),
-                      percent(many["coordinator_talking_share"])])
+                      percent(many["coordinator_communication_share"])])
     return tables.table(head, lines)
 
 
@@ -397,7 +397,7 @@ def draw_shares(panel, name, rows):
         heights = [share[label] for share in all_shares]
         panel.bar(ranks, heights, bottom=bottoms, label=label, color=colour, width=0.75)
         bottoms = [bottom + height for bottom, height in zip(bottoms, heights)]
-    panel.plot(ranks, [float(row["coordinator_talking_share"]) for row in rows], "k.--",
+    panel.plot(ranks, [float(row["coordinator_communication_share"]) for row in rows], "k.--",
                linewidth=1, label="rank 0 communication (on its own processor)")
     panel.set_xlabel("ranks")
     panel.set_title(f"Workers' time: {name}", fontsize=9.5)

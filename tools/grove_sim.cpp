@@ -44,8 +44,8 @@ constexpr const char* kFooter =
                               nodes, and time for them and for subproblems, beyond those of one rank
   messages..., bytes..., nodes_sent
                               sent by all ranks
-  talking_share               share of the ranks' time for sending and receiving
-  coordinator_talking_share   the same of rank 0: near 1, rank 0 limits the search
+  communication_share               share of the ranks' time for sending and receiving
+  coordinator_communication_share   the same of rank 0: near 1, rank 0 limits the search
   coordinator_wait_s          mean time until rank 0 processes a message
   max_over_mean, idle_share   balance of the work; share of the workers' time without work
   first_node_s, ranks_without_node
@@ -201,8 +201,9 @@ class Study {
         "work; rank 0 {:.1f} us here for a message that it sent or received, {:.1f} as simulated",
         ranks == 1 ? "1 rank" : fmt::format("{} ranks", ranks), run.ended ? "" : "not to the end, ",
         seconds_since(start), static_cast<double>(peak_resident_bytes()) / 1e6, processor_s, busy_s,
-        1e6 * first.talking_processor_s / static_cast<double>(first.received + first.messages + 1),
-        1e6 * first.talking_s / static_cast<double>(first.received + first.messages + 1)));
+        1e6 * first.communication_processor_s /
+            static_cast<double>(first.received + first.messages + 1),
+        1e6 * first.communication_s / static_cast<double>(first.received + first.messages + 1)));
     return run;
   }
 

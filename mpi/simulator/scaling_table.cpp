@@ -29,19 +29,19 @@ double growth(double now, double before) {
 }
 
 void count_messages(const SimulatedRun& run, ScalingRow& row) {
-  double talking_s = 0;
+  double communication_s = 0;
   for (const SimulatedRun::Rank& rank : run.ranks) {
     row.messages += rank.messages;
     row.bytes += rank.bytes;
-    talking_s += rank.talking_s;
+    communication_s += rank.communication_s;
   }
   const auto nodes = static_cast<double>(row.nodes);
   const SimulatedRun::Rank& coordinator = run.ranks.front();
   row.messages_per_node = ratio(static_cast<double>(row.messages), nodes);
   row.bytes_per_node = ratio(static_cast<double>(row.bytes), nodes);
   row.nodes_sent = run.solution.stats.counts.at("nodes_sent");
-  row.talking_share = ratio(talking_s, run.wall_s * row.ranks);
-  row.coordinator_talking_share = ratio(coordinator.talking_s, run.wall_s);
+  row.communication_share = ratio(communication_s, run.wall_s * row.ranks);
+  row.coordinator_communication_share = ratio(coordinator.communication_s, run.wall_s);
   row.coordinator_wait_s = ratio(coordinator.waited_s, static_cast<double>(coordinator.received));
 }
 
@@ -88,7 +88,8 @@ ScalingRow scaling_row(const SimulatedRun& run, const SimulatedRun& alone) {
 std::string scaling_header() {
   return "ranks,status,cost,lower_bound,wall_s,speed_up,efficiency,nodes,nodes_overhead,"
          "expanding_s,expanding_overhead,messages,bytes,messages_per_node,bytes_per_node,"
-         "nodes_sent,talking_share,coordinator_talking_share,coordinator_wait_s,max_over_mean,"
+         "nodes_sent,communication_share,coordinator_communication_share,coordinator_wait_s,max_"
+         "over_mean,"
          "idle_share,first_node_s,ranks_without_node";
 }
 
@@ -98,8 +99,8 @@ std::string csv_line(const ScalingRow& r) {
       "{:.5f},{:.3g},{:.3f},{:.4f},{:.4g},{}",
       r.ranks, r.status, r.cost, r.lower_bound, r.wall_s, r.speed_up, r.efficiency, r.nodes,
       r.nodes_overhead, r.expanding_s, r.expanding_overhead, r.messages, r.bytes,
-      r.messages_per_node, r.bytes_per_node, r.nodes_sent, r.talking_share,
-      r.coordinator_talking_share, r.coordinator_wait_s, r.max_over_mean, r.idle_share,
+      r.messages_per_node, r.bytes_per_node, r.nodes_sent, r.communication_share,
+      r.coordinator_communication_share, r.coordinator_wait_s, r.max_over_mean, r.idle_share,
       r.first_node_s, r.ranks_without_node);
 }
 

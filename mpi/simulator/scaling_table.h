@@ -33,8 +33,8 @@ struct ScalingRow {
   double messages_per_node = 0;
   double bytes_per_node = 0;
   std::int64_t nodes_sent = 0;
-  double talking_share = 0;              // fraction of the time of all ranks
-  double coordinator_talking_share = 0;  // fraction of the time of rank 0
+  double communication_share = 0;              // fraction of the time of all ranks
+  double coordinator_communication_share = 0;  // fraction of the time of rank 0
   double coordinator_wait_s = 0;  // seconds between the arrival of a message and its handling, mean
   // Load balance.
   double max_over_mean = 0;  // of the seconds of expanding, over ranks

@@ -61,7 +61,7 @@ struct Setting {
   const Limits& limits;
   const Machine& machine;
   RunObserver observer;
-  Talk communication;
+  Communication communication;
   SimulatedNetwork network;
   AgentStopsCache stops;
   MddInterner sets;
@@ -90,9 +90,9 @@ struct SimulatedRank {
   SimulatedWorker player;
   double heard_at;  // when the last message was handled; the poll times follow from it
   double talk_due = kNotDue;
-  double talks_until = 0;  // end of the current or last communication
-  double talking_s = 0;
-  double talking_processor_s = 0;
+  double communicates_until = 0;  // end of the current or last communication
+  double communication_s = 0;
+  double communication_processor_s = 0;
   bool said_farewell = false;
   bool left = false;
 };
@@ -143,8 +143,8 @@ class Simulation {
   // The first time at `time` or later at which the rank can communicate.
   double first_talk(SimulatedRank& r, double time) const {
     const double interval = max_poll_interval(r.member.rank().ended(), setting_.machine.poll);
-    if (time > r.talks_until) time = next_poll(r.heard_at, time, interval);
-    return std::max(time, r.talks_until);
+    if (time > r.communicates_until) time = next_poll(r.heard_at, time, interval);
+    return std::max(time, r.communicates_until);
   }
 
   // Schedules a poll of the rank at `time` or soon after.
@@ -168,27 +168,27 @@ class Simulation {
       r.member.rank().send_finished({});
       r.said_farewell = true;
     }
-    r.talking_processor_s += processor_time() - before_s;
+    r.communication_processor_s += processor_time() - before_s;
     talked(rank, now_);
-    if (heard) r.heard_at = r.talks_until;
+    if (heard) r.heard_at = r.communicates_until;
   }
 
   // Schedules the consequences of the communication that this rank began at `time`.
   void talked(int rank, double time) {
     SimulatedRank& r = at(rank);
-    r.talks_until = time + setting_.communication.takes_s;
-    r.talking_s += setting_.communication.takes_s;
+    r.communicates_until = time + setting_.communication.takes_s;
+    r.communication_s += setting_.communication.takes_s;
     for (const int to : setting_.communication.receivers)
       talk_from(setting_.network.next_arrival(to), to);
     if (const double next = setting_.network.next_arrival(rank); next < kNotDue)
       talk_from(next, rank);
     if (const double next = r.member.next_send_time(); next < kNotDue) talk_from(next, rank);
     if (!r.said_farewell && !r.player.busy() && r.has_work())
-      foresee(r.talks_until, rank, Who::kWorker);
+      foresee(r.communicates_until, rank, Who::kWorker);
     if (!r.said_farewell || r.left || !r.member.left()) return;
     r.left = true;
     ++left_;
-    wall_s_ = std::max(wall_s_, r.talks_until);
+    wall_s_ = std::max(wall_s_, r.communicates_until);
   }
 
   // Runs work items of the rank's worker until the first whose end may depend on other ranks.
@@ -226,9 +226,9 @@ class Simulation {
     run.solution = at(0).member.coordinator()->conclude();
     run.wall_s = ended ? wall_s_ : now_;
     for (const SimulatedRank& r : ranks_)
-      run.ranks.push_back({r.player.tally(), r.talking_s, r.transport.messages(),
+      run.ranks.push_back({r.player.tally(), r.communication_s, r.transport.messages(),
                            r.transport.bytes(), r.transport.received(), r.transport.waited_s(),
-                           r.talking_processor_s});
+                           r.communication_processor_s});
     run.busy = profile_.means(run.wall_s, SimulatedRun::kParts);
     return run;
   }

@@ -19,12 +19,12 @@ struct SimulatedRun {
 
   struct Rank {
     SimulatedWorker::Tally worker;
-    double talking_s = 0;
+    double communication_s = 0;
     std::int64_t messages = 0;  // messages sent
     std::int64_t bytes = 0;
-    std::int64_t received = 0;       // messages received
-    double waited_s = 0;             // between arrival and handling, summed over the messages
-    double talking_processor_s = 0;  // real: everything except the expansion of nodes
+    std::int64_t received = 0;             // messages received
+    double waited_s = 0;                   // between arrival and handling, summed over the messages
+    double communication_processor_s = 0;  // real: everything except the expansion of nodes
   };
 
   // false: a limit was reached first, and the other fields describe the run so far

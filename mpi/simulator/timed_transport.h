@@ -16,7 +16,7 @@ namespace grove::detail {
 
 // The cost of one exchange of messages by a rank, which begins at the current time of the network.
 // A value.
-struct Talk {
+struct Communication {
   double takes_s = 0;          // seconds so far
   std::vector<int> receivers;  // receivers of the messages sent
 };
@@ -25,10 +25,14 @@ struct Talk {
 // or receives it. One thread at a time.
 class TimedTransport : public Transport {
  public:
-  // All arguments must outlive this. `talk` is the exchange in progress, of any rank. A message
-  // that it sends leaves when the exchange has taken `talk.takes_s`.
-  TimedTransport(SimulatedNetwork& network, int rank, const Machine& machine, Talk& communication)
-      : network_(network), end_(network.at(rank)), machine_(machine), talk_(communication) {}
+  // All arguments must outlive this. `communication` is the exchange in progress, of any rank. A
+  // message that it sends leaves when the exchange has taken `communication.takes_s`.
+  TimedTransport(SimulatedNetwork& network, int rank, const Machine& machine,
+                 Communication& communication)
+      : network_(network),
+        end_(network.at(rank)),
+        machine_(machine),
+        communication_(communication) {}
 
   int rank() const override { return end_.rank(); }
   int ranks() const override { return end_.ranks(); }
@@ -36,7 +40,7 @@ class TimedTransport : public Transport {
     const double arrival = network_.next_arrival(rank());
     auto received = end_.receive();
     if (!received) return std::nullopt;
-    waited_s_ += network_.now() + talk_.takes_s - arrival;
+    waited_s_ += network_.now() + communication_.takes_s - arrival;
     ++received_;
     take_time_for(received->bytes.size());
     return received;
@@ -50,17 +54,18 @@ class TimedTransport : public Transport {
  private:
   void do_send(int to, std::string bytes) override {
     take_time_for(bytes.size());
-    talk_.receivers.push_back(to);
+    communication_.receivers.push_back(to);
     end_.send(to, std::move(bytes));
   }
   void take_time_for(std::size_t bytes) {
-    talk_.takes_s += machine_.message_cost + static_cast<double>(bytes) / machine_.bandwidth;
+    communication_.takes_s +=
+        machine_.message_cost + static_cast<double>(bytes) / machine_.bandwidth;
   }
 
   SimulatedNetwork& network_;
   Transport& end_;
   const Machine& machine_;
-  Talk& talk_;
+  Communication& communication_;
   std::int64_t received_ = 0;
   double waited_s_ = 0;
 };

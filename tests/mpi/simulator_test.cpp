@@ -166,7 +166,7 @@ TEST(Simulator, StatisticsAreConsistent) {
         busy += rank.worker.busy_s;
         most = std::max(most, rank.worker.busy_s);
         work += rank.worker.work;
-        EXPECT_LE(rank.talking_s, run.wall_s * 1.000001);
+        EXPECT_LE(rank.communication_s, run.wall_s * 1.000001);
       }
       EXPECT_LE(most, run.wall_s);
       const double profiled = std::accumulate(run.busy.begin(), run.busy.end(), 0.0) * run.wall_s /
@@ -189,7 +189,7 @@ TEST(Simulator, ExpensiveMessagesSlowTheCoordinatorAndTheRun) {
   const ScalingRow expensive = scaling_row(
       run_of(c, with_start(c), 32, {.message_cost = 1e-3, .seconds_per_work = 1e-6}), alone);
   EXPECT_GT(expensive.coordinator_wait_s, 5 * cheap.coordinator_wait_s);
-  EXPECT_GT(expensive.coordinator_talking_share, cheap.coordinator_talking_share);
+  EXPECT_GT(expensive.coordinator_communication_share, cheap.coordinator_communication_share);
   EXPECT_LT(expensive.speed_up, cheap.speed_up);
 }
 
@@ -245,25 +245,25 @@ TEST(MddInterner, HoldsEachMddOnceWhileInUse) {
 
 TEST(TimedTransport, SendsMessagesOneAfterTheOther) {
   const Machine machine{.latency = 1, .bandwidth = 10, .message_cost = 0.5};
-  Talk talk;
-  SimulatedNetwork network(3,
-                           [&](int, int, std::size_t) { return talk.takes_s + machine.latency; });
-  TimedTransport from(network, 0, machine, talk);
-  TimedTransport to(network, 2, machine, talk);
+  Communication communication;
+  SimulatedNetwork network(
+      3, [&](int, int, std::size_t) { return communication.takes_s + machine.latency; });
+  TimedTransport from(network, 0, machine, communication);
+  TimedTransport to(network, 2, machine, communication);
   from.send(1, "12345");
   from.send(2, "");
   from.send(2, "x");
-  EXPECT_NEAR(talk.takes_s, 3 * 0.5 + 0.6, 1e-9);
-  EXPECT_EQ(talk.receivers, (std::vector<int>{1, 2, 2}));
+  EXPECT_NEAR(communication.takes_s, 3 * 0.5 + 0.6, 1e-9);
+  EXPECT_EQ(communication.receivers, (std::vector<int>{1, 2, 2}));
   EXPECT_NEAR(network.next_arrival(1), 2, 1e-9);
   EXPECT_NEAR(network.next_arrival(2), 2.5, 1e-9);
   network.advance_to(4);
-  talk = {};
+  communication = {};
   EXPECT_TRUE(to.receive());
   EXPECT_TRUE(to.receive());
   EXPECT_FALSE(to.receive());
   EXPECT_EQ(to.received(), 2);
-  EXPECT_NEAR(talk.takes_s, 1.1, 1e-9);
+  EXPECT_NEAR(communication.takes_s, 1.1, 1e-9);
   EXPECT_NEAR(to.waited_s(), (4 - 2.5) + (4 + 0.5 - 3.1), 1e-9);
 }
 
