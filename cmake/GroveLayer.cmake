@@ -34,11 +34,11 @@ else()
   add_library(grove_hot_headers ALIAS grove_headers)
 endif()
 
-# grove_compile(<target> [HOT | UNHURRIED])
-# Sets how the sources of a target are compiled. HOT: most run time is spent in it. UNHURRIED: hardly any run time
+# grove_compile(<target> [HOT | COLD])
+# Sets how the sources of a target are compiled. HOT: most run time is spent in it. COLD: hardly any run time
 # is spent in it, and its headers take long to optimise; all its sources are compiled as one.
 function(grove_compile target)
-  cmake_parse_arguments(COMPILE "HOT;UNHURRIED" "" "" ${ARGN})
+  cmake_parse_arguments(COMPILE "HOT;COLD" "" "" ${ARGN})
   target_link_libraries(${target} PRIVATE grove_options)
   if(COMPILE_HOT)
     target_compile_options(${target} PRIVATE ${GROVE_HOT_FLAGS})
@@ -52,7 +52,7 @@ function(grove_compile target)
   endif()
 endfunction()
 
-# grove_layer(<name> [HOT | UNHURRIED] [DEPENDS <layer> ...] [LINK_PUBLIC ...] [LINK_PRIVATE ...])
+# grove_layer(<name> [HOT | COLD] [DEPENDS <layer> ...] [LINK_PUBLIC ...] [LINK_PRIVATE ...])
 # Defines one layer of the design as the static library grove_<name>, alias grove::<name>, from the headers and
 # sources in src/<name>/. `cmake --build --preset release --target grove_<name>` builds only this layer.
 function(grove_layer name)
