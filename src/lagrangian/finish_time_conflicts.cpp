@@ -21,7 +21,7 @@ FinishTimeConflicts::FinishTimeConflicts(const World& world, AgentStopsCache& st
     : world_(world), stops_(stops), max_sizes_(max_sizes), builder_(world), dependency_(world) {}
 FinishTimeConflicts::~FinishTimeConflicts() = default;
 
-bool FinishTimeConflicts::are_incompatible(const FinishTimeConflict& pair, const Limits& limits) {
+bool FinishTimeConflicts::are_incompatible(const FinishTimePair& pair, const Limits& limits) {
   const Time later_a = pair.finish_a - of(pair.a, limits).earliest;
   const Time later_b = pair.finish_b - of(pair.b, limits).earliest;
   if (later_a >= kGrid || later_b >= kGrid) return false;
@@ -36,12 +36,11 @@ bool FinishTimeConflicts::are_incompatible(const FinishTimeConflict& pair, const
   return true;
 }
 
-FinishTimeConflict FinishTimeConflicts::extended(FinishTimeConflict pair, const Limits& limits) {
+FinishTimePair FinishTimeConflicts::extended(FinishTimePair pair, const Limits& limits) {
   for (bool grows = true; grows;) {
     grows = false;
-    for (Time FinishTimeConflict::*finish :
-         {&FinishTimeConflict::finish_a, &FinishTimeConflict::finish_b}) {
-      FinishTimeConflict later = pair;
+    for (Time FinishTimePair::*finish : {&FinishTimePair::finish_a, &FinishTimePair::finish_b}) {
+      FinishTimePair later = pair;
       ++(later.*finish);
       if (!are_incompatible(later, limits)) continue;
       pair = later;
@@ -52,9 +51,8 @@ FinishTimeConflict FinishTimeConflicts::extended(FinishTimeConflict pair, const 
 }
 
 // Tests the paths that finish exactly `later_a` and `later_b` steps after the least finish times.
-FinishTimeConflicts::Verdict FinishTimeConflicts::compared(const FinishTimeConflict& pair,
-                                                           Time later_a, Time later_b,
-                                                           const Limits& limits) {
+FinishTimeConflicts::Verdict FinishTimeConflicts::compared(const FinishTimePair& pair, Time later_a,
+                                                           Time later_b, const Limits& limits) {
   const Mdd* const a = set(pair.a, later_a, limits);
   const Mdd* const b = a ? set(pair.b, later_b, limits) : nullptr;
   if (b == nullptr) return Verdict::kNotExcluded;

@@ -17,7 +17,7 @@
 namespace grove::detail {
 
 // Agent a finishes at finish_a or earlier, and agent b at finish_b or earlier.
-struct FinishTimeConflict {
+struct FinishTimePair {
   AgentIndex a = -1;
   AgentIndex b = -1;
   Time finish_a = 0;
@@ -41,10 +41,10 @@ class FinishTimeConflicts {
 
   // Returns true only if it is proven that no two paths without a collision finish by these times,
   // and false if it is not proven within the limits.
-  bool are_incompatible(const FinishTimeConflict& pair, const Limits& limits);
+  bool are_incompatible(const FinishTimePair& pair, const Limits& limits);
   // Raises the finish times of an incompatible pair while it stays proven incompatible. Afterwards
   // neither can be a step later.
-  FinishTimeConflict extended(FinishTimeConflict pair, const Limits& limits);
+  FinishTimePair extended(FinishTimePair pair, const Limits& limits);
 
   // Nodes of MDDs and pairs of nodes examined so far.
   std::int64_t work() const { return builder_.nodes() + dependency_.pairs(); }
@@ -62,8 +62,7 @@ class FinishTimeConflicts {
   static constexpr Time kGrid = 16;  // number of finish times examined, from least on
   using Grid = std::array<Verdict, kGrid * kGrid>;
 
-  Verdict compared(const FinishTimeConflict& pair, Time later_a, Time later_b,
-                   const Limits& limits);
+  Verdict compared(const FinishTimePair& pair, Time later_a, Time later_b, const Limits& limits);
   const Mdd* set(AgentIndex agent, Time later, const Limits& limits);
   OfAgent& of(AgentIndex agent, const Limits& limits);
 

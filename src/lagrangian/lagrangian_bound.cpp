@@ -279,8 +279,8 @@ void LagrangianBound::separate_conflict_rows() {
   for (const Collision& collision : encounters_.collisions()) {
     rows_.add(collision);
     const auto [a, b] = std::minmax(collision.a, collision.b);
-    const FinishTimeConflict pair{a, b, static_cast<Time>(paths_[a].size()) - 1,
-                                  static_cast<Time>(paths_[b].size()) - 1};
+    const FinishTimePair pair{a, b, static_cast<Time>(paths_[a].size()) - 1,
+                              static_cast<Time>(paths_[b].size()) - 1};
     if (!rows_.has(pair)) colliding_.push_back(pair);
   }
 }
@@ -288,7 +288,7 @@ void LagrangianBound::separate_conflict_rows() {
 void LagrangianBound::separate_finish_rows(Job& job, const Limits& limits) {
   const std::int64_t begin = pairs_.work();
   while (!colliding_.empty() && pairs_.work() - begin < tuning_.lagrangian_step_work) {
-    const FinishTimeConflict pair = colliding_.back();
+    const FinishTimePair pair = colliding_.back();
     colliding_.pop_back();
     if (!rows_.has(pair) && pairs_.are_incompatible(pair, limits))
       rows_.add(pairs_.extended(pair, limits));

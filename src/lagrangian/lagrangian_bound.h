@@ -110,12 +110,12 @@ class LagrangianBound {
   OccupancyCounts encounters_;
   FinishTimeConflicts pairs_;
   TargetLevelStep ascent_;
-  std::vector<Path> paths_;                    // by agent: path of its subproblem value
-  std::vector<ScaledCost> prices_;             // by agent
-  std::vector<std::int64_t> labels_;           // by agent: mean of its last job
-  std::vector<FinishTimeConflict> colliding_;  // pairs still to be tested in this round
-  bool is_counted_ = false;                    // encounters_ is of this round
-  std::int64_t next_list_;                     // round of the next dual solution, at the earliest
+  std::vector<Path> paths_;                // by agent: path of its subproblem value
+  std::vector<ScaledCost> prices_;         // by agent
+  std::vector<std::int64_t> labels_;       // by agent: mean of its last job
+  std::vector<FinishTimePair> colliding_;  // pairs still to be tested in this round
+  bool is_counted_ = false;                // encounters_ is of this round
+  std::int64_t next_list_;                 // round of the next dual solution, at the earliest
   std::shared_ptr<const DualSolution> new_list_;
   std::vector<Helper> helpers_;  // used only by the thread that calls the methods about helpers
   bool keeps_reasons_ = false;

@@ -27,7 +27,7 @@ namespace {
 // Limit of a multiplier: 64 steps. No observed multiplier exceeded a few steps.
 constexpr double kGreatestMultiplier = 64.0 * Penalties::kUnit;
 
-std::uint64_t pair_key(const FinishTimeConflict& pair) {
+std::uint64_t pair_key(const FinishTimePair& pair) {
   return static_cast<std::uint64_t>(pair.a) << 32 | static_cast<std::uint32_t>(pair.b);
 }
 
@@ -71,7 +71,7 @@ void RelaxedRows::add(const Collision& c) {
           {.kind = Kind::kEdge, .a = a, .b = b, .time = c.time});
 }
 
-void RelaxedRows::add(const FinishTimeConflict& pair) {
+void RelaxedRows::add(const FinishTimePair& pair) {
   finish_rows_[pair_key(pair)].push_back(add_row({.kind = Kind::kFinish,
                                                   .a = pair.a,
                                                   .b = pair.b,
@@ -79,7 +79,7 @@ void RelaxedRows::add(const FinishTimeConflict& pair) {
                                                   .time_b = pair.finish_b}));
 }
 
-bool RelaxedRows::has(const FinishTimeConflict& pair) const {
+bool RelaxedRows::has(const FinishTimePair& pair) const {
   const auto rows = finish_rows_.find(pair_key(pair));
   return rows != finish_rows_.end() && std::ranges::any_of(rows->second, [&](RowId id) {
            const RelaxedRow& row = multipliers_.row(id);

@@ -25,9 +25,9 @@ class RelaxedRows {
 
   // Adds a row with multiplier 0. For a collision, an existing row stays as it is.
   void add(const Collision& collision);
-  void add(const FinishTimeConflict& pair);
+  void add(const FinishTimePair& pair);
   // Whether a row forbids that both agents finish by these times.
-  bool has(const FinishTimeConflict& pair) const;
+  bool has(const FinishTimePair& pair) const;
 
   // Sets the direction of each row: its uses by `paths` minus 1, plus `memory` times the old
   // direction; not below 0 if the multiplier is 0. Returns the squared length of the direction.

@@ -62,7 +62,7 @@ TEST(FinishTimeConflicts, AgreeWithJointBreadthFirstSearch) {
         ASSERT_EQ(incompatible, !can_both_finish(*a, *b, by_a, by_b)) << by_a << " " << by_b;
         ++(incompatible ? excluded : others);
         if (!incompatible) continue;
-        const FinishTimeConflict later = pairs.extended({0, 1, by_a, by_b}, {});
+        const FinishTimePair later = pairs.extended({0, 1, by_a, by_b}, {});
         ASSERT_FALSE(can_both_finish(*a, *b, later.finish_a, later.finish_b));
       }
   }
@@ -80,7 +80,7 @@ TEST(FinishTimeConflicts, ProveNothingWithoutEffort) {
     TinyProblem known(tiny_instance(seed));
     if (known.instance.agent_count() < 2) continue;
     const auto finds_incompatible = [&](FinishTimeConflicts::Most most,
-                                        const FinishTimeConflict& pair) {
+                                        const FinishTimePair& pair) {
       return FinishTimeConflicts(known.instance.world(), known.stops, most)
           .are_incompatible(pair, {});
     };
@@ -88,8 +88,7 @@ TEST(FinishTimeConflicts, ProveNothingWithoutEffort) {
     const auto b = AgentGraph::make(known.instance, 1);
     if (!a || !b || a->count() == 0 || b->count() == 0) continue;
     // Each agent has a path that finishes at its time of the pair.
-    const FinishTimeConflict pair{0, 1, a->to_go(AgentGraph::start()),
-                                  b->to_go(AgentGraph::start())};
+    const FinishTimePair pair{0, 1, a->to_go(AgentGraph::start()), b->to_go(AgentGraph::start())};
     if (!finds_incompatible(kEnough, pair)) continue;
     ++excluded;
     EXPECT_FALSE(finds_incompatible({0, kEnough.joint_mdd_nodes, kEnough.bytes}, pair));
