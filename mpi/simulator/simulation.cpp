@@ -89,7 +89,7 @@ struct SimulatedRank {
   Worker worker;
   SimulatedWorker player;
   double heard_at;  // when the last message was handled; the poll times follow from it
-  double talk_due = kNotDue;
+  double communication_due = kNotDue;
   double communicates_until = 0;  // end of the current or last communication
   double communication_s = 0;
   double communication_processor_s = 0;
@@ -103,7 +103,7 @@ class Simulation {
       : setting_(setting),
         expander_(setting.problem, setting.stops, search_options_of(setting.options)) {
     for (int rank = 0; rank < ranks; ++rank) ranks_.emplace_back(setting, rank);
-    talked(0, 0);
+    communicated(0, 0);
   }
 
   SimulatedRun run() {
@@ -141,25 +141,25 @@ class Simulation {
   void foresee(double time, int rank, Who who) { agenda_.push({time, serial_++, rank, who}); }
 
   // The first time at `time` or later at which the rank can communicate.
-  double first_talk(SimulatedRank& r, double time) const {
+  double first_communication(SimulatedRank& r, double time) const {
     const double interval = max_poll_interval(r.member.rank().ended(), setting_.machine.poll);
     if (time > r.communicates_until) time = next_poll(r.heard_at, time, interval);
     return std::max(time, r.communicates_until);
   }
 
   // Schedules a poll of the rank at `time` or soon after.
-  void talk_from(double time, int rank) {
+  void communicate_from(double time, int rank) {
     SimulatedRank& r = at(rank);
-    time = first_talk(r, time);
-    if (time >= r.talk_due) return;
-    r.talk_due = time;
+    time = first_communication(r, time);
+    if (time >= r.communication_due) return;
+    r.communication_due = time;
     foresee(time, rank, Who::kTalker);
   }
 
   void communication(int rank) {
     SimulatedRank& r = at(rank);
-    if (r.talk_due != now_) return;  // the rank has communicated already
-    r.talk_due = kNotDue;
+    if (r.communication_due != now_) return;  // the rank has communicated already
+    r.communication_due = kNotDue;
     setting_.communication = {};
     const double before_s = processor_time();
     const bool heard = r.member.exchange_messages(now_);
@@ -169,20 +169,20 @@ class Simulation {
       r.said_farewell = true;
     }
     r.communication_processor_s += processor_time() - before_s;
-    talked(rank, now_);
+    communicated(rank, now_);
     if (heard) r.heard_at = r.communicates_until;
   }
 
   // Schedules the consequences of the communication that this rank began at `time`.
-  void talked(int rank, double time) {
+  void communicated(int rank, double time) {
     SimulatedRank& r = at(rank);
     r.communicates_until = time + setting_.communication.takes_s;
     r.communication_s += setting_.communication.takes_s;
     for (const int to : setting_.communication.receivers)
-      talk_from(setting_.network.next_arrival(to), to);
+      communicate_from(setting_.network.next_arrival(to), to);
     if (const double next = setting_.network.next_arrival(rank); next < kNotDue)
-      talk_from(next, rank);
-    if (const double next = r.member.next_send_time(); next < kNotDue) talk_from(next, rank);
+      communicate_from(next, rank);
+    if (const double next = r.member.next_send_time(); next < kNotDue) communicate_from(next, rank);
     if (!r.said_farewell && !r.player.busy() && r.has_work())
       foresee(r.communicates_until, rank, Who::kWorker);
     if (!r.said_farewell || r.left || !r.member.left()) return;
@@ -195,7 +195,7 @@ class Simulation {
   void work(int rank) {
     SimulatedRank& r = at(rank);
     if (r.said_farewell) return;
-    const double alone_until = first_talk(r, now_);
+    const double alone_until = first_communication(r, now_);
     for (double time = now_; time == now_ || time < alone_until; time = r.player.busy_until()) {
       if (r.player.busy() && !cancel_workers(rank, time)) return;
       r.player.begin(time, expander_);
@@ -211,7 +211,7 @@ class Simulation {
     if (r.player.busy_until() > time) return false;
     r.player.end();
     profile_.add(r.player.began(), time);
-    talk_from(time, rank);
+    communicate_from(time, rank);
     return true;
   }
 
