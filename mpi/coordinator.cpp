@@ -90,11 +90,11 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kNodesEntrusted = 200;  // per message
+constexpr std::size_t kNodesPerAssignment = 200;  // per message
 // Longest silence after a limit. Ranks poll their limits every few milliseconds and the network at
 // least every four milliseconds. The run concludes without silent ranks no earlier than twice this
 // time after the limit, so a worker in a long step has that long, with a checkpoint or without.
-constexpr auto kLongSilence = std::chrono::milliseconds(700);
+constexpr auto kMaxSilence = std::chrono::milliseconds(700);
 
 }  // namespace
 
@@ -111,7 +111,7 @@ Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, co
       run_(problem, options, limits, announcer_, pool_, nodes_),
       load_balancer_(children_.ranks(), options.tuning),
       timer_(options.checkpoints, limits),
-      heard_at_(limits.now()) {
+      last_message_at_(limits.now()) {
   run_.run_events().survey_by([this] { return survey(); });
 }
 
@@ -142,7 +142,7 @@ void Coordinator::restore(CheckpointReader& checkpoint) {
     check(*next, *root, instance_);
     nodes_.send(root->tree());
     nodes.push_back(std::move(*next));
-    if (nodes.size() == kNodesEntrusted) send();
+    if (nodes.size() == kNodesPerAssignment) send();
   }
   if (!nodes.empty()) send();
   run_.restored();
@@ -169,7 +169,7 @@ void Coordinator::handle(int from, message::Message&& message) {
                  },
                  [&](message::RankFinished& finished) { leave(finished); }, unexpected},
       message);
-  heard_at_ = limits_.now();  // not before: writing a checkpoint takes time
+  last_message_at_ = limits_.now();  // not before: writing a checkpoint takes time
 }
 
 void Coordinator::heard(int child, message::Status status) {
@@ -193,7 +193,7 @@ void Coordinator::heard(int child, message::Status status) {
 
 // Writes one checkpoint at a time, and the last one when the search is over, before Terminate is
 // sent.
-void Coordinator::look_after_checkpoints() {
+void Coordinator::update_checkpoints() {
   if (gathering_ && gathering_->is_done()) gathering_.reset();
   if (gathering_ || options_.checkpoints.directory.empty() || !restored_) return;
   const bool is_last = run_.shared_bounds().over() && !gathered_at_end_;
@@ -204,7 +204,7 @@ void Coordinator::look_after_checkpoints() {
 
 void Coordinator::step() {
   if (ending_) return;
-  look_after_checkpoints();
+  update_checkpoints();
   if (gathering_) return;
   if (run_.shared_bounds().over()) {
     ending_ = true;
@@ -218,7 +218,8 @@ void Coordinator::step() {
 
 void Coordinator::leave(const message::RankFinished& message) {
   add(message, finished_);
-  if (++farewells_ == children_.count()) children_.send_message_counts({finished_.messages});
+  if (++finished_children_ == children_.count())
+    children_.send_message_counts({finished_.messages});
 }
 
 // The last report of an unresponsive rank stays valid. Silence before the limit does not count:
@@ -228,14 +229,14 @@ std::int64_t Coordinator::check_unresponsive_ranks() {
   if (ended() || !limits_.stop_requested()) return 0;
   const Clock::time_point now = limits_.now();
   if (!stopped_at_) stopped_at_ = now;
-  if (now - std::max(heard_at_, *stopped_at_) < kLongSilence) return 0;
+  if (now - std::max(last_message_at_, *stopped_at_) < kMaxSilence) return 0;
   if (gathering_) {
     run_.run_events().checkpoint({.failure = "a rank is unresponsive"});
     gathering_.reset();
     gathered_at_end_ = true;
     return 0;
   }
-  if (!ending_ || now - *stopped_at_ < 2 * kLongSilence) return 0;
+  if (!ending_ || now - *stopped_at_ < 2 * kMaxSilence) return 0;
   const auto& ranks = finished_.survey.ranks;
   return transport_.ranks() - std::ssize(ranks) - (ranks.contains(0) ? 0 : 1);
 }

@@ -39,7 +39,7 @@ class Coordinator {
 
   Cost lower_bound() { return run_.shared_bounds().lower_bound(); }
   // Has every child sent RankFinished?
-  bool ended() const { return farewells_ == children_.count(); }
+  bool ended() const { return finished_children_ == children_.count(); }
   // Tests for unresponsive ranks. It acts only if a limit was reached and no message has arrived
   // for too long since then. If a checkpoint is in progress, it aborts the checkpoint and returns
   // 0. Otherwise it returns the number of ranks, except this one, for which no RankFinished has
@@ -65,7 +65,7 @@ class Coordinator {
 
   void restore(CheckpointReader& checkpoint);
   void heard(int child, message::Status status);
-  void look_after_checkpoints();
+  void update_checkpoints();
   void leave(const message::RankFinished& message);
   RunStatistics told() const;
   RunStatistics survey() const;
@@ -87,10 +87,10 @@ class Coordinator {
   bool restored_ = true;  // false: a limit was reached before all of the checkpoint was restored
   bool gathered_at_end_ = false;
   bool ending_ = false;
-  Clock::time_point heard_at_;  // when the last message of any child was handled
+  Clock::time_point last_message_at_;  // when the last message of any child was handled
   // When check_unresponsive_ranks() first saw that a limit was reached.
   std::optional<Clock::time_point> stopped_at_;
-  int farewells_ = 0;
+  int finished_children_ = 0;
   message::RankFinished finished_;        // sum over the children that have finished
   std::map<int, RunStatistics> surveys_;  // by rank: the latest statistics before its RankFinished
 };

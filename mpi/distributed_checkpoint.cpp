@@ -71,9 +71,9 @@ void DistributedCheckpoint::handle(const message::SnapshotTaken& gathered) {
 // Otherwise a rank that has sent its snapshot, or waits for its request, would take rank 0 for
 // unresponsive.
 void DistributedCheckpoint::send_heartbeat() {
-  if (limits_.now() - said_ < kMaxPause) return;
+  if (limits_.now() - announced_at_ < kMaxPause) return;
   children_.broadcast(message::Heartbeat{});
-  said_ = limits_.now();
+  announced_at_ = limits_.now();
 }
 
 void DistributedCheckpoint::handle(message::SnapshotPart&& part) {

@@ -45,9 +45,9 @@ class DistributedCheckpoint {
   Transport& transport_;
   ChildLinks& children_;
   const Clock::time_point begin_ = limits_.now();
-  Clock::time_point said_ = begin_;  // last broadcast to all ranks
-  const std::int64_t trees_;         // number of trees that count as instantiated
-  int looked_ = 0;                   // children that have taken their snapshot
+  Clock::time_point announced_at_ = begin_;  // last broadcast to all ranks
+  const std::int64_t trees_;                 // number of trees that count as instantiated
+  int looked_ = 0;                           // children that have taken their snapshot
   Cost evicted_bound_ = kInfiniteCost;
   int asked_ = -1;  // the rank that sends its snapshot
   bool done_ = false;

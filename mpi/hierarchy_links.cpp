@@ -40,7 +40,7 @@ namespace {
 constexpr double kPause = 2e-3;
 constexpr double kPausePerSibling = 50e-6;
 
-constexpr double kNothingToSay = std::numeric_limits<double>::infinity();
+constexpr double kNoReport = std::numeric_limits<double>::infinity();
 
 bool has_idle(const message::Status& status) {
   return !status.work_requests.empty() && status.work_requests.front().idle;
@@ -70,7 +70,7 @@ bool ParentLink::is_urgent(const message::Status& status) const {
 }
 
 bool ParentLink::report(message::Status status, double now) {
-  reports_at_ = kNothingToSay;
+  reports_at_ = kNoReport;
   if (!urgent_ && status == said_) return false;
   const double next = said_at_ + pause_at(said_at_, pause_);
   if (!urgent_ && !is_urgent(status) && now < next) {

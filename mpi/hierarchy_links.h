@@ -53,7 +53,7 @@ class ParentLink {
   // Returns true if it was sent.
   bool report(message::Status status, double now);
   // Makes the next status urgent, even if it is unchanged.
-  void urge() { urgent_ = true; }
+  void mark_urgent() { urgent_ = true; }
   // When a withheld status may be sent. Infinity if none is withheld, or after end_reports().
   double reports_at() const { return reports_at_; }
   // Cancels a withheld status.

@@ -20,8 +20,8 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kWishesPassedOn = 16;
-constexpr std::size_t kLevelsPassedOn = 4;
+constexpr std::size_t kMaxForwardedRequests = 16;
+constexpr std::size_t kMaxForwardedLevels = 4;
 
 std::int64_t all_of(const message::Surplus& surplus) {
   return surplus.nodes + surplus.next;
@@ -33,7 +33,7 @@ LoadBalancer::LoadBalancer(const std::vector<std::vector<int>>& children, const 
     : tuning_(tuning), children_(children.size()) {
   for (std::size_t child = 0; child < children.size(); ++child) {
     message::Status idle;
-    for (const int rank : children[child] | std::views::take(kWishesPassedOn))
+    for (const int rank : children[child] | std::views::take(kMaxForwardedRequests))
       idle.work_requests.push_back({rank, true, kInfiniteCost});
     heard(static_cast<int>(child), idle);
   }
@@ -115,7 +115,7 @@ std::vector<message::Surplus> LoadBalancer::surplus() const {
       sum = {surplus.bound, sum.nodes + surplus.nodes, sum.next + surplus.next};
     }
   std::vector<message::Surplus> best;
-  for (const auto& [bound, sum] : sums | std::views::take(kLevelsPassedOn)) best.push_back(sum);
+  for (const auto& [bound, sum] : sums | std::views::take(kMaxForwardedLevels)) best.push_back(sum);
   return best;
 }
 
@@ -123,7 +123,7 @@ std::vector<message::WorkRequest> LoadBalancer::work_requests() const {
   std::vector<message::WorkRequest> work_requests;
   for (const auto& [request, child] : wishes_) {
     const auto& [busy, minus_best, rank] = request;
-    if (work_requests.size() == kWishesPassedOn) break;
+    if (work_requests.size() == kMaxForwardedRequests) break;
     if (!awaiting_.contains(rank)) work_requests.push_back({rank, !busy, -minus_best});
   }
   return work_requests;

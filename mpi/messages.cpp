@@ -196,13 +196,13 @@ void serialize(Archive& archive, Addressed& addressed) {
 }
 
 // Serializes as an Addressed, without a copy of the message.
-struct ToAddress {
+struct AddressedView {
   std::uint8_t level;
   const Message& message;
 };
 
 template <class Archive>
-void save(Archive& archive, const ToAddress& parts) {
+void save(Archive& archive, const AddressedView& parts) {
   archive(parts.level, parts.message);
 }
 
@@ -220,7 +220,7 @@ LearnedBound unpacked(std::string_view bytes) {
 }
 
 std::string bytes_of(const Message& message, int level) {
-  return to_bytes(ToAddress{static_cast<std::uint8_t>(level), message});
+  return to_bytes(AddressedView{static_cast<std::uint8_t>(level), message});
 }
 
 Addressed message_of(std::string_view bytes) {

@@ -37,12 +37,12 @@ std::int64_t least(std::int64_t mine, MPI_Comm communicator) {
   return all;
 }
 
-// Collective. If `act` throws on one rank, an exception is thrown on all ranks.
-template <class Act>
-void collective(MPI_Comm communicator, Act&& act) {
+// Collective. If `function` throws on one rank, an exception is thrown on all ranks.
+template <class Function>
+void collective(MPI_Comm communicator, Function&& function) {
   std::exception_ptr failure;
   try {
-    act();
+    function();
   } catch (...) {
     failure = std::current_exception();
   }

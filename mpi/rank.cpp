@@ -54,11 +54,11 @@ Rank::Rank(const Problem& problem, const SolveOptions& options, const Limits& li
       stops_(stops),
       trees_(problem, stops_, nodes_.pool),
       shared_bounds_(limits, nodes_.frontier),
-      search_(options, limits, nodes_, shared_bounds_, elsewhere_, unwatched_),
+      search_(options, limits, nodes_, shared_bounds_, remote_trees_, unwatched_),
       bound_broadcast_(transport.rank(), transport.ranks(),
                        options.tuning.bound_broadcast_rate * kBytesPerMegabyte) {
   if (transport.rank() == 0) search_.lagrangian().set_ranks(transport.ranks());
-  if (transport.ranks() > 1) others_wait();
+  if (transport.ranks() > 1) favor_splitting();
 }
 
 void Rank::handle(int from, message::Message&& message) {
@@ -85,11 +85,11 @@ void Rank::handle(int from, message::Message&& message) {
                  },
                  [&](message::NewTree& tree) {
                    const NodePtr& root = roots_[tree.number] = trees_.add(tree.tree, tree.number);
-                   trees_of_facts_.add(root->tree());
+                   trees_of_bounds_.add(root->tree());
                    take_over_held();
                  },
                  [&](message::AssignNodes& entrusted) { accept(entrusted); },
-                 [&](message::SendNodes& order) { give(order); },
+                 [&](message::SendNodes& order) { send_nodes(order); },
                  [&](message::ReleaseCustody& covered) { release(covered); },
                  [&](message::Incumbent& incumbent) {
                    const Cost cost = incumbent.plan.cost;
@@ -130,7 +130,7 @@ void Rank::take_over(int from, message::NodeBatch& batch) {
   Peer& peer = peers_[from];
   ++peer.taken;
   peer.news = true;
-  parent_.urge();
+  parent_.mark_urgent();
 }
 
 void Rank::take_over_held() {
@@ -138,8 +138,8 @@ void Rank::take_over_held() {
 }
 
 // The nodes sent stay in custody: taken from the frontier, but not completed.
-void Rank::give(const message::SendNodes& order) {
-  if (order.to_idle) others_wait();
+void Rank::send_nodes(const message::SendNodes& order) {
+  if (order.to_idle) favor_splitting();
   const bool keeps = !order.to_idle || keeps_next();
   const auto nodes =
       nodes_.frontier.take_for_transfer(static_cast<std::size_t>(order.count), keeps);
@@ -153,14 +153,14 @@ void Rank::give(const message::SendNodes& order) {
   send(order.to, batch);
   ++peer.sent;
   nodes_sent_ += std::ssize(nodes);
-  parent_.urge();
+  parent_.mark_urgent();
 }
 
 // Limits the next nodes to cached bounds, because other ranks wait for nodes. Computing the bounds
 // of a node's pairs and groups before it is split may take 10 ms. The first ten generations of
 // nodes would then take most of a short run, in which most ranks have no work. It is better to
 // split first, so that each rank computes these bounds for its own descendants of the node.
-void Rank::others_wait() {
+void Rank::favor_splitting() {
   cached_only_until_ = nodes_.expanded + kCachedOnlyNodes;
   search_.set_bounding_effort(BoundingEffort::kCachedOnly);
 }
@@ -185,7 +185,7 @@ void Rank::accept(const message::AssignNodes& entrusted) {
   push(entrusted.nodes, {});
   nodes_.frontier.record_evicted_bound(entrusted.evicted_bound);
   ++assigned_;
-  parent_.urge();
+  parent_.mark_urgent();
 }
 
 void Rank::push(const std::vector<NodeRecord>& records, const std::vector<GroupBound>& findings) {
@@ -221,7 +221,7 @@ void Rank::send_part() {
 void Rank::restart(Cost proven) {
   nodes_.restart({}, proven);
   ++epoch_;
-  parent_.urge();
+  parent_.mark_urgent();
   take_over_held();
 }
 
@@ -267,29 +267,29 @@ bool Rank::is_wanted(Cost bound) const {
 void Rank::send_updates(double now) {
   if (ended_) return;
   if (nodes_.expanded >= cached_only_until_) search_.set_bounding_effort(BoundingEffort::kFull);
-  speak_of_prices();
-  speak_of_facts(now);
+  send_pricing_messages();
+  send_learned_bounds(now);
   message::Status status = this->status();
   send_found();
   if (!parent_.report(std::move(status), now)) return;
   for (auto& [rank, peer] : peers_) peer.news = false;
 }
 
-void Rank::speak_of_prices() {
+void Rank::send_pricing_messages() {
   for (auto& [rank, share] : search_.lagrangian().dispatch_pricing())
     send(rank, message::RequestPricing{std::move(share)});
   if (auto answer = search_.lagrangian().take_answer())
     send(0, message::PricingDone{std::move(*answer)});
 }
 
-void Rank::speak_of_facts(double now) {
+void Rank::send_learned_bounds(double now) {
   if (!bound_broadcast_.is_on()) return;
   const auto memory = search_.memory();
   for (const LearnedBound& fact :
-       learned_bounds_of(memory->take_new_entries(), *memory, trees_of_facts_))
+       learned_bounds_of(memory->take_new_entries(), *memory, trees_of_bounds_))
     bound_broadcast_.add(fact);
   for (auto& [rank, facts] : bound_broadcast_.due(now)) {
-    facts_sent_ += std::ssize(facts.facts);
+    learned_bounds_sent_ += std::ssize(facts.facts);
     send(rank, facts);
   }
 }
@@ -302,7 +302,7 @@ void Rank::receive(message::LearnedBounds& facts) {
   for (std::string& bytes : facts.facts) {
     LearnedBound fact = message::unpacked(bytes);
     if (!ended_) bound_broadcast_.add(fact.utility(), std::move(bytes), facts.reach);
-    if (has_room) merge(std::move(fact), trees_of_facts_, *memory);
+    if (has_room) merge(std::move(fact), trees_of_bounds_, *memory);
   }
 }
 
@@ -316,7 +316,7 @@ RunStatistics Rank::survey(Stats counts) const {
   counts.counts["messages"] += transport_.messages();
   counts.counts["message_bytes"] += transport_.bytes();
   counts.counts["nodes_sent"] += nodes_sent_;
-  counts.counts["learned_bounds_sent"] += facts_sent_;
+  counts.counts["learned_bounds_sent"] += learned_bounds_sent_;
   std::int64_t& batches = counts.counts["node_batches"];
   for (const auto& [rank, peer] : peers_) batches += peer.sent;
   RunStatistics survey{{std::move(counts.counts), search_.memory_use()}, {}};

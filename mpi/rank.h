@@ -74,16 +74,16 @@ class Rank {
   void take_over(int from, message::NodeBatch& batch);
   void take_over_held();
   bool must_defer(const message::NodeBatch& batch) const;
-  void give(const message::SendNodes& order);
+  void send_nodes(const message::SendNodes& order);
   bool keeps_next() const;
-  void others_wait();
+  void favor_splitting();
   void release(const message::ReleaseCustody& release);
   void accept(const message::AssignNodes& entrusted);
   void gather();
   void send_part();
   void send_found();
-  void speak_of_prices();
-  void speak_of_facts(double now);
+  void send_pricing_messages();
+  void send_learned_bounds(double now);
   void receive(message::LearnedBounds& facts);
   void push(const std::vector<NodeRecord>& records, const std::vector<GroupBound>& findings);
   void restart(Cost proven);
@@ -102,12 +102,12 @@ class Rank {
   AgentStopsCache stops_;
   Trees trees_;  // outlives every holder of their nodes
   RemoteBounds shared_bounds_;
-  TreeSource elsewhere_;    // the coordinator instantiates trees,
-  WorkObserver unwatched_;  // and counts the work
+  TreeSource remote_trees_;  // the coordinator instantiates trees,
+  WorkObserver unwatched_;   // and counts the work
   SharedSearch search_;
 
   std::map<std::uint32_t, NodePtr> roots_;  // by tree number
-  TreeIndex trees_of_facts_;
+  TreeIndex trees_of_bounds_;
   BoundBroadcast bound_broadcast_;
   std::int32_t epoch_ = 0;
   std::int64_t assigned_ = 0;
@@ -123,7 +123,7 @@ class Rank {
   std::int64_t in_custody_ = 0;         // nodes
   std::int64_t cached_only_until_ = 0;  // kCachedOnly until this number of nodes is expanded here
   std::int64_t nodes_sent_ = 0;
-  std::int64_t facts_sent_ = 0;
+  std::int64_t learned_bounds_sent_ = 0;
 
   std::vector<NodePtr> gathered_;  // nodes for a checkpoint that are not sent yet
 

@@ -47,7 +47,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
                         [&](message::AssignNodes& nodes) {
                           ++assigned_;
                           nodes_.assign(std::move(nodes));
-                          parent_.urge();
+                          parent_.mark_urgent();
                         },
                         [&](message::Restart& order) { restart(order); },
                         [&](message::Incumbent& incumbent) {
@@ -100,7 +100,7 @@ void SubCoordinator::gathered(const message::SnapshotTaken& parts) {
 
 void SubCoordinator::send_finished(const message::RankFinished& message) {
   add(message, finished_);
-  if (++farewells_ == children_.count()) parent_.send(finished_);
+  if (++finished_children_ == children_.count()) parent_.send(finished_);
 }
 
 // Some child must send a batch, even an empty one, because the receiver waits for it.
@@ -110,7 +110,7 @@ void SubCoordinator::order(const message::SendNodes& order) {
 
 void SubCoordinator::restart(const message::Restart& order) {
   nodes_.broadcast_restart(order.proven);
-  parent_.urge();
+  parent_.mark_urgent();
 }
 
 message::Status SubCoordinator::status() const {

@@ -49,7 +49,7 @@ class SubCoordinator {
   message::SnapshotTaken gathered_;  // merged over the children that have taken a snapshot
   int looked_ = 0;
   message::RankFinished finished_;  // sum over the children that have finished
-  int farewells_ = 0;
+  int finished_children_ = 0;
   bool ending_ = false;
 };
 

@@ -33,13 +33,13 @@ FarmClient::FarmClient(Transport& world, Transport& group, std::atomic<bool>& in
 
 void FarmClient::run() {
   if (group_.rank() == kLeader) {
-    lead();
+    run_as_master();
   } else {
     follow();
   }
 }
 
-void FarmClient::lead() {
+void FarmClient::run_as_master() {
   while (const std::optional<Entry> entry = next_entry()) {
     tell_members(Assignment{*entry});
     Row row = solve(*entry);
@@ -151,7 +151,7 @@ void FarmClient::tell_members(const FarmMessage& message) {
 std::optional<FarmMessage> FarmClient::receive_from_master() {
   if (master_ != nullptr) {
     master_->poll();
-    return master_->take_own();
+    return master_->take_own_message();
   }
   const std::optional<ReceivedMessage> received = world_.receive();
   return received ? std::optional(decode(received->bytes)) : std::nullopt;

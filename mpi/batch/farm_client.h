@@ -52,7 +52,7 @@ class FarmClient {
   void run();
 
  private:
-  void lead();
+  void run_as_master();
   void follow();
   std::optional<Entry> next_entry();
   Row solve(const Entry& entry);

@@ -137,7 +137,7 @@ BatchState FarmMaster::state() const {
   return state;
 }
 
-std::optional<FarmMessage> FarmMaster::take_own() {
+std::optional<FarmMessage> FarmMaster::take_own_message() {
   if (own_.empty()) return std::nullopt;
   FarmMessage message = std::move(own_.front());
   own_.pop_front();

@@ -67,7 +67,7 @@ class FarmMaster {
   int left() const { return state_.total - state_.done(); }
 
   // The next message for the leader on this rank.
-  std::optional<FarmMessage> take_own();
+  std::optional<FarmMessage> take_own_message();
 
  private:
   struct UnderWay {

@@ -114,7 +114,7 @@ class Simulation {
       agenda_.pop();
       setting_.network.advance_to(event.time);
       now_ = event.time;
-      if (event.who == Who::kTalker)
+      if (event.actor == Actor::kCommunicator)
         communication(event.rank);
       else
         work(event.rank);
@@ -124,12 +124,12 @@ class Simulation {
   }
 
  private:
-  enum class Who : std::uint8_t { kTalker, kWorker };
+  enum class Actor : std::uint8_t { kCommunicator, kWorker };
   struct Event {
     double time;
     std::int64_t serial;  // number of the event in order of scheduling
     int rank;
-    Who who;
+    Actor actor;
   };
   struct Later {
     bool operator()(const Event& a, const Event& b) const {
@@ -138,7 +138,9 @@ class Simulation {
   };
 
   SimulatedRank& at(int rank) { return ranks_[static_cast<std::size_t>(rank)]; }
-  void foresee(double time, int rank, Who who) { agenda_.push({time, serial_++, rank, who}); }
+  void schedule(double time, int rank, Actor actor) {
+    agenda_.push({time, serial_++, rank, actor});
+  }
 
   // The first time at `time` or later at which the rank can communicate.
   double first_communication(SimulatedRank& r, double time) const {
@@ -153,7 +155,7 @@ class Simulation {
     time = first_communication(r, time);
     if (time >= r.communication_due) return;
     r.communication_due = time;
-    foresee(time, rank, Who::kTalker);
+    schedule(time, rank, Actor::kCommunicator);
   }
 
   void communication(int rank) {
@@ -184,7 +186,7 @@ class Simulation {
       communicate_from(next, rank);
     if (const double next = r.member.next_send_time(); next < kNotDue) communicate_from(next, rank);
     if (!r.said_farewell && !r.player.busy() && r.has_work())
-      foresee(r.communicates_until, rank, Who::kWorker);
+      schedule(r.communicates_until, rank, Actor::kWorker);
     if (!r.said_farewell || r.left || !r.member.left()) return;
     r.left = true;
     ++left_;
@@ -201,7 +203,7 @@ class Simulation {
       r.player.begin(time, expander_);
       if (!r.player.busy()) return;
     }
-    foresee(r.player.busy_until(), rank, Who::kWorker);
+    schedule(r.player.busy_until(), rank, Actor::kWorker);
   }
 
   // Ends the current work item. Returns false if it ends after `time`: then this event was
