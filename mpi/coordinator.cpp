@@ -112,7 +112,7 @@ Coordinator::Coordinator(const Problem& problem, const SolveOptions& options, co
       load_balancer_(children_.ranks(), options.tuning),
       timer_(options.checkpoints, limits),
       last_message_at_(limits.now()) {
-  run_.run_events().survey_by([this] { return survey(); });
+  run_.run_events().set_statistics_source([this] { return statistics(); });
 }
 
 // The observer comes first: it may write the plan to disk.
@@ -164,8 +164,8 @@ void Coordinator::handle(int from, message::Message&& message) {
                    if (gathering_) gathering_->handle(std::move(part));
                  },
                  [&](message::ProcessStatistics& account) {
-                   for (const auto& [rank, survey] : account.survey.ranks)
-                     surveys_[rank] = account.survey;
+                   for (const auto& [rank, statistics] : account.statistics.ranks)
+                     rank_statistics_[rank] = account.statistics;
                  },
                  [&](message::RankFinished& finished) { leave(finished); }, unexpected},
       message);
@@ -237,7 +237,7 @@ std::int64_t Coordinator::check_unresponsive_ranks() {
     return 0;
   }
   if (!ending_ || now - *stopped_at_ < 2 * kMaxSilence) return 0;
-  const auto& ranks = finished_.survey.ranks;
+  const auto& ranks = finished_.statistics.ranks;
   return transport_.ranks() - std::ssize(ranks) - (ranks.contains(0) ? 0 : 1);
 }
 
@@ -251,19 +251,19 @@ Solution Coordinator::conclude() {
 // The final statistics of the ranks that have finished, and the latest statistics of the others. A
 // simulated run that reaches a limit ends without RankFinished.
 RunStatistics Coordinator::told() const {
-  RunStatistics all = finished_.survey;
-  for (const auto& [rank, survey] : surveys_)
-    if (!all.ranks.contains(rank)) add(survey, all);
+  RunStatistics all = finished_.statistics;
+  for (const auto& [rank, statistics] : rank_statistics_)
+    if (!all.ranks.contains(rank)) add(statistics, all);
   return all;
 }
 
-RunStatistics Coordinator::survey() const {
-  RunStatistics survey = told();
+RunStatistics Coordinator::statistics() const {
+  RunStatistics statistics = told();
   Stats of_plans;
   run_.shared_bounds().add_counts(of_plans);
-  for (const auto& [key, count] : of_plans.counts) survey.whole.counts[key] += count;
-  survey.rank_count = transport_.ranks();
-  return survey;
+  for (const auto& [key, count] : of_plans.counts) statistics.whole.counts[key] += count;
+  statistics.rank_count = transport_.ranks();
+  return statistics;
 }
 
 }  // namespace grove::detail

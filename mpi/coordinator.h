@@ -68,7 +68,7 @@ class Coordinator {
   void update_checkpoints();
   void leave(const message::RankFinished& message);
   RunStatistics told() const;
-  RunStatistics survey() const;
+  RunStatistics statistics() const;
 
   const Instance& instance_;
   const SolveOptions& options_;
@@ -91,8 +91,9 @@ class Coordinator {
   // When check_unresponsive_ranks() first saw that a limit was reached.
   std::optional<Clock::time_point> stopped_at_;
   int finished_children_ = 0;
-  message::RankFinished finished_;        // sum over the children that have finished
-  std::map<int, RunStatistics> surveys_;  // by rank: the latest statistics before its RankFinished
+  message::RankFinished finished_;  // sum over the children that have finished
+  std::map<int, RunStatistics>
+      rank_statistics_;  // by rank: the latest statistics before its RankFinished
 };
 
 }  // namespace grove::detail

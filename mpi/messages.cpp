@@ -49,8 +49,8 @@ void serialize(Archive& archive, RankStatistics& rank) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, RunStatistics& survey) {
-  archive(survey.whole, survey.ranks);
+void serialize(Archive& archive, RunStatistics& statistics) {
+  archive(statistics.whole, statistics.ranks);
 }
 
 template <class Archive, class Enum>
@@ -125,12 +125,12 @@ void serialize(Archive& archive, NewPlan& found) {
 
 template <class Archive>
 void serialize(Archive& archive, ProcessStatistics& account) {
-  archive(account.survey);
+  archive(account.statistics);
 }
 
 template <class Archive>
 void serialize(Archive& archive, RankFinished& send_finished) {
-  archive(send_finished.survey, send_finished.messages);
+  archive(send_finished.statistics, send_finished.messages);
 }
 
 template <class Archive>
@@ -207,7 +207,7 @@ void save(Archive& archive, const AddressedView& parts) {
 }
 
 void add(const RankFinished& part, RankFinished& sum) {
-  detail::add(part.survey, sum.survey);
+  detail::add(part.statistics, sum.statistics);
   for (const auto& [rank, messages] : part.messages) sum.messages[rank] += messages;
 }
 

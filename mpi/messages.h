@@ -95,13 +95,13 @@ struct NewPlan {
 
 // To the parent, periodically: the statistics so far, for observers.
 struct ProcessStatistics {
-  RunStatistics survey;
+  RunStatistics statistics;
 };
 
 // To the parent, after Terminate: the final statistics, and how many messages were sent directly to
 // each rank. The sender sends nothing more to its parent.
 struct RankFinished {
-  RunStatistics survey;
+  RunStatistics statistics;
   std::map<std::int32_t, std::int64_t> messages;
 };
 

@@ -311,7 +311,7 @@ void Rank::send_found() {
     parent_.send(message::NewPlan{std::move(found->plan), found->source});
 }
 
-RunStatistics Rank::survey(Stats counts) const {
+RunStatistics Rank::statistics(Stats counts) const {
   search_.add_counts(counts);
   counts.counts["messages"] += transport_.messages();
   counts.counts["message_bytes"] += transport_.bytes();
@@ -319,25 +319,25 @@ RunStatistics Rank::survey(Stats counts) const {
   counts.counts["learned_bounds_sent"] += learned_bounds_sent_;
   std::int64_t& batches = counts.counts["node_batches"];
   for (const auto& [rank, peer] : peers_) batches += peer.sent;
-  RunStatistics survey{{std::move(counts.counts), search_.memory_use()}, {}};
-  RankStatistics& mine = survey.ranks[transport_.rank()];
+  RunStatistics statistics{{std::move(counts.counts), search_.memory_use()}, {}};
+  RankStatistics& mine = statistics.ranks[transport_.rank()];
   mine.expanded = nodes_.expanded;
   mine.open = nodes_.counts().open;
   if (nodes_.any()) mine.bound = nodes_.bound();
-  mine.memory = survey.whole.memory.process;
-  mine.low_level_calls = survey.whole.counts["low_level_calls"];
-  mine.branching_cost_queries = survey.whole.counts["branching_cost_queries"];
-  return survey;
+  mine.memory = statistics.whole.memory.process;
+  mine.low_level_calls = statistics.whole.counts["low_level_calls"];
+  mine.branching_cost_queries = statistics.whole.counts["branching_cost_queries"];
+  return statistics;
 }
 
 void Rank::send_statistics(Stats counts) {
-  parent_.send(message::ProcessStatistics{survey(std::move(counts))});
+  parent_.send(message::ProcessStatistics{statistics(std::move(counts))});
 }
 
 // A limit may be reached just when a plan was found.
 void Rank::send_finished(Stats counts) {
   send_found();
-  parent_.send(message::RankFinished{survey(std::move(counts)), told_});
+  parent_.send(message::RankFinished{statistics(std::move(counts)), told_});
 }
 
 bool Rank::left() const {

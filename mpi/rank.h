@@ -88,7 +88,7 @@ class Rank {
   void push(const std::vector<NodeRecord>& records, const std::vector<GroupBound>& findings);
   void restart(Cost proven);
   message::Status status() const;
-  RunStatistics survey(Stats counts) const;
+  RunStatistics statistics(Stats counts) const;
   bool is_wanted(Cost bound) const;
   void send(int rank, const message::Message& message);
 

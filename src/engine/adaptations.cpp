@@ -32,9 +32,9 @@ namespace {
 constexpr double kShareOfFirst = 2.0 / 3;  // of the time; paper, section V-B
 
 // Forwards the events of several consecutive searches to one observer, as if they were one search.
-class Told {
+class MergedObserver {
  public:
-  explicit Told(RunObserver& next) : next_(next) {}
+  explicit MergedObserver(RunObserver& next) : next_(next) {}
 
   void begin_search() { before_ = last_; }
   void incumbent(const Plan& plan, PlanSource source, const Progress& progress) {
@@ -56,10 +56,10 @@ class Told {
   // Always request the statistics at the end of a search: they are added to those of later
   // searches.
   bool wants_statistics() { return ends_ || next_.wants_statistics(); }
-  void survey(RunStatistics survey) {
-    for (const auto& [name, count] : done_) survey.whole.counts[name] += count;
-    if (ends_) done_ = survey.whole.counts;
-    next_.on_statistics(survey);
+  void statistics(RunStatistics statistics) {
+    for (const auto& [name, count] : done_) statistics.whole.counts[name] += count;
+    if (ends_) done_ = statistics.whole.counts;
+    next_.on_statistics(statistics);
   }
   void root(const NodePtr& root) { next_.on_root(root); }
   void expanded(const NodePtr& node, const Expansion& expansion, int worker) {
@@ -93,21 +93,21 @@ class Told {
 // Observer of a search of the instance itself.
 class Stage : public RunObserver {
  public:
-  explicit Stage(Told& told) : told_(told) { told.begin_search(); }
+  explicit Stage(MergedObserver& merged) : merged_(merged) { merged.begin_search(); }
 
   void on_incumbent(const Plan& plan, PlanSource source, const Progress& progress) override {
-    told_.incumbent(of_whole(plan), source, of_whole(progress));
+    merged_.incumbent(of_whole(plan), source, of_whole(progress));
   }
   void on_event(RunEvent event, const Progress& progress) override {
-    told_.event(event, of_whole(progress));
+    merged_.event(event, of_whole(progress));
   }
-  void on_bound_beside(BoundSource by) override { told_.bound_beside(by); }
-  void on_infeasible(std::string_view reason) override { told_.infeasible(reason); }
-  bool wants_statistics() override { return told_.wants_statistics(); }
-  void on_statistics(const RunStatistics& survey) override { told_.survey(survey); }
-  void on_root(const NodePtr& root) override { told_.root(root); }
+  void on_bound_beside(BoundSource by) override { merged_.bound_beside(by); }
+  void on_infeasible(std::string_view reason) override { merged_.infeasible(reason); }
+  bool wants_statistics() override { return merged_.wants_statistics(); }
+  void on_statistics(const RunStatistics& statistics) override { merged_.statistics(statistics); }
+  void on_root(const NodePtr& root) override { merged_.root(root); }
   void on_expanded(const NodePtr& node, const Expansion& expansion, int worker) override {
-    told_.expanded(node, expansion, worker);
+    merged_.expanded(node, expansion, worker);
   }
 
  private:
@@ -120,14 +120,14 @@ class Stage : public RunObserver {
     return progress;
   }
 
-  Told& told_;
+  MergedObserver& merged_;
 };
 
 // Observer of a search of the instance with destinations.
 class StageOfB : public Stage {
  public:
-  StageOfB(Told& told, const Instance& instance, const Destinations& destinations)
-      : Stage(told), instance_(instance), destinations_(destinations) {}
+  StageOfB(MergedObserver& merged, const Instance& instance, const Destinations& destinations)
+      : Stage(merged), instance_(instance), destinations_(destinations) {}
 
   void on_infeasible(std::string_view) override {}  // holds only for these destinations
   void on_bound_beside(BoundSource) override {}     // the same
@@ -153,14 +153,14 @@ Solution stopped(const SolveOptions& options, const Limits& limits) {
   return solution;
 }
 
-void say_of_destinations_alone(Stats& stats) {
+void note_chosen_destinations(Stats& stats) {
   stats.texts.erase("reason");
   stats.texts["remark"] =
       "no plan ends on the chosen tasks; plans that end on other tasks may exist";
 }
 
 Solution choose_and_solve(const Instance& instance, const SolveOptions& options,
-                          const Limits& limits, RunObserver& observer, Told& told) {
+                          const Limits& limits, RunObserver& observer, MergedObserver& merged) {
   const Problem problem(instance, limits, options.threads);
   if (auto answer = presolve(problem, options, limits, observer)) return std::move(*answer);
   const auto destinations = choose_destinations(problem, options.tuning.visitor_steps, limits);
@@ -168,14 +168,14 @@ Solution choose_and_solve(const Instance& instance, const SolveOptions& options,
   if (!destinations)
     throw std::logic_error("internal error: agents that can rest have nowhere to do so");
 
-  told.note(
+  merged.note(
       "One task of each agent without a goal becomes its goal; the lower bound is for all plans.");
-  StageOfB stage(told, instance, *destinations);
+  StageOfB stage(merged, instance, *destinations);
   Solution solution = solve(with_destinations(instance, *destinations), options, limits, &stage);
   if (solution.plan)
     solution.plan = without_destinations(instance, *destinations, std::move(*solution.plan));
   else if (solution.status == Status::kInfeasible)
-    say_of_destinations_alone(solution.stats);
+    note_chosen_destinations(solution.stats);
   const Cost own_bound = std::exchange(solution.lower_bound, destinations->bound);
   const auto cost = solution.plan ? std::optional(solution.plan->cost) : std::nullopt;
   solution.status = status_of(cost, solution.lower_bound, options.omega);
@@ -188,9 +188,9 @@ Solution choose_and_solve(const Instance& instance, const SolveOptions& options,
 }
 
 Solution solve_b(const Instance& instance, const SolveOptions& options, const Limits& limits,
-                 RunObserver& observer, Told& told) {
+                 RunObserver& observer, MergedObserver& merged) {
   try {
-    return choose_and_solve(instance, options, limits, observer, told);
+    return choose_and_solve(instance, options, limits, observer, merged);
   } catch (const std::bad_alloc&) {  // before the search; the search handles its own
     limits.memory_exhausted();
     return stopped(options, limits);
@@ -198,9 +198,9 @@ Solution solve_b(const Instance& instance, const SolveOptions& options, const Li
 }
 
 Solution solve_a(const Instance& instance, const SolveOptions& options, const Limits& limits,
-                 Told& told) {
-  told.note("The agents may end on any of their tasks.");
-  Stage stage(told);
+                 MergedObserver& merged) {
+  merged.note("The agents may end on any of their tasks.");
+  Stage stage(merged);
   return solve(instance, options, limits, &stage);
 }
 
@@ -230,35 +230,35 @@ Solution both(const Solution& first, Solution second) {
 
 Solution solve_with_destinations(const Instance& instance, const SolveOptions& options,
                                  const Limits& limits, RunObserver& observer) {
-  Told told(observer);
-  Solution solution = solve_b(instance, options, limits, observer, told);
-  told.end();
+  MergedObserver merged(observer);
+  Solution solution = solve_b(instance, options, limits, observer, merged);
+  merged.end();
   return solution;
 }
 
 Solution solve_with_destinations_last(const Instance& instance, const SolveOptions& options,
                                       const Limits& limits, RunObserver& observer) {
-  Told told(observer);
+  MergedObserver merged(observer);
   const Limits part(limits, kShareOfFirst * limits.seconds_left());
-  Solution solution = solve_a(instance, options, part, told);
+  Solution solution = solve_a(instance, options, part, merged);
   if (was_stopped(solution) && !limits.stop_requested())
-    solution = both(solution, solve_b(instance, options, limits, observer, told));
-  told.end();
+    solution = both(solution, solve_b(instance, options, limits, observer, merged));
+  merged.end();
   return solution;
 }
 
 Solution solve_with_destinations_first(const Instance& instance, const SolveOptions& options,
                                        const Limits& limits, RunObserver& observer) {
-  Told told(observer);
+  MergedObserver merged(observer);
   const Limits part(limits, kShareOfFirst * limits.seconds_left());
-  Solution solution = solve_b(instance, options, part, observer, told);
+  Solution solution = solve_b(instance, options, part, observer, merged);
   const bool is_final = is_within_omega(solution) || solution.status == Status::kInfeasible;
   if (!is_final && !limits.stop_requested()) {
     SolveOptions from_there = options;
     from_there.start = solution.plan;
-    solution = both(solution, solve_a(instance, from_there, limits, told));
+    solution = both(solution, solve_a(instance, from_there, limits, merged));
   }
-  told.end();
+  merged.end();
   return solution;
 }
 

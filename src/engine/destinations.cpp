@@ -81,9 +81,9 @@ class Ends {
   Time best_ = kNever;
 };
 
-class Chooser {
+class DestinationChooser {
  public:
-  Chooser(const Problem& problem, Cost visitor_steps, const Limits& limits)
+  DestinationChooser(const Problem& problem, Cost visitor_steps, const Limits& limits)
       : problem_(problem), visitor_steps_(visitor_steps), limits_(limits) {
     const Instance& instance = problem.instance;
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent)
@@ -168,7 +168,7 @@ class Chooser {
 
 std::optional<Destinations> choose_destinations(const Problem& problem, Cost visitor_steps,
                                                 const Limits& limits) {
-  return Chooser(problem, visitor_steps, limits).choose();
+  return DestinationChooser(problem, visitor_steps, limits).choose();
 }
 
 Instance with_destinations(const Instance& instance, const Destinations& destinations) {

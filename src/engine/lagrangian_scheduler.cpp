@@ -102,7 +102,7 @@ Cost LagrangianScheduler::commit(LagrangianBound::Job job) {
   own_ += job.work;
   own_here_ += job.work;
   bound_->commit(std::move(job));
-  return heard_of_bound();
+  return update_from_bound();
 }
 
 void LagrangianScheduler::log_proof(ProofLog& proof) const {
@@ -111,7 +111,7 @@ void LagrangianScheduler::log_proof(ProofLog& proof) const {
     proof.prices(bound->lower_bound(), bound->reasons());
 }
 
-Cost LagrangianScheduler::heard_of_bound() {
+Cost LagrangianScheduler::update_from_bound() {
   rounds_ = bound_->rounds();
   if (bound_->ended()) is_over_ = true;
   return bound_->lower_bound();
@@ -136,7 +136,7 @@ Cost LagrangianScheduler::accept(int rank, PricingReply answer) {
     throw std::invalid_argument("prices of a rank that was not asked");
   own_ += answer.work - asked_of_[static_cast<std::size_t>(rank)];
   prices_of_ranks_ += bound->accept(rank - 1, std::move(answer));
-  return heard_of_bound();
+  return update_from_bound();
 }
 
 void LagrangianScheduler::help(const Instance& instance, PricingRequest share) {

@@ -70,7 +70,7 @@ class LagrangianScheduler {
  private:
   void make();
   LagrangianBound* bound() const;
-  Cost heard_of_bound();
+  Cost update_from_bound();
 
   const Tuning& tuning_;
   const Instance* instance_ = nullptr;

@@ -35,7 +35,7 @@ PrimalScheduler::PrimalScheduler(int agents, const Tuning& tuning)
 
 void PrimalScheduler::add_tree_work(std::int64_t work, TreeOutlook outlook) {
   tree_ += work;
-  const bool beside = outlook.is_behind || outlook.gap_is_large;
+  const bool beside = outlook.is_dominated || outlook.gap_is_large;
   const double ratio = beside ? std::max(ratio_, tuning_.primal_min_share_dominated) : ratio_;
   credit_ += std::min(ratio, max_ratio(outlook.gap_is_large)) * static_cast<double>(work);
 }

@@ -9,7 +9,7 @@
 namespace grove::detail {
 
 struct TreeOutlook {
-  bool is_behind = false;     // more is proven outside the tree search than by it
+  bool is_dominated = false;  // more is proven outside the tree search than by it
   bool gap_is_large = false;  // the gap exceeds large_gap
 };
 

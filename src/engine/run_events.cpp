@@ -20,7 +20,8 @@ void RunEvents::event(RunEvent event) {
 
 void RunEvents::tell(RunEvent event, const Progress& progress) {
   observer_.on_event(event, progress);
-  if (survey_ && observer_.wants_statistics()) observer_.on_statistics(survey_());
+  if (statistics_source_ && observer_.wants_statistics())
+    observer_.on_statistics(statistics_source_());
 }
 
 void RunEvents::bound(Cost lower_bound) {

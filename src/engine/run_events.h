@@ -13,7 +13,7 @@
 namespace grove::detail {
 
 // Passes one event at a time to the observer, with the progress at that moment. Thread-safe, except
-// for survey_by() and bound_is_known().
+// for set_statistics_source() and bound_is_known().
 class RunEvents : public WorkObserver {
  public:
   // `observer` and everything that `progress` reads must outlive this.
@@ -21,7 +21,9 @@ class RunEvents : public WorkObserver {
       : observer_(observer), progress_(std::move(progress)) {}
   // Sets the function that makes the statistics, for an observer that requests them. It is called
   // from any thread. Call before the search.
-  void survey_by(std::function<RunStatistics()> survey) { survey_ = std::move(survey); }
+  void set_statistics_source(std::function<RunStatistics()> statistics) {
+    statistics_source_ = std::move(statistics);
+  }
 
   void expanded(const NodePtr& node, const Expansion& expansion, int worker) override;
   void evicted(std::span<const NodePtr> nodes) override;
@@ -47,7 +49,7 @@ class RunEvents : public WorkObserver {
 
   RunObserver& observer_;
   const std::function<Progress()> progress_;
-  std::function<RunStatistics()> survey_;  // may be empty
+  std::function<RunStatistics()> statistics_source_;  // may be empty
   std::mutex mutex_;
   Cost announced_bound_ = 0;  // under mutex_
 };

@@ -62,7 +62,7 @@ class RunObserver {
   // Called after each event. If it returns true, on_statistics() is called with the statistics of
   // the run so far.
   virtual bool wants_statistics() { return false; }
-  virtual void on_statistics(const RunStatistics& /*survey*/) {}
+  virtual void on_statistics(const RunStatistics& /*statistics*/) {}
 
   // For observers of the trees, and for tests of the search (planted optimum): every root; every
   // expansion with its result and the number of the worker, from 0; and the bound from which on
@@ -93,7 +93,7 @@ class ForwardingObserver : public RunObserver {
   void on_bound_beside(BoundSource by) override { next_.on_bound_beside(by); }
   void on_checkpoint(const CheckpointReport& report) override { next_.on_checkpoint(report); }
   bool wants_statistics() override { return next_.wants_statistics(); }
-  void on_statistics(const RunStatistics& survey) override { next_.on_statistics(survey); }
+  void on_statistics(const RunStatistics& statistics) override { next_.on_statistics(statistics); }
   void on_root(const NodePtr& root) override { next_.on_root(root); }
   void on_expanded(const NodePtr& node, const Expansion& expansion, int worker) override {
     next_.on_expanded(node, expansion, worker);

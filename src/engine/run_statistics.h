@@ -56,7 +56,7 @@ inline void add(const ProcessStatistics& part, ProcessStatistics& sum) {
 // Adds counts and bytes; copies the entries of `part.ranks`.
 inline void add(const RunStatistics& part, RunStatistics& sum) {
   add(part.whole, sum.whole);
-  for (const auto& [rank, survey] : part.ranks) sum.ranks[rank] = survey;
+  for (const auto& [rank, statistics] : part.ranks) sum.ranks[rank] = statistics;
 }
 
 }  // namespace grove::detail

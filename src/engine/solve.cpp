@@ -69,7 +69,7 @@ Solution search(const Problem& problem, const SolveOptions& options, const Limit
   LocalCheckpoints checkpoints(options, limits, run, nodes);
   Stats stats;  // of destroyed workers
   std::optional<Workers> workers;
-  run.run_events().survey_by([&] {
+  run.run_events().set_statistics_source([&] {
     Stats so_far = stats;
     if (workers) workers->add_counts(so_far);
     shared.add_counts(so_far);

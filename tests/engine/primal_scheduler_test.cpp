@@ -110,7 +110,7 @@ TEST(PrimalScheduler, RatioIsAtLeastOneWhileTheTreeBoundIsDominated) {
   scheduler.add_tree_work(kLong);
   scheduler.add_primal_work(s.primal, 8 * kLong);
   PrimalScheduler dominated = scheduler;
-  dominated.add_tree_work(1'000'000, {.is_behind = true});
+  dominated.add_tree_work(1'000'000, {.is_dominated = true});
   dominated.add_primal_work(s.primal, 999'999);
   EXPECT_TRUE(dominated.due(s.primal));
   scheduler.add_tree_work(1'000'000);

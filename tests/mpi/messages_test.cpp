@@ -42,10 +42,11 @@ TEST(Messages, RoundTrip) {
 
 TEST(Messages, StatisticsRoundTripAndAddUp) {
   message::ProcessStatistics sent;
-  sent.survey.whole = {{{"branching_cost_queries", 5}}, {.process = 9, .nodes = 1, .groups = 3}};
-  sent.survey.ranks[7] = {.expanded = 11, .open = 2, .bound = 40, .memory = 9};
-  const RunStatistics received = returned(sent).survey;
-  EXPECT_EQ(received.whole.counts, sent.survey.whole.counts);
+  sent.statistics.whole = {{{"branching_cost_queries", 5}},
+                           {.process = 9, .nodes = 1, .groups = 3}};
+  sent.statistics.ranks[7] = {.expanded = 11, .open = 2, .bound = 40, .memory = 9};
+  const RunStatistics received = returned(sent).statistics;
+  EXPECT_EQ(received.whole.counts, sent.statistics.whole.counts);
   EXPECT_EQ(received.whole.memory.groups, 3);
   EXPECT_EQ(received.ranks.at(7).expanded, 11);
   EXPECT_EQ(received.ranks.at(7).bound, 40);
@@ -62,8 +63,8 @@ TEST(Messages, StatisticsRoundTripAndAddUp) {
 TEST(Messages, LengthDoesNotDependOnProcessMemory) {
   const auto length = [](std::int64_t memory) {
     message::ProcessStatistics account;
-    account.survey.whole.memory.process = memory;
-    account.survey.ranks[7].memory = memory;
+    account.statistics.whole.memory.process = memory;
+    account.statistics.ranks[7].memory = memory;
     return bytes(account).size();
   };
   EXPECT_EQ(length(0), length(std::int64_t{1} << 40));

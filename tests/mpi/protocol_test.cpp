@@ -268,7 +268,7 @@ TEST(IsolatedCoordinator, EndsWithoutUnresponsiveRanksAfterALimit) {
   coordinator.step();
   EXPECT_EQ(transport.sent<message::Terminate>(1).size(), 1);
   message::RankFinished finished;
-  finished.survey.ranks[1] = {};
+  finished.statistics.ranks[1] = {};
   coordinator.handle(1, std::move(finished));
   EXPECT_EQ(coordinator.check_unresponsive_ranks(), 0);
   wait();
@@ -414,8 +414,8 @@ TEST(IsolatedSubCoordinator, SendsOneRankFinishedForAllItsRanks) {
   for (const int rank : {3, 4, 5}) {
     EXPECT_TRUE(s.transport.sent<message::RankFinished>(0).empty());
     message::RankFinished finished;
-    finished.survey.whole.counts["nodes_expanded"] = rank;
-    finished.survey.ranks[rank].expanded = rank;
+    finished.statistics.whole.counts["nodes_expanded"] = rank;
+    finished.statistics.ranks[rank].expanded = rank;
     finished.messages = {{8, 1}, {rank, 2}};
     s.sub.handle(rank, std::move(finished));
   }
@@ -424,8 +424,8 @@ TEST(IsolatedSubCoordinator, SendsOneRankFinishedForAllItsRanks) {
   EXPECT_TRUE(s.transport.sent<message::SendNodes>(4).empty());
   const auto sent = s.transport.sent<message::RankFinished>(0);
   ASSERT_EQ(sent.size(), 1);
-  EXPECT_EQ(sent[0].survey.whole.counts.at("nodes_expanded"), 12);
-  EXPECT_EQ(sent[0].survey.ranks.size(), 3);
+  EXPECT_EQ(sent[0].statistics.whole.counts.at("nodes_expanded"), 12);
+  EXPECT_EQ(sent[0].statistics.ranks.size(), 3);
   EXPECT_EQ(sent[0].messages,
             (std::map<std::int32_t, std::int64_t>{{3, 2}, {4, 2}, {5, 2}, {8, 3}}));
   s.sub.handle(0, message::MessageCounts{{{3, 7}, {5, 9}}});
