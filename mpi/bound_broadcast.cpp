@@ -74,18 +74,18 @@ double BoundBroadcast::rate_at(double now) const {
 }
 
 message::LearnedBounds BoundBroadcast::best_of(Waiting& waiting, double bytes, int reach) {
-  message::LearnedBounds told{reach, {}};
+  message::LearnedBounds sent{reach, {}};
   while (!waiting.empty()) {
     const std::string& best = *waiting.front().fact;
     const auto more = static_cast<double>(best.size() + kBytesOfSize);
     if (more > bytes) break;
     bytes -= more;
     allowance_ -= more;
-    told.facts.push_back(best);
+    sent.facts.push_back(best);
     std::pop_heap(waiting.begin(), waiting.end());
     waiting.pop_back();
   }
-  return told;
+  return sent;
 }
 
 }  // namespace grove::detail

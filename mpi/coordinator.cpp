@@ -163,9 +163,9 @@ void Coordinator::handle(int from, message::Message&& message) {
                  [&](message::SnapshotPart& part) {
                    if (gathering_) gathering_->handle(std::move(part));
                  },
-                 [&](message::ProcessStatistics& account) {
-                   for (const auto& [rank, statistics] : account.statistics.ranks)
-                     rank_statistics_[rank] = account.statistics;
+                 [&](message::ProcessStatistics& report) {
+                   for (const auto& [rank, statistics] : report.statistics.ranks)
+                     rank_statistics_[rank] = report.statistics;
                  },
                  [&](message::RankFinished& finished) { leave(finished); }, unexpected},
       message);
@@ -244,13 +244,14 @@ std::int64_t Coordinator::check_unresponsive_ranks() {
 Solution Coordinator::conclude() {
   run_.end();
   Solution solution = run_.conclude();
-  for (const auto& [key, count] : told().whole.counts) solution.stats.counts[key] += count;
+  for (const auto& [key, count] : received_statistics().whole.counts)
+    solution.stats.counts[key] += count;
   return solution;
 }
 
 // The final statistics of the ranks that have finished, and the latest statistics of the others. A
 // simulated run that reaches a limit ends without RankFinished.
-RunStatistics Coordinator::told() const {
+RunStatistics Coordinator::received_statistics() const {
   RunStatistics all = finished_.statistics;
   for (const auto& [rank, statistics] : rank_statistics_)
     if (!all.ranks.contains(rank)) add(statistics, all);
@@ -258,7 +259,7 @@ RunStatistics Coordinator::told() const {
 }
 
 RunStatistics Coordinator::statistics() const {
-  RunStatistics statistics = told();
+  RunStatistics statistics = received_statistics();
   Stats of_plans;
   run_.shared_bounds().add_counts(of_plans);
   for (const auto& [key, count] : of_plans.counts) statistics.whole.counts[key] += count;

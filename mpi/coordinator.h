@@ -67,7 +67,7 @@ class Coordinator {
   void heard(int child, message::Status status);
   void update_checkpoints();
   void leave(const message::RankFinished& message);
-  RunStatistics told() const;
+  RunStatistics received_statistics() const;
   RunStatistics statistics() const;
 
   const Instance& instance_;

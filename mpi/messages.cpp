@@ -38,8 +38,8 @@ void serialize(Archive& archive, MemoryUse& m) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, ProcessStatistics& account) {
-  archive(account.counts, account.memory);
+void serialize(Archive& archive, ProcessStatistics& report) {
+  archive(report.counts, report.memory);
 }
 
 template <class Archive>
@@ -124,8 +124,8 @@ void serialize(Archive& archive, NewPlan& found) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, ProcessStatistics& account) {
-  archive(account.statistics);
+void serialize(Archive& archive, ProcessStatistics& report) {
+  archive(report.statistics);
 }
 
 template <class Archive>

@@ -67,20 +67,20 @@ void Rank::handle(int from, message::Message&& message) {
   };
   std::visit(
       Overloaded{[&](message::NodeBatch& batch) {
-                   ++heard_;
+                   ++received_messages_;
                    take_over(from, batch);
                  },
                  [&](message::RequestPricing& ask) {
-                   ++heard_;
+                   ++received_messages_;
                    search_.lagrangian().help(problem_.instance, std::move(ask.share));
                  },
                  [&](message::PricingDone& prices) {
-                   ++heard_;
+                   ++received_messages_;
                    shared_bounds_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
                                         BoundSource::kLagrangian);
                  },
                  [&](message::LearnedBounds& facts) {
-                   ++heard_;
+                   ++received_messages_;
                    receive(facts);
                  },
                  [&](message::NewTree& tree) {
@@ -105,7 +105,7 @@ void Rank::handle(int from, message::Message&& message) {
                    shared_bounds_.end();
                  },
                  [&](message::MessageCounts& message_counts) {
-                   to_hear_ = message_counts.messages[transport_.rank()];
+                   expected_messages_ = message_counts.messages[transport_.rank()];
                  },
                  unexpected},
       message);
@@ -337,15 +337,15 @@ void Rank::send_statistics(Stats counts) {
 // A limit may be reached just when a plan was found.
 void Rank::send_finished(Stats counts) {
   send_found();
-  parent_.send(message::RankFinished{statistics(std::move(counts)), told_});
+  parent_.send(message::RankFinished{statistics(std::move(counts)), messages_sent_});
 }
 
 bool Rank::left() const {
-  return to_hear_ && heard_ >= *to_hear_;
+  return expected_messages_ && received_messages_ >= *expected_messages_;
 }
 
 void Rank::send(int rank, const message::Message& message) {
-  ++told_[rank];
+  ++messages_sent_[rank];
   transport_.send(rank, bytes_of(message, 0));
 }
 

@@ -130,9 +130,9 @@ class Rank {
   bool ended_ = false;
   // Messages directly from rank to rank: how many were sent to each rank, how many were received
   // here, and how many will be received in total (set at shutdown).
-  std::map<std::int32_t, std::int64_t> told_;
-  std::int64_t heard_ = 0;
-  std::optional<std::int64_t> to_hear_;
+  std::map<std::int32_t, std::int64_t> messages_sent_;
+  std::int64_t received_messages_ = 0;
+  std::optional<std::int64_t> expected_messages_;
 };
 
 }  // namespace grove::detail

@@ -90,7 +90,7 @@ void RankNodes::assign(int child, message::AssignNodes nodes) {
 }
 
 void RankNodes::send(const Tree& tree) {
-  if (told_.insert(tree.number).second)
+  if (broadcast_trees_.insert(tree.number).second)
     children_.broadcast(message::NewTree{tree.number, record_of(tree)});
 }
 

@@ -60,7 +60,7 @@ class RankNodes : public LiveNodes {
   std::int32_t epoch_ = 0;
   std::int64_t children_of_this_epoch_;
   Counts counts_;
-  std::set<std::uint32_t> told_;  // numbers of the trees broadcast
+  std::set<std::uint32_t> broadcast_trees_;  // numbers of the trees broadcast
 };
 
 }  // namespace grove::detail

@@ -37,7 +37,7 @@ void SubCoordinator::handle(int from, message::Message&& message) {
                         [&](message::NewPlan& found) {
                           if (found.plan.cost < cutoff_) parent_.send(found);
                         },
-                        [&](message::ProcessStatistics& account) { parent_.send(account); },
+                        [&](message::ProcessStatistics& report) { parent_.send(report); },
                         [&](message::SnapshotTaken& parts) { gathered(parts); },
                         [&](message::RankFinished& finished) { send_finished(finished); },
                         [&](message::SendNodes& ordered) { order(ordered); },

@@ -78,7 +78,7 @@ void FarmMaster::end_assignment(int leader, const std::string* id) {
   under_way_.erase(it);
 }
 
-void FarmMaster::tell(int leader, FarmMessage message) {
+void FarmMaster::send(int leader, FarmMessage message) {
   if (leader == world_.rank()) {
     own_.push_back(std::move(message));
   } else {
@@ -90,7 +90,7 @@ void FarmMaster::tell(int leader, FarmMessage message) {
 void FarmMaster::stop_if_interrupted() {
   if (stopping_ || !interrupted_) return;
   stopping_ = true;
-  for (const auto& [leader, what] : under_way_) tell(leader, Stop{});
+  for (const auto& [leader, what] : under_way_) send(leader, Stop{});
 }
 
 void FarmMaster::record() {
@@ -113,7 +113,7 @@ void FarmMaster::answer() {
     if (has_work()) {
       assign_next(asking_.front());
     } else {
-      tell(asking_.front(), NoMoreWork{});
+      send(asking_.front(), NoMoreWork{});
       ++dismissed_;
     }
   }
@@ -124,7 +124,7 @@ void FarmMaster::assign_next(int leader) {
   const Entry& entry = entries_[run];
   table_.mark_started(runs_[run]);
   under_way_[leader] = {entry.id, seconds()};
-  tell(leader, Assignment{entry});
+  send(leader, Assignment{entry});
 }
 
 BatchState FarmMaster::state() const {

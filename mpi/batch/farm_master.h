@@ -82,7 +82,7 @@ class FarmMaster {
   void on(int from, Other&);
 
   void end_assignment(int leader, const std::string* id);
-  void tell(int leader, FarmMessage message);
+  void send(int leader, FarmMessage message);
   void stop_if_interrupted();
   void record();
   void answer();

@@ -15,10 +15,10 @@ void RunEvents::evicted(std::span<const NodePtr> nodes) {
 
 void RunEvents::event(RunEvent event) {
   const std::lock_guard lock(mutex_);
-  tell(event, progress_());
+  notify(event, progress_());
 }
 
-void RunEvents::tell(RunEvent event, const Progress& progress) {
+void RunEvents::notify(RunEvent event, const Progress& progress) {
   observer_.on_event(event, progress);
   if (statistics_source_ && observer_.wants_statistics())
     observer_.on_statistics(statistics_source_());
@@ -46,7 +46,7 @@ void RunEvents::bound_locked(Cost lower_bound) {
   if (lower_bound <= announced_bound_ || lower_bound >= kInfiniteCost) return;
   const Progress progress = progress_();
   announced_bound_ = progress.lower_bound;
-  tell(RunEvent::kBound, progress);
+  notify(RunEvent::kBound, progress);
 }
 
 void RunEvents::incumbent(const Plan& plan, PlanSource source) {

@@ -45,7 +45,7 @@ class RunEvents : public WorkObserver {
 
  private:
   void bound_locked(Cost lower_bound);
-  void tell(RunEvent event, const Progress& progress);
+  void notify(RunEvent event, const Progress& progress);
 
   RunObserver& observer_;
   const std::function<Progress()> progress_;

@@ -159,20 +159,20 @@ Path read_schedule_of_agent(const Instance& instance, const YamlValue& steps) {
 ToldPaths read_schedule(const std::filesystem::path& path, const Instance& instance,
                         const std::string& name) {
   const YamlDocument document(path);
-  ToldPaths told;
+  ToldPaths claimed;
   if (const auto statistics = document.root().find("statistics"))
     if (const auto cost = statistics->find("cost"))
-      told.cost = cost->integer(0, std::numeric_limits<int>::max());
+      claimed.cost = cost->integer(0, std::numeric_limits<int>::max());
   const YamlValue schedule = document.root().member("schedule");
-  if (schedule.node().IsNull()) return told;
-  told.paths.emplace(instance.agent_count());
+  if (schedule.node().IsNull()) return claimed;
+  claimed.paths.emplace(instance.agent_count());
   for (const auto& pair : schedule.node()) {
     const YamlValue key(pair.first, name);
-    Path& agent = (*told.paths)[agent_called(instance, key)];
+    Path& agent = (*claimed.paths)[agent_called(instance, key)];
     if (!agent.empty()) key.fail("an agent appears more than once");
     agent = read_schedule_of_agent(instance, {pair.second, name});
   }
-  return told;
+  return claimed;
 }
 
 ToldPaths read_visualizer_text(const std::filesystem::path& path, const Instance& instance,

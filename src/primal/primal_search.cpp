@@ -151,7 +151,7 @@ class PrimalSearch::Impl {
            (1 + tuning_.lagrangian_lns_max_gap) * static_cast<double>(bound);
   }
   void keep_best();
-  bool may_tell(const Limits& limits) const;
+  bool may_report(const Limits& limits) const;
   void advance(const Limits& limits);
   void plan_individually(const Limits& limits);
   void begin_round(bool first);
@@ -193,7 +193,7 @@ class PrimalSearch::Impl {
   Cost best_ = kInfiniteCost;
   std::vector<Path> best_paths_;  // by agent: paths of the plan of cost best_, if found here
   std::vector<std::int64_t> best_editions_;  // by agent: edition in paths_ that best_paths_ holds
-  Cost told_ = kInfiniteCost;                // cost of the best plan returned or adopted
+  Cost reported_cost_ = kInfiniteCost;       // cost of the best plan returned or adopted
   std::int64_t work_when_told_ = 0;
   PlanSource source_ = PlanSource::kPrioritizedPlanning;
   PlanSource source_of_paths_ = PlanSource::kPrioritizedPlanning;
@@ -227,8 +227,8 @@ std::optional<Plan> PrimalSearch::Impl::step(const Limits& limits) {
     if (source_ != PlanSource::kLns) break;
   }
   if (best_ < before) work_at_last_plan_ = work();
-  if (best_ == told_ || !may_tell(limits)) return std::nullopt;
-  told_ = best_;
+  if (best_ == reported_cost_ || !may_report(limits)) return std::nullopt;
+  reported_cost_ = best_;
   work_when_told_ = work();
   return low_level_.plan(best_paths_);
 }
@@ -247,7 +247,7 @@ void PrimalSearch::Impl::keep_best() {
 
 // Making and checking a plan from its paths takes about one third of the plan's cost, in units of
 // work. So when many agents improve by small steps, only some of the plans are returned.
-bool PrimalSearch::Impl::may_tell(const Limits& limits) const {
+bool PrimalSearch::Impl::may_report(const Limits& limits) const {
   return source_ != PlanSource::kLns || optimal() || limits.stop_requested() ||
          work() - work_when_told_ >= tuning_.lns_report_work * best_;
 }
@@ -410,7 +410,7 @@ bool PrimalSearch::Impl::stalled() const {
 
 void PrimalSearch::Impl::adopt(const Plan& plan) {
   if (plan.cost >= best_) return;
-  best_ = told_ = plan.cost;
+  best_ = reported_cost_ = plan.cost;
   if (individually_planned_ < agents_) {
     adopted_ = plan;
     return;

@@ -122,7 +122,7 @@ class Taking {
   std::size_t at_ = 0;
 };
 
-void tell(std::int64_t kind, Taking taking, ProofLog& log) {
+void replay(std::int64_t kind, Taking taking, ProofLog& log) {
   if (kind == kSplit) return log.split(taking.split());
   if (kind == kBound) {
     const ProofKey node = taking.key();
@@ -281,7 +281,7 @@ void read_proof_part(const std::filesystem::path& path, ProofLog& log) {
       refuse_part(path);
     numbers.resize(static_cast<std::size_t>(head[1]));
     if (!read(numbers.data(), numbers.size())) break;
-    tell(head[0], Taking(numbers, path), log);
+    replay(head[0], Taking(numbers, path), log);
   }
   if (stream.broken()) refuse_part(path);
 }

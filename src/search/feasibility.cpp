@@ -45,13 +45,13 @@ std::optional<std::string> unreachable_cell(const Problem& problem) {
   for (AgentIndex i = 0; i < instance.agent_count(); ++i) {
     const Agent& agent = instance.agent(i);
     const auto no_way = [&](DistanceView to) { return to[agent.start] == kNever; };
-    const auto told = [&](Place place) {
+    const auto reason = [&](Place place) {
       return fmt::format("agent '{}' cannot reach {}: there is no path from its start", agent.id,
                          instance.world().name(place));
     };
     for (const TaskIndex task : agent.stops)
-      if (no_way(problem.distances.to_task(task))) return told(instance.task(task).cell);
-    if (agent.goal && no_way(problem.distances.to_rest(i))) return told(*agent.goal);
+      if (no_way(problem.distances.to_task(task))) return reason(instance.task(task).cell);
+    if (agent.goal && no_way(problem.distances.to_rest(i))) return reason(*agent.goal);
   }
   return std::nullopt;
 }

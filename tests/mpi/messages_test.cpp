@@ -62,10 +62,10 @@ TEST(Messages, StatisticsRoundTripAndAddUp) {
 
 TEST(Messages, LengthDoesNotDependOnProcessMemory) {
   const auto length = [](std::int64_t memory) {
-    message::ProcessStatistics account;
-    account.statistics.whole.memory.process = memory;
-    account.statistics.ranks[7].memory = memory;
-    return bytes(account).size();
+    message::ProcessStatistics report;
+    report.statistics.whole.memory.process = memory;
+    report.statistics.ranks[7].memory = memory;
+    return bytes(report).size();
   };
   EXPECT_EQ(length(0), length(std::int64_t{1} << 40));
 }
