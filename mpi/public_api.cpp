@@ -105,7 +105,7 @@ std::optional<Solution> solve(const Instance& instance, const Options& options,
         });
       });
   if (rank != 0) return std::nullopt;
-  return told_solution(inner, to_public);
+  return public_solution(inner, to_public);
 }
 
 }  // namespace grove::mpi

@@ -50,7 +50,7 @@ Place public_place(const detail::Map& map, detail::Place place);
 // For an agent with this motion.
 detail::Pose pose_of(const detail::Map& map, detail::Motion motion, const Pose& pose,
                      const std::string& field);
-Pose told_pose(const detail::Map& map, detail::Motion motion, const detail::Pose& pose);
+Pose public_pose(const detail::Map& map, detail::Motion motion, const detail::Pose& pose);
 
 // --- plans ---
 
@@ -60,7 +60,7 @@ detail::Plan valid_plan_of(const detail::Instance& instance, const Plan& plan,
                            const std::string& field);
 Plan public_plan(const detail::Instance& instance, const detail::Plan& plan);
 detail::Solution solution_of(const detail::Instance& instance, const Solution& solution);
-Solution told_solution(const detail::Instance& instance, const detail::Solution& solution);
+Solution public_solution(const detail::Instance& instance, const detail::Solution& solution);
 
 // Converts Options::omega. Throws InvalidArgument.
 detail::Omega omega_of(double omega);

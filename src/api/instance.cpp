@@ -58,11 +58,11 @@ detail::Instance built(const World& world, const std::vector<Agent>& agents,
   return translated([&] { return std::move(builder).build(); });
 }
 
-Agent told_agent(const detail::Instance& instance, detail::AgentIndex index) {
+Agent public_agent(const detail::Instance& instance, detail::AgentIndex index) {
   const detail::AgentSpec spec = instance.spec(index);
   const detail::Map& map = instance.map();
   Agent agent{.id = spec.id,
-              .start = told_pose(map, spec.motion, spec.start),
+              .start = public_pose(map, spec.motion, spec.start),
               .turn_steps = spec.motion.turn_steps};
   if (spec.goal) agent.goal = public_place(map, *spec.goal);
   if (spec.goal_heading) agent.goal_heading = public_heading(*spec.goal_heading);
@@ -70,7 +70,7 @@ Agent told_agent(const detail::Instance& instance, detail::AgentIndex index) {
   return agent;
 }
 
-Task told_task(const detail::Instance& instance, const detail::Task& task) {
+Task public_task(const detail::Instance& instance, const detail::Task& task) {
   Task to_public{.id = task.id,
                  .place = public_place(instance.map(), task.cell),
                  .agents = {},
@@ -97,9 +97,9 @@ Instance loaded(detail::LoadedInstance read, std::vector<std::string>* warnings)
 Instance Access::to_public(detail::Instance instance) {
   std::vector<Agent> agents;
   for (detail::AgentIndex i = 0; i < instance.agent_count(); ++i)
-    agents.push_back(told_agent(instance, i));
+    agents.push_back(public_agent(instance, i));
   std::vector<Task> tasks;
-  for (const detail::Task& task : instance.tasks()) tasks.push_back(told_task(instance, task));
+  for (const detail::Task& task : instance.tasks()) tasks.push_back(public_task(instance, task));
   World world = Access::world(instance.shared_map());
   return Instance(std::make_shared<const Instance::Data>(
       Instance::Data{std::move(world), std::move(agents), std::move(tasks), std::move(instance)}));
@@ -147,7 +147,7 @@ detail::Pose pose_of(const detail::Map& map, detail::Motion motion, const Pose& 
   return made;
 }
 
-Pose told_pose(const detail::Map& map, detail::Motion motion, const detail::Pose& pose) {
+Pose public_pose(const detail::Map& map, detail::Motion motion, const detail::Pose& pose) {
   Pose to_public{.place = public_place(map, pose.place)};
   if (motion.turn_steps == 0) return to_public;
   to_public.heading = public_heading(pose.heading);

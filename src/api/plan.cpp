@@ -106,7 +106,7 @@ Plan public_plan(const detail::Instance& instance, const detail::Plan& plan) {
     agent.cost = own.cost;
     for (const detail::State state : own.path)
       agent.path.push_back(
-          told_pose(instance.map(), instance.agent(i).motion, instance.pose_of(state)));
+          public_pose(instance.map(), instance.agent(i).motion, instance.pose_of(state)));
     for (const detail::TaskIndex task : own.sequence) agent.tasks.push_back(instance.task(task).id);
     for (const detail::WorkTime& work : own.work)
       agent.work.push_back({instance.task(work.task).id, work.begin, work.end});
@@ -127,7 +127,7 @@ detail::Solution solution_of(const detail::Instance& instance, const Solution& s
   return made;
 }
 
-Solution told_solution(const detail::Instance& instance, const detail::Solution& solution) {
+Solution public_solution(const detail::Instance& instance, const detail::Solution& solution) {
   Solution to_public;
   to_public.status = static_cast<Status>(solution.status);
   if (solution.plan) to_public.plan = public_plan(instance, *solution.plan);
@@ -176,14 +176,14 @@ Plan plan_from_paths(const Instance& instance, const std::vector<std::vector<Pla
 Solution read_plan(const std::filesystem::path& path, const Instance& instance) {
   return translated([&] {
     const detail::Instance& inner = Access::instance(instance);
-    return told_solution(inner, detail::read_solution(path, inner));
+    return public_solution(inner, detail::read_solution(path, inner));
   });
 }
 
 Solution parse_plan(std::string_view text, const Instance& instance) {
   return translated([&] {
     const detail::Instance& inner = Access::instance(instance);
-    return told_solution(inner, detail::parse_solution(text, "the plan", inner));
+    return public_solution(inner, detail::parse_solution(text, "the plan", inner));
   });
 }
 

@@ -47,8 +47,8 @@ class Run {
 
    private:
     Progress to_public(const detail::Progress& progress) const;
-    template <class Tell>
-    void tell(Tell&& tell);
+    template <class Function>
+    void call(Function&& call);
 
     const detail::Instance& instance_;
     const Options& options_;

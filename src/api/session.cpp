@@ -111,7 +111,7 @@ Solution Session::replan(const Options& options, int commit) {
   const detail::Solution solution = run([&](const auto& limits, auto& observer) {
     return translated([&] { return search_on(limits, observer); });
   });
-  return told_solution(session.instance(), solution);
+  return public_solution(session.instance(), solution);
 }
 
 }  // namespace grove

@@ -119,12 +119,12 @@ Solution solve(const Instance& instance, const Options& options) {
   const detail::Instance& inner = Access::instance(instance);
   const detail::SolveOptions search = search_options_of(inner, options);
   Run run(inner, options);
-  return told_solution(inner, run([&](const detail::Limits& limits, detail::RunObserver& observer) {
-                         return translated([&] {
-                           return detail::solve_by(method_of(options), false, inner, search, limits,
-                                                   &observer);
-                         });
-                       }));
+  return public_solution(
+      inner, run([&](const detail::Limits& limits, detail::RunObserver& observer) {
+        return translated([&] {
+          return detail::solve_by(method_of(options), false, inner, search, limits, &observer);
+        });
+      }));
 }
 
 }  // namespace grove
