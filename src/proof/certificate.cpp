@@ -95,9 +95,9 @@ std::string proof_text(Cost cost) {
 }
 
 // Collects the lemmas that are needed.
-class Choosing : public ForestVisitor {
+class LemmaCollector : public ForestVisitor {
  public:
-  explicit Choosing(Cost bound) : bound_(bound) {}
+  explicit LemmaCollector(Cost bound) : bound_(bound) {}
   std::unordered_set<ProofKey> needed;
 
   void leaf(ProofEntry* entry) override {
@@ -192,19 +192,19 @@ class TreeWriter : public ForestVisitor {
   Certificate& made_;
 };
 
-class Making {
+class CertificateBuilder {
  public:
-  Making(const Instance& instance, std::span<const std::filesystem::path> parts)
+  CertificateBuilder(const Instance& instance, std::span<const std::filesystem::path> parts)
       : instance_(instance), parts_(parts), forest_(written_) {
     for (const auto& part : parts_) read_proof_part(part, written_);
-    written_.drop_what_lacks_lemmas();
+    written_.drop_records_without_lemmas();
   }
 
   Certificate write(Cost claimed, const std::filesystem::path& file) {
     const Cost of_trees = forest_.value(claimed);
     made_.bound = std::min(claimed, std::max({of_trees, written_.priced, written_.joined}));
     const bool by_trees = of_trees >= made_.bound && !is_evidently_infeasible(claimed);
-    Choosing choosing(made_.bound);
+    LemmaCollector choosing(made_.bound);
     if (by_trees) forest_.visit(made_.bound, choosing);
     CertificateOutput output(file, true);
     output.line("grove-proof 1");
@@ -256,7 +256,7 @@ class Making {
 Certificate write_certificate(const Instance& instance,
                               std::span<const std::filesystem::path> parts, Cost claimed,
                               const std::filesystem::path& file) {
-  return Making(instance, parts).write(claimed, file);
+  return CertificateBuilder(instance, parts).write(claimed, file);
 }
 
 }  // namespace grove::detail

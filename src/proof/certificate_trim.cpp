@@ -60,9 +60,9 @@ Constraints united(const Constraints& a, const Constraints& b) {
   return all;
 }
 
-class Deciding : public KeptParts {
+class SplitSelector : public KeptParts {
  public:
-  explicit Deciding(LemmaTable& lemmas) : lemmas_(lemmas) {}
+  explicit SplitSelector(LemmaTable& lemmas) : lemmas_(lemmas) {}
   std::vector<Keep> keeps;  // by split
   std::int64_t lines = 0;
 
@@ -109,7 +109,7 @@ class Deciding : public KeptParts {
     Level& level = levels_.back();
     if (keeps[number] != Keep::kSecond) in_force_.undo(level.fork.sides[0]);
     if (keeps[number] != Keep::kBoth) return keeps[number];
-    if (proves_the_node()) return keeps[number] = Keep::kFirst;
+    if (proves_node()) return keeps[number] = Keep::kFirst;
     level.first = std::move(needs_);
     return Keep::kBoth;
   }
@@ -117,7 +117,7 @@ class Deciding : public KeptParts {
     const Level& level = levels_.back();
     if (keeps[number] != Keep::kFirst) in_force_.undo(level.fork.sides[1]);
     if (keeps[number] == Keep::kBoth) {
-      if (proves_the_node())
+      if (proves_node())
         keeps[number] = Keep::kSecond;
       else
         needs_ = needs_of(level);
@@ -125,7 +125,7 @@ class Deciding : public KeptParts {
     levels_.pop_back();
   }
   // Whether the proof below a side proves the node, now that the side is not active.
-  bool proves_the_node() const {
+  bool proves_node() const {
     return needs_ && std::ranges::all_of(*needs_, [&](const CertificateConstraint& constraint) {
              return in_force_.has(constraint);
            });
@@ -331,7 +331,7 @@ TrimmedCertificate trim_certificate(const fs::path& from, const fs::path& to, st
   limits.set_memory_limit(memory);
   TrimmedCertificate trimmed;
   LemmaTable lemmas;
-  Deciding deciding(lemmas);
+  SplitSelector deciding(lemmas);
   const bool is_compressed = walk(from, deciding, limits);
   trimmed.before = {deciding.lines, static_cast<std::int64_t>(fs::file_size(from))};
   Naming naming(lemmas, deciding.keeps);

@@ -50,9 +50,9 @@ void add(Numbers& numbers, const ProofSplit& split) {
 }
 
 // Takes numbers back in the order in which they were added.
-class Taking {
+class NumberReader {
  public:
-  Taking(const Numbers& numbers, const std::filesystem::path& path)
+  NumberReader(const Numbers& numbers, const std::filesystem::path& path)
       : numbers_(numbers), path_(path) {}
 
   std::int64_t number() {
@@ -122,7 +122,7 @@ class Taking {
   std::size_t at_ = 0;
 };
 
-void replay(std::int64_t kind, Taking taking, ProofLog& log) {
+void replay(std::int64_t kind, NumberReader taking, ProofLog& log) {
   if (kind == kSplit) return log.split(taking.split());
   if (kind == kBound) {
     const ProofKey node = taking.key();
@@ -281,7 +281,7 @@ void read_proof_part(const std::filesystem::path& path, ProofLog& log) {
       refuse_part(path);
     numbers.resize(static_cast<std::size_t>(head[1]));
     if (!read(numbers.data(), numbers.size())) break;
-    replay(head[0], Taking(numbers, path), log);
+    replay(head[0], NumberReader(numbers, path), log);
   }
   if (stream.broken()) refuse_part(path);
 }

@@ -39,7 +39,7 @@ void ProofRecords::joint(Cost bound) {
   joined = std::max(joined, bound);
 }
 
-void ProofRecords::drop_what_lacks_lemmas() {
+void ProofRecords::drop_records_without_lemmas() {
   const auto is_lost = [&](ProofKey lemma) { return !lemmas.contains(lemma); };
   for (auto& [node, entry] : entries) {
     if (entry.split && entry.split->lemma != kNoProof && is_lost(entry.split->lemma))

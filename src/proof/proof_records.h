@@ -44,7 +44,7 @@ class ProofRecords : public ProofLog {
 
   // Removes records that name lemmas that are missing, because a process was killed before it wrote
   // them.
-  void drop_what_lacks_lemmas();
+  void drop_records_without_lemmas();
 };
 
 // Returns the excess that `excesses` imply together (search/covering.h). `steps` limits the effort.
