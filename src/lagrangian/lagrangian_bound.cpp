@@ -189,9 +189,9 @@ void LagrangianBound::note_best_multipliers() {
 
 // The round cannot end in the meantime, because no thread and no helper has been given these agents
 // yet. So the multipliers do not change.
-std::vector<LagrangianBound::Asked> LagrangianBound::dispatch_pricing() {
+std::vector<LagrangianBound::DispatchedRequest> LagrangianBound::dispatch_pricing() {
   const std::vector<AgentRange> cuts = partition_agents();
-  std::vector<Asked> shares;
+  std::vector<DispatchedRequest> shares;
   for (const AgentRange& range : cuts) {
     Helper& helper = helpers_[static_cast<std::size_t>(range.helper)];
     PricingRequest share;
@@ -199,7 +199,7 @@ std::vector<LagrangianBound::Asked> LagrangianBound::dispatch_pricing() {
     share.first = range.first;
     for (AgentIndex agent = range.first; agent < range.end; ++agent)
       share.known.push_back(known_[agent] = known_price(agent));
-    share.news = multipliers().update_for(helper.charges);
+    share.news = multipliers().update_for(helper.multipliers);
     helper.owes = true;
     shares.push_back({range.helper, range.work, std::move(share)});
   }
@@ -310,9 +310,9 @@ void LagrangianBound::move_multipliers(Cost cutoff, Cost known) {
   const ScaledCost bound =
       std::accumulate(prices_.begin(), prices_.end(), ScaledCost{0}) - multipliers().sum();
   make_list(bound);
-  const double squares = rows_.turn(paths_, encounters_, tuning_.lagrangian_smoothing);
+  const double squares = rows_.update_direction(paths_, encounters_, tuning_.lagrangian_smoothing);
   const double most = static_cast<double>(cutoff) * Penalties::kUnit;
-  if (squares > 0) rows_.go(ascent_.step(static_cast<double>(bound), most, squares));
+  if (squares > 0) rows_.take_step(ascent_.step(static_cast<double>(bound), most, squares));
   const std::lock_guard lock(mutex_);
   const double hoped = static_cast<double>(best_) + ascent_.way();
   const bool is_futile = rounds_ > tuning_.lagrangian_min_rounds &&

@@ -46,12 +46,12 @@ class LagrangianBound {
   // Sets the number of helpers, which are numbered from 0.
   void set_helpers(int count) { helpers_.resize(static_cast<std::size_t>(count)); }
   // Pricing requests for the helpers that have answered their last one, if there is enough work.
-  struct Asked {
+  struct DispatchedRequest {
     int helper;
     std::int64_t work;  // expected
     PricingRequest share;
   };
-  std::vector<Asked> dispatch_pricing();
+  std::vector<DispatchedRequest> dispatch_pricing();
   // Processes a helper's answer. A value counts only if round and multipliers are still those of
   // the request and the agent has no value yet. Returns the number of values that counted. Throws
   // std::invalid_argument if the agents were not requested.
@@ -84,8 +84,8 @@ class LagrangianBound {
     std::int64_t work;  // expected
   };
   struct Helper {
-    std::vector<Multipliers::Amount> charges;  // by row: the multipliers that it has received
-    bool owes = false;                         // an answer is outstanding
+    std::vector<Multipliers::Amount> multipliers;  // by row: the multipliers that it has received
+    bool owes = false;                             // an answer is outstanding
   };
 
   void begin_pricing();

@@ -119,8 +119,8 @@ MultiplierUpdate Multipliers::update_for(std::vector<Amount>& known) const {
       ++passed;
       continue;
     }
-    write(news.charges, passed);
-    write(news.charges, folded(multipliers_[id] - known[id]));
+    write(news.multipliers, passed);
+    write(news.multipliers, folded(multipliers_[id] - known[id]));
     passed = 0;
   }
   known = multipliers_;
@@ -129,13 +129,13 @@ MultiplierUpdate Multipliers::update_for(std::vector<Amount>& known) const {
 
 void Multipliers::learn(const MultiplierUpdate& news) {
   for (const RelaxedRow& row : news.rows) {
-    if (!is_possible(row)) throw std::invalid_argument("multipliers: row of another instance");
+    if (!is_valid_row(row)) throw std::invalid_argument("multipliers: row of another instance");
     add(row);
   }
   std::uint64_t id = 0;
-  for (std::size_t at = 0; at < news.charges.size(); ++id) {
-    id += read(news.charges, at);
-    const std::int64_t more = unfolded(read(news.charges, at));
+  for (std::size_t at = 0; at < news.multipliers.size(); ++id) {
+    id += read(news.multipliers, at);
+    const std::int64_t more = unfolded(read(news.multipliers, at));
     if (id >= rows_.size()) throw std::invalid_argument("multipliers: unknown row");
     const std::int64_t charge = multipliers_[id] + more;
     if (charge < 0 || charge > PenalizedSearch::kMaxPenaltyCost)
@@ -144,7 +144,7 @@ void Multipliers::learn(const MultiplierUpdate& news) {
   }
 }
 
-bool Multipliers::is_possible(const RelaxedRow& row) const {
+bool Multipliers::is_valid_row(const RelaxedRow& row) const {
   const auto is_agent = [&](std::int32_t agent) {
     return agent >= 0 && agent < std::ssize(on_finish_);
   };

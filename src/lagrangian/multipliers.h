@@ -20,7 +20,7 @@ struct MultiplierUpdate {
   std::vector<RelaxedRow> rows;
   // For each row whose multiplier has changed: the number of unchanged rows since the previous
   // changed one, and the difference. Encoding: multipliers.cpp.
-  std::string charges;
+  std::string multipliers;
 };
 
 // Relaxed rows with integer multipliers, in units of 1 / Penalties::kUnit step. One thread at a
@@ -60,7 +60,7 @@ class Multipliers {
  private:
   void put_on_path(const RelaxedRow& row, Amount more);
   void put_on_finish(AgentIndex agent, Time by, Amount more);
-  bool is_possible(const RelaxedRow& row) const;
+  bool is_valid_row(const RelaxedRow& row) const;
 
   const World& world_;
   Penalties penalties_;

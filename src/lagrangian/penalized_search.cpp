@@ -108,13 +108,13 @@ void PenalizedSearch::expand(std::uint32_t at) {
   // A cheaper path was found since the label was created.
   if (label.paid + to_pay(label.distance, time_ - 1) >= below_) return;
   const Place place = world_.place(label.state);
-  if (lets_arrive(place, place))
+  if (may_arrive(place, place))
     reach(at, label.state, label.stage,
           label.paid + Penalties::kUnit + layer_[penalties_.staying(place)]);
   const std::span<const State> moves = world_.moves(label.state);
   const std::span<const Penalties::Arc> arcs = penalties_.arcs(label.state);
   for (std::size_t move = 0; move < moves.size(); ++move) {
-    if (!lets_arrive(place, world_.place(moves[move]))) continue;
+    if (!may_arrive(place, world_.place(moves[move]))) continue;
     const Amount paid = label.paid + Penalties::kUnit + layer_[arcs[move]];
     goals_->on_arrival(label.stage, moves[move],
                        [&](StageId then) { arrive(at, moves[move], then, paid); });
@@ -123,7 +123,7 @@ void PenalizedSearch::expand(std::uint32_t at) {
 
 // Creates a label for an arrival by a move, where the agent may come to rest.
 void PenalizedSearch::arrive(std::uint32_t from, State state, StageId stage, Amount paid) {
-  if (reach(from, state, stage, paid) == 0) come_to_rest({state, stage, paid, 0, from});
+  if (reach(from, state, stage, paid) == 0) rest_at({state, stage, paid, 0, from});
 }
 
 // Creates or improves the label of a state and stage in this layer. Returns the distance from there
@@ -150,9 +150,9 @@ Time PenalizedSearch::reach(std::uint32_t from, State state, StageId stage, Amou
 }
 
 // Stores a complete path if it is the cheapest so far.
-void PenalizedSearch::come_to_rest(const Label& label) {
+void PenalizedSearch::rest_at(const Label& label) {
   if (!goals_->is_rest(goals_->stage(label.stage), label.state)) return;
-  if (others_ != nullptr && !others_->lets_rest(world_.place(label.state), time_)) return;
+  if (others_ != nullptr && !others_->may_rest_from(world_.place(label.state), time_)) return;
   ScaledCost price = label.paid;
   if (static_cast<std::size_t>(time_) < on_finish_.size()) price += on_finish_[time_];
   if (price >= below_) return;

@@ -68,8 +68,8 @@ class PenalizedSearch {
     std::uint32_t stamp;
   };
 
-  bool lets_arrive(Place from, Place to) const {
-    return others_ == nullptr || others_->lets_arrive(from, to, time_);
+  bool may_arrive(Place from, Place to) const {
+    return others_ == nullptr || others_->may_arrive(from, to, time_);
   }
   void look_at_ends();
   void start();
@@ -81,7 +81,7 @@ class PenalizedSearch {
   void expand(std::uint32_t label);
   void arrive(std::uint32_t from, State state, StageId stage, Amount paid);
   Time reach(std::uint32_t from, State state, StageId stage, Amount paid);
-  void come_to_rest(const Label& label);
+  void rest_at(const Label& label);
   Amount rest_from(Place place, Time time);
   Path path_to(const Label& label) const;
 

@@ -50,9 +50,9 @@ std::uint64_t RelaxedRows::edge_key(Place from, Place to, Time arrival) const {
 }
 
 RelaxedRows::RowId RelaxedRows::add_row(const RelaxedRow& row) {
-  const auto id = static_cast<RowId>(courses_.size());
+  const auto id = static_cast<RowId>(row_states_.size());
   multipliers_.add(row);
-  courses_.emplace_back();
+  row_states_.emplace_back();
   return id;
 }
 
@@ -87,11 +87,11 @@ bool RelaxedRows::has(const FinishTimePair& pair) const {
          });
 }
 
-double RelaxedRows::turn(std::span<const Path> paths, const OccupancyCounts& encounters,
-                         double memory) {
+double RelaxedRows::update_direction(std::span<const Path> paths, const OccupancyCounts& encounters,
+                                     double memory) {
   count_uses(paths, encounters);
   double squares = 0;
-  for (Course& row : courses_) {
+  for (RowState& row : row_states_) {
     const bool is_at_rest = row.exact_multiplier <= 0;  // it cannot decrease
     double direction = row.used - 1;
     if (is_at_rest) direction = std::max(direction, 0.0);
@@ -106,9 +106,9 @@ void RelaxedRows::count_uses(std::span<const Path> paths, const OccupancyCounts&
   const auto finishes_by = [&](AgentIndex agent, Time time) {
     return !paths[agent].empty() && static_cast<Time>(paths[agent].size()) - 1 <= time ? 1 : 0;
   };
-  for (RowId id = 0; id < courses_.size(); ++id) {
+  for (RowId id = 0; id < row_states_.size(); ++id) {
     const RelaxedRow& row = multipliers_.row(id);
-    std::int32_t& used = courses_[id].used;
+    std::int32_t& used = row_states_[id].used;
     used = 0;
     if (row.kind == Kind::kPlace) used = encounters.at(row.a, row.time);
     if (row.kind == Kind::kFinish)
@@ -136,12 +136,12 @@ void RelaxedRows::count_move(Place from, Place to, Time arrival) {
 
 void RelaxedRows::use_edge(Place from, Place to, Time arrival) {
   const auto row = edge_rows_.find(edge_key(from, to, arrival));
-  if (row != edge_rows_.end()) ++courses_[row->second].used;
+  if (row != edge_rows_.end()) ++row_states_[row->second].used;
 }
 
-void RelaxedRows::go(double step) {
-  for (RowId id = 0; id < courses_.size(); ++id) {
-    Course& row = courses_[id];
+void RelaxedRows::take_step(double step) {
+  for (RowId id = 0; id < row_states_.size(); ++id) {
+    RowState& row = row_states_[id];
     if (row.direction == 0) continue;
     row.exact_multiplier =
         std::clamp(row.exact_multiplier + step * row.direction, 0.0, kGreatestMultiplier);

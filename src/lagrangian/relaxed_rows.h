@@ -31,14 +31,15 @@ class RelaxedRows {
 
   // Sets the direction of each row: its uses by `paths` minus 1, plus `memory` times the old
   // direction; not below 0 if the multiplier is 0. Returns the squared length of the direction.
-  double turn(std::span<const Path> paths, const OccupancyCounts& encounters, double memory);
+  double update_direction(std::span<const Path> paths, const OccupancyCounts& encounters,
+                          double memory);
   // Moves each multiplier by `step` times its direction, within 0 .. 64 steps.
-  void go(double step);
+  void take_step(double step);
 
  private:
   using RowId = Multipliers::RowId;
   using Kind = RelaxedRow::Kind;
-  struct Course {
+  struct RowState {
     std::int32_t used = 0;
     double exact_multiplier = 0;
     double direction = 0;
@@ -56,7 +57,7 @@ class RelaxedRows {
 
   const World& world_;
   Multipliers multipliers_;
-  std::vector<Course> courses_;  // by row
+  std::vector<RowState> row_states_;  // by row
   std::unordered_map<std::uint64_t, RowId> place_rows_;
   std::unordered_map<std::uint64_t, RowId> edge_rows_;
   std::vector<std::uint8_t> has_edge_rows_;                            // by place

@@ -61,7 +61,7 @@ AgentIndex ReservationTable::agent_at(Place place, Time time) const {
   return std::prev(after)->agent;
 }
 
-bool ReservationTable::lets_arrive(Place from, Place to, Time arrival) const {
+bool ReservationTable::may_arrive(Place from, Place to, Time arrival) const {
   const std::vector<Stay>& stays = stays_[to];
   const auto after = std::ranges::upper_bound(stays, arrival + margin_, {}, &Stay::first);
   if (after == stays.begin()) return true;

@@ -49,9 +49,9 @@ class ReservationTable {
 
   // May another agent arrive on `to` at `arrival`, from a neighbour or, if `from` == `to`, by
   // waiting there?
-  bool lets_arrive(Place from, Place to, Time arrival) const;
+  bool may_arrive(Place from, Place to, Time arrival) const;
   // May another agent rest on the place from `from` on?
-  bool lets_rest(Place place, Time from) const {
+  bool may_rest_from(Place place, Time from) const {
     return stays_[place].empty() || std::int64_t{stays_[place].back().last} + margin_ < from;
   }
 

@@ -58,11 +58,11 @@ class Reference {
         if (paid[node] >= kNo) continue;
         for (const AgentGraph::Move& move : graph_.moves(node)) {
           if (graph_.rests(move.to)) {
-            if (moved[node] < kNo && others.lets_rest(graph_.place(node), time))
+            if (moved[node] < kNo && others.may_rest_from(graph_.place(node), time))
               least = std::min(least, moved[node] + rest(node, time));
             continue;
           }
-          if (!others.lets_arrive(graph_.place(node), graph_.place(move.to), time + 1)) continue;
+          if (!others.may_arrive(graph_.place(node), graph_.place(move.to), time + 1)) continue;
           const auto arc = penalties_.arc(graph_.place(node), graph_.place(move.to));
           const ScaledCost price = paid[node] + Penalties::kUnit + penalties_.of(time + 1, arc);
           next[move.to] = std::min(next[move.to], price);
@@ -163,8 +163,8 @@ TEST(PenalizedSearch, ImprovesPathAroundReservations) {
       if (found) {
         ASSERT_EQ(paid_by(path, penalties, on_finish), least);
         ASSERT_LE(std::ssize(path), latest + 1);
-        ASSERT_TRUE(others.lets_rest(instance.world().place(path.back()),
-                                     static_cast<Time>(path.size()) - 1));
+        ASSERT_TRUE(others.may_rest_from(instance.world().place(path.back()),
+                                         static_cast<Time>(path.size()) - 1));
         Path same = path;
         EXPECT_FALSE(search.improve(goals, on_finish, others, latest, least, 1 << 20, {}, same));
         EXPECT_EQ(same, path);

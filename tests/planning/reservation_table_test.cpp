@@ -100,12 +100,12 @@ TEST(ReservationTable, AllowsArrivalAndRestOnlyOnFreePlaces) {
           bool swaps = false;
           for (const Path& path : paths)
             swaps |= from != to && at(path, time - 1) == to && at(path, time) == from;
-          EXPECT_EQ(reservations.lets_arrive(from, to, time), !is_taken(to, time) && !swaps)
+          EXPECT_EQ(reservations.may_arrive(from, to, time), !is_taken(to, time) && !swaps)
               << from << " to " << to << " at " << time << ", margin " << margin;
         }
         bool stays_free = true;
         for (Time t = time; t < 20; ++t) stays_free &= !is_taken(to, t);
-        EXPECT_EQ(reservations.lets_rest(to, time), stays_free) << to << " from " << time;
+        EXPECT_EQ(reservations.may_rest_from(to, time), stays_free) << to << " from " << time;
       }
     }
   }
