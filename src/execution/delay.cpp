@@ -24,9 +24,9 @@ namespace grove::detail {
 namespace {
 
 // The begin times of actions if no other robot were in the way.
-class Wishes {
+class EarliestTimes {
  public:
-  Wishes(const ActionDependencyGraph& order, Time time, std::span<const Delay> late)
+  EarliestTimes(const ActionDependencyGraph& order, Time time, std::span<const Delay> late)
       : order_(order), time_(time), late_(static_cast<std::size_t>(order.agent_count())) {
     for (const Delay& l : late) late_[l.agent] = l.steps;
   }
@@ -104,7 +104,7 @@ void delay_work_begun_before(const Instance& instance, std::span<const Delay> la
 Plan delayed_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
                   Time time, std::span<const Delay> late) {
   require_possible(instance, time, late);
-  const Wishes wishes(order, time, late);
+  const EarliestTimes wishes(order, time, late);
   ExecutionTrace drive{std::vector<Time>(order.actions().size()),
                        std::vector<Time>(order.actions().size())};
   for (std::int32_t number = 0; number < order.step_count(); ++number) {

@@ -161,7 +161,7 @@ class Switching {
     while (!moments_.empty()) {
       now_ = moments_.top();
       while (!moments_.empty() && moments_.top() == now_) moments_.pop();
-      begin_what_may();
+      begin_enabled();
       for (AgentIndex agent = 0; agent < order_.agent_count(); ++agent) consider(agent);
     }
     for (AgentIndex agent = 0; agent < order_.agent_count(); ++agent)
@@ -193,7 +193,7 @@ class Switching {
     return (before == kNoAction || is_done(before)) && (other == kNoAction || is_done(other));
   }
 
-  void begin_what_may() {
+  void begin_enabled() {
     for (AgentIndex agent = 0; agent < order_.agent_count(); ++agent) {
       ActionIndex& next = next_[agent];
       if (next < order_.end_of(agent) && is_begun(next) && is_done(next)) ++next;
@@ -236,7 +236,7 @@ class Switching {
       wait = {};
       return;
     }
-    if (wait.patience >= kMaxPatienceFactor * patience_ && !is_anything_to_end()) return;
+    if (wait.patience >= kMaxPatienceFactor * patience_ && !has_action_in_progress()) return;
     wait.patience *= 2;
     wait.until = now_ + wait.patience;
     moments_.push(wait.until);
@@ -253,7 +253,7 @@ class Switching {
     return order_.actions()[action].agent;
   }
 
-  bool is_anything_to_end() const {
+  bool has_action_in_progress() const {
     for (AgentIndex agent = 0; agent < order_.agent_count(); ++agent) {
       const ActionIndex a = next_[agent];
       if (a < order_.end_of(agent) && is_begun(a) && driven_.drive.end[a] < kNever) return true;

@@ -52,7 +52,7 @@ bool DatabaseGroups::make_next(const Limits& limits) {
   return true;
 }
 
-bool DatabaseGroups::late_is_due(std::int64_t of_search) const {
+bool DatabaseGroups::is_late_due(std::int64_t of_search) const {
   return !late_.empty() && work_ + work_of(late_.front()) <= of_search;
 }
 

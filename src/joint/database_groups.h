@@ -34,7 +34,7 @@ class DatabaseGroups {
   bool make_next(const Limits& limits);
   // The same for the late ones, which are due if all databases together take at most the work
   // `of_search`.
-  bool late_is_due(std::int64_t of_search) const;
+  bool is_late_due(std::int64_t of_search) const;
   bool make_late(const Limits& limits);
 
   // Lower bound on the excess of the joint cost over the sum of individual costs at `nodes` (one

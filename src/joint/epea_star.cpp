@@ -71,7 +71,7 @@ class EpeaStar::Search {
   Outcome run(std::int64_t states, Cost cutoff, const Limits& limits) {
     if (groups_.are_due()) return make_database(limits) ? Outcome::kWorking : Outcome::kTooLarge;
     // Databases take at most half of the work.
-    if (groups_.late_is_due(made_ / kMadePerWork))
+    if (groups_.is_late_due(made_ / kMadePerWork))
       return groups_.make_late(limits) ? Outcome::kWorking : Outcome::kTooLarge;
     for (; states > 0 && !paths_; --states) {
       const Index state = pop();

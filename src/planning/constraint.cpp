@@ -27,7 +27,7 @@ constexpr std::array<Named, kConstraintKinds> kNames = {{
 }};
 
 // One time step of rest represents all later ones, because the path does not change any more.
-bool keeps_off(const World& world, const Path& path, const Constraint& bar) {
+bool avoids(const World& world, const Path& path, const Constraint& bar) {
   const Time last = std::min(bar.end, std::max(static_cast<Time>(path.size()), bar.begin));
   for (Time t = std::max(bar.begin, 0); t <= last; ++t) {
     if (place_at(world, path, t) != bar.cell) continue;
@@ -82,7 +82,7 @@ bool satisfies(const World& world, const Path& path, const Constraint& c,
   GROVE_ASSERT(!path.empty(), "an agent is somewhere");
   switch (c.kind) {
     case ConstraintKind::kVertexOrEdge:
-      return keeps_off(world, path, c);
+      return avoids(world, path, c);
     case ConstraintKind::kNoRestBy:
       return !rests_by(world, path, c);
     case ConstraintKind::kRestBy:

@@ -20,19 +20,19 @@
 // longest_finish() later.
 //
 // *Gates.* Let G be a label of goal k just visited, in interval [a, b], reached at time g. (If
-// agents turn, g is max_turn_time() later here; see stop_dominance.cpp.) Let L be a label that has
-// yet to visit goal k and cannot do so before g: f(L) >= g + after_goal(k). A path P through L that
-// visits goal k at some time <= b does so at a time in [g, b]. G could stand there then as well,
-// waiting, and from there on P is open to G. So L is needed only for paths that visit goal k in a
-// later interval, which begins at n, and they cost n + after_goal(k) or more. So L is postponed to
-// that f, and dropped if there is no later interval.
-// *Claim: the rule loses no optimal path.* *Proof.* As long as the finish has not been popped, some
-// optimal path has an open label that is no later than the path on one of its states and has a key
-// (the f under which it is queued) of at most the optimal cost. If L is that label and is postponed
-// beyond the optimal cost, then P changes over to G as above. The path through G costs the same,
-// and the first label on it that is not yet expanded has more progress than L had, so this ends.
-// *Consequence.* With unconstrained goals (b = kNever) the search decomposes into legs by itself.
-// It remains exact if the goals are constrained.
+// agents turn, g is max_turn_time() later here; function stop_dominance.cpp.) Let L be a label that
+// has yet to visit goal k and cannot do so before g: f(L) >= g + after_goal(k). A path P through L
+// that visits goal k at some time <= b does so at a time in [g, b]. G could stand there then as
+// well, waiting, and from there on P is open to G. So L is needed only for paths that visit goal k
+// in a later interval, which begins at n, and they cost n + after_goal(k) or more. So L is
+// postponed to that f, and dropped if there is no later interval. *Claim: the rule loses no optimal
+// path.* *Proof.* As long as the finish has not been popped, some optimal path has an open label
+// that is no later than the path on one of its states and has a key (the f under which it is
+// queued) of at most the optimal cost. If L is that label and is postponed beyond the optimal cost,
+// then P changes over to G as above. The path through G costs the same, and the first label on it
+// that is not yet expanded has more progress than L had, so this ends. *Consequence.* With
+// unconstrained goals (b = kNever) the search decomposes into legs by itself. It remains exact if
+// the goals are constrained.
 #pragma once
 
 #include <cstdint>
@@ -76,7 +76,7 @@ class FixedOrderGoals {
       return layer;
     return stage.gate_until < kNever ? stage.gate_until : kDropped;
   }
-  bool makes_gate(State state, Progress, Progress progress) const {
+  bool opens_gate(State state, Progress, Progress progress) const {
     return progress > 0 && is_at_goal(progress - 1, state);
   }
   void close_gate(State state, Progress before, Progress progress, Time time, Time until);

@@ -80,7 +80,7 @@ class FreeOrderGoals {
   Time put_off(Progress stage, State state, Time time, Time layer) {
     return gates_.any(stage) ? put_off_by_gates(stage, state, time, layer) : layer;
   }
-  bool makes_gate(State, Progress before, Progress progress) const { return before != progress; }
+  bool opens_gate(State, Progress before, Progress progress) const { return before != progress; }
   void close_gate(State state, Progress before, Progress, Time time, Time until) {
     gates_.close(*goals_, before, state, time, until);
   }

@@ -8,18 +8,18 @@
 namespace grove::detail {
 namespace {
 
-// Calls see(place, stay) for each stay of a path.
-template <class See>
-void for_each_stay(const World& world, AgentIndex agent, const Path& path, See see) {
+// Calls function(place, stay) for each stay of a path.
+template <class Function>
+void for_each_stay(const World& world, AgentIndex agent, const Path& path, Function function) {
   const auto end = static_cast<Time>(path.size());
   for (Time first = 0; first < end;) {
     const Place place = world.place(path[first]);
     Time after = first + 1;
     while (after < end && world.place(path[after]) == place) ++after;
     if (after < end)
-      see(place, ReservationTable::Stay{first, after - 1, world.place(path[after]), agent});
+      function(place, ReservationTable::Stay{first, after - 1, world.place(path[after]), agent});
     else
-      see(place, ReservationTable::Stay{first, kNever, kNoPlace, agent});
+      function(place, ReservationTable::Stay{first, kNever, kNoPlace, agent});
     first = after;
   }
 }

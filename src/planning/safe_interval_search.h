@@ -63,7 +63,7 @@ inline constexpr Time kDropped = std::numeric_limits<Time>::max();
 // - first_rest(): lower bound on the cost of every path;
 // - put_off(progress, state, time, layer): the layer to which this label is postponed, or kDropped;
 //   `layer` or less if it is not postponed;
-// - makes_gate(state, before, progress): may a label whose parent has progress `before` dominate
+// - opens_gate(state, before, progress): may a label whose parent has progress `before` dominate
 //   others (be a *gate*)?
 // - close_gate(state, before, progress, time, until): the label dominates others, from `time` to
 //   before `until`.
@@ -188,7 +188,7 @@ bool SafeIntervalSearch<Goals>::postpone(const Entry& entry, State state) {
 // A gate must permit whatever the labels that it dominates can do next.
 template <class Goals>
 void SafeIntervalSearch<Goals>::close_gate(const Entry& entry, State state, Progress before) {
-  if (goals_.makes_gate(state, before, entry.progress) && intervals_.stands_for_others(entry.slot))
+  if (goals_.opens_gate(state, before, entry.progress) && intervals_.may_dominate(entry.slot))
     goals_.close_gate(state, before, entry.progress, entry.time, intervals_.next_begin(entry.slot));
 }
 

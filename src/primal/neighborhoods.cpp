@@ -87,11 +87,11 @@ void Neighborhoods::add_delayed() {
   const AgentIndex agent = some_delayed_agent();
   if (agent == ReservationTable::kNoAgent) return;
   add(agent);
-  add_those_in_the_way(agent, low_level_.individual_path(agent), 0);
+  add_blocking_agents(agent, low_level_.individual_path(agent), 0);
   const Time delay = paths_.cost(agent) - low_level_.individual_cost(agent);
   for (int tries = 0; tries < kAgentBasedTries && !full(); ++tries) {
     const AgentIndex member = chosen_[random_.below(chosen_.size())];
-    add_those_in_the_way(member, low_level_.individual_path(member), random_.below(delay + 1));
+    add_blocking_agents(member, low_level_.individual_path(member), random_.below(delay + 1));
   }
 }
 
@@ -110,7 +110,7 @@ AgentIndex Neighborhoods::some_delayed_agent() {
 }
 
 // Adds the agents with which `agent` would collide on `path`, begun `late` steps late.
-void Neighborhoods::add_those_in_the_way(AgentIndex agent, const Path& path, Time late) {
+void Neighborhoods::add_blocking_agents(AgentIndex agent, const Path& path, Time late) {
   for_each_blocking_agent(problem_.instance.world(), paths_.reservations(), agent, path, late,
                           [&](AgentIndex other) {
                             add(other);
@@ -120,13 +120,13 @@ void Neighborhoods::add_those_in_the_way(AgentIndex agent, const Path& path, Tim
 
 void Neighborhoods::add_by_reduced_cost() {
   update_reduced_costs();
-  const AgentIndex agent = some_overpaying_agent();
+  const AgentIndex agent = agent_by_reduced_cost();
   if (agent == ReservationTable::kNoAgent) return;
   add(agent);
-  add_those_in_the_way(agent, wanted_path(agent), 0);
+  add_blocking_agents(agent, wanted_path(agent), 0);
   for (int tries = 0; tries < kAgentBasedTries && !full(); ++tries) {
     const AgentIndex member = chosen_[random_.below(chosen_.size())];
-    add_those_in_the_way(member, wanted_path(member), random_.below(kLate));
+    add_blocking_agents(member, wanted_path(member), random_.below(kLate));
   }
 }
 
@@ -146,7 +146,7 @@ void Neighborhoods::update_reduced_costs() {
   }
 }
 
-AgentIndex Neighborhoods::some_overpaying_agent() {
+AgentIndex Neighborhoods::agent_by_reduced_cost() {
   const ScaledCost sum = std::accumulate(reduced_cost_.begin(), reduced_cost_.end(), ScaledCost{0});
   if (sum <= 0) return ReservationTable::kNoAgent;
   ScaledCost at = random_.below(sum);

@@ -44,9 +44,9 @@ class Neighborhoods {
   void add_anyone();
   void add_delayed();
   AgentIndex some_delayed_agent();
-  void add_those_in_the_way(AgentIndex agent, const Path& path, Time late);
+  void add_blocking_agents(AgentIndex agent, const Path& path, Time late);
   void add_by_reduced_cost();
-  AgentIndex some_overpaying_agent();
+  AgentIndex agent_by_reduced_cost();
   void update_reduced_costs();
   const Path& wanted_path(AgentIndex agent) const;
   void add_around_spot();

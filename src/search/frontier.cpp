@@ -134,7 +134,7 @@ std::size_t Frontier::prune(Cost bound) {
   for (auto it = open_.lower_bound(bound); it != open_.end(); it = open_.erase(it))
     pruned += it->second.size();
   open_count_ -= pruned;
-  if (evicted_ >= bound) evicted_ = kInfiniteCost;
+  if (evicted_bound_ >= bound) evicted_bound_ = kInfiniteCost;
   return pruned;
 }
 
@@ -146,7 +146,7 @@ std::vector<NodePtr> Frontier::evict(std::size_t count, std::size_t keep) {
   while (evicted.size() < count && !open_.empty()) {
     const auto worst = std::prev(open_.end());
     auto& [rank, heap] = *worst;
-    evicted_ = std::min(evicted_, rank);
+    evicted_bound_ = std::min(evicted_bound_, rank);
     const std::size_t left = heap.size() - std::min(heap.size(), count - evicted.size());
     const auto first = heap.begin() + static_cast<std::ptrdiff_t>(left);
     const auto worse = order_in(rank);
@@ -164,7 +164,7 @@ std::vector<NodePtr> Frontier::evict(std::size_t count, std::size_t keep) {
 
 Cost Frontier::evicted_bound() const {
   const std::lock_guard lock(mutex_);
-  return evicted_;
+  return evicted_bound_;
 }
 
 // Atomic, because in between there would be neither nodes nor a bound.
@@ -173,7 +173,7 @@ void Frontier::restart(std::span<const NodePtr> roots, Cost proven) {
   GROVE_ASSERT(open_.empty() && taken_.empty(), "a restart while a node is live");
   proven_ = proven;
   for (const NodePtr& root : roots) push_locked(root);
-  evicted_ = kInfiniteCost;
+  evicted_bound_ = kInfiniteCost;
 }
 
 void Frontier::abandon() {
@@ -188,7 +188,7 @@ void Frontier::abandon() {
 
 Frontier::Snapshot Frontier::snapshot() const {
   const std::lock_guard lock(mutex_);
-  Snapshot snapshot{in_progress_, evicted_};
+  Snapshot snapshot{in_progress_, evicted_bound_};
   snapshot.live.reserve(in_progress_.size() + open_count_);
   for (const auto& [bound, heap] : open_)
     for (const Open& open : heap) snapshot.live.push_back(open.node);
@@ -197,14 +197,14 @@ Frontier::Snapshot Frontier::snapshot() const {
 
 void Frontier::record_evicted_bound(Cost bound) {
   const std::lock_guard lock(mutex_);
-  evicted_ = std::min(evicted_, bound);
+  evicted_bound_ = std::min(evicted_bound_, bound);
 }
 
 Cost Frontier::bound() const {
   const std::lock_guard lock(mutex_);
   const Cost open = open_.empty() ? kInfiniteCost : open_.begin()->first;
   const Cost taken = taken_.empty() ? kInfiniteCost : taken_.begin()->first;
-  return std::min({open, taken, evicted_});
+  return std::min({open, taken, evicted_bound_});
 }
 
 std::size_t Frontier::open() const {

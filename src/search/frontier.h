@@ -102,7 +102,7 @@ class Frontier {
   std::map<Cost, std::vector<Open>> open_;  // heaps, by rank
   std::map<Cost, std::size_t> taken_;       // number of taken nodes of each rank
   std::vector<NodePtr> in_progress_;        // the taken nodes; few
-  Cost evicted_ = kInfiniteCost;
+  Cost evicted_bound_ = kInfiniteCost;
   Cost proven_ = -1;  // bound proven before the last restart; -1 if there was no restart
   std::size_t open_count_ = 0;
   std::uint64_t serial_ = 0;

@@ -24,7 +24,7 @@ namespace {
 using Id = SubproblemTable::Id;
 using ExcessBound = DependencyTable::ExcessBound;
 
-bool says_something(const ExcessBound& known) {
+bool is_informative(const ExcessBound& known) {
   return known.exact || known.excess > 0 || known.expansions > 0;
 }
 
@@ -64,12 +64,12 @@ class Collector {
       for (std::size_t b = a + 1; b < ids.size(); ++b) {
         if (!is_new_[a] && !is_new_[b]) continue;
         const ExcessBound known = memory_.excesses.of_pair(ids[a], ids[b]);
-        if (says_something(known))
+        if (is_informative(known))
           findings.push_back(
               {place, {static_cast<AgentIndex>(a), static_cast<AgentIndex>(b)}, known});
       }
     memory_.excesses.groups_at(ids, [&](const auto& group) {
-      if (says_something(group.known) &&
+      if (is_informative(group.known) &&
           std::ranges::any_of(group.agents, [&](AgentIndex agent) { return is_new_[agent]; }))
         findings.push_back({place, group.agents, group.known});
     });

@@ -17,14 +17,14 @@ class HashIndex {
   using Number = std::int32_t;
   static constexpr Number kNone = -1;
 
-  // Returns the number of the entry with this hash for which is_it(number) holds, or kNone. All
+  // Returns the number of the entry with this hash for which matches(number) holds, or kNone. All
   // bits of `hash` must be well mixed.
-  template <class IsIt>
-  Number find(std::uint32_t hash, IsIt is_it) const {
+  template <class Matches>
+  Number find(std::uint32_t hash, Matches matches) const {
     if (slots_.empty()) return kNone;
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t at = hash & mask; slots_[at].number != kNone; at = (at + 1) & mask)
-      if (slots_[at].hash == hash && is_it(slots_[at].number)) return slots_[at].number;
+      if (slots_[at].hash == hash && matches(slots_[at].number)) return slots_[at].number;
     return kNone;
   }
 

@@ -106,7 +106,7 @@ void PebbleGraph::find_regions() {
   regions_.assign(size(), 0);
   is_on_ring_.assign(size(), 0);
   for (PebbleNode node = 1; node < size(); ++node) {
-    if (hangs(node)) {
+    if (is_bridge_to_parent(node)) {
       regions_[node] = node;
       continue;
     }

@@ -33,7 +33,7 @@ class PebbleGraph {
 
   // True if removing the edge between a and b disconnects them.
   bool is_bridge(PebbleNode a, PebbleNode b) const {
-    return a == parent(b) ? hangs(b) : b == parent(a) && hangs(a);
+    return a == parent(b) ? is_bridge_to_parent(b) : b == parent(a) && is_bridge_to_parent(a);
   }
   // The 2-edge-connected component of a node. Two nodes are in the same one if and only if a closed
   // walk that uses no edge twice passes through both.
@@ -67,7 +67,7 @@ class PebbleGraph {
   void count_ways();
   void find_regions();
   // True if the edge to its parent is a bridge.
-  bool hangs(PebbleNode node) const { return block(node).nodes.size() == 2; }
+  bool is_bridge_to_parent(PebbleNode node) const { return block(node).nodes.size() == 2; }
 
   std::vector<Place> part_;        // ascending
   std::vector<PebbleNode> nodes_;  // by position in part_

@@ -154,7 +154,7 @@ class Membership {
     for (PebbleNode node = 0; node < board().size(); ++node)
       if (!is_free(node) && crossings.is_crossing(node) && !is_held(node))
         groups_[node] = crossings.group(node);
-    for (const Way& way : crossings.ways()) add_those_near(way);
+    for (const Way& way : crossings.ways()) assign_near_nodes(way);
     for (std::size_t way = 0; way < queues_.size(); ++way)
       if (crossings.is_first(crossings.ways()[way])) find_queue(way);
   }
@@ -185,7 +185,7 @@ class Membership {
     return std::ranges::any_of(board().neighbors(node),
                                [&](PebbleNode next) { return is_held_by(node, next); });
   }
-  void add_those_near(const Way& way) {
+  void assign_near_nodes(const Way& way) {
     if (way.from == PebbleGraph::kNone) return;
     const PebbleNode group_there = crossings_.group(way.from);
     int steps_less_free = -free_before(way);

@@ -106,7 +106,7 @@ WdgHeuristic::Outcome WdgHeuristic::compute_weights(NodeView& view, Cost slack,
   // well before a later call uses them. So there is no limit, and this call does all the work.
   abort_at_ = memory_.common()->follows_another ? std::numeric_limits<std::int64_t>::max()
                                                 : work() + tuning_.bound_work;
-  const Outcome outcome = solve_conflicting(view, slack, 0, limits);
+  const Outcome outcome = solve_conflicting_pairs(view, slack, 0, limits);
   if (outcome != Outcome::kDone || !techniques_.has(Technique::kClusters)) return outcome;
   return solve_groups(view, slack, limits);
 }
@@ -118,7 +118,7 @@ bool WdgHeuristic::help(const NodePtr& node, NodeView& view, Cost cutoff, double
   look_at(view);
   const std::int64_t before = work();
   abort_at_ = before + tuning_.bound_work;
-  solve_conflicting(view, slack, share, limits);
+  solve_conflicting_pairs(view, slack, share, limits);
   return work() > before;
 }
 
@@ -138,8 +138,8 @@ bool WdgHeuristic::may_cost(AgentIndex agent, Time cost) const {
 }
 
 // Bounds the excess of every pair that conflicts at the node.
-WdgHeuristic::Outcome WdgHeuristic::solve_conflicting(NodeView& view, Cost slack, double share,
-                                                      const Limits& limits) {
+WdgHeuristic::Outcome WdgHeuristic::solve_conflicting_pairs(NodeView& view, Cost slack,
+                                                            double share, const Limits& limits) {
   std::vector<std::pair<AgentIndex, AgentIndex>> pairs;
   for (const Conflict& c : view.conflicts()) pairs.emplace_back(c.first, c.second);
   std::ranges::sort(pairs);

@@ -84,7 +84,7 @@ class WdgHeuristic {
   ExcessBound known(AgentIndex a, AgentIndex b) const {
     return memory_.of_pair(subproblem_[a], subproblem_[b]);
   }
-  Outcome solve_conflicting(NodeView& view, Cost slack, double share, const Limits& limits);
+  Outcome solve_conflicting_pairs(NodeView& view, Cost slack, double share, const Limits& limits);
   std::optional<Dependence> compare(NodeView& view, AgentIndex a, AgentIndex b,
                                     const Limits& limits);
   const Mdd* mdd(NodeView& view, AgentIndex agent, const Limits& limits);

@@ -42,7 +42,7 @@ class CostToGo::Store {
   // Returns a store with outside_bound() > `cost_limit`, or nullptr if it could not be built. Call
   // only if this store has outside_bound() <= `cost_limit`.
   virtual std::shared_ptr<const Store> extended(Time cost_limit, const Limits& limits) const = 0;
-  virtual bool knows_all_or_nothing() const { return false; }
+  virtual bool is_all_or_nothing() const { return false; }
   // Returns a store for a sequence class, or nullptr if this store serves it.
   virtual std::shared_ptr<const Store> of_class(const SequenceClass&) const { return nullptr; }
 
@@ -61,7 +61,7 @@ class CostToGo::Table : public Store {
 
   Time relaxed_bound() const override { return relaxation_bound(min_matrix(matrix())); }
   Time outside_bound() const override { return table_.built() ? kNever : 0; }
-  bool knows_all_or_nothing() const override { return true; }
+  bool is_all_or_nothing() const override { return true; }
   Time cost_to_go(StopSet left, int port) const override {
     return table_.built() ? table_.cost_to_go(left, port) : kNever;
   }
@@ -285,7 +285,7 @@ bool CostToGo::extend(Time cost_limit, const Limits& limits) {
 
 // A table is kept: it is complete or empty, and a search does not run on an empty one.
 void CostToGo::reset() {
-  if (store_->knows_all_or_nothing()) return;
+  if (store_->is_all_or_nothing()) return;
   resets_ = true;
   store_ = marked_;
 }

@@ -161,8 +161,8 @@ TEST_F(SafeIntervalsTest, TraversalIsBarredOnlyFromTheOtherEnd) {
   EXPECT_EQ(intervals_.first_move(intervals_.start_slot(1), 2, 5), 5);
   EXPECT_EQ(intervals_.last_move(enter(0), 2, 6), 4);
   EXPECT_EQ(intervals_.last_move(enter(2), 2, 6), 6);
-  EXPECT_FALSE(intervals_.stands_for_others(enter(0)));
-  EXPECT_TRUE(intervals_.stands_for_others(enter(2)));
+  EXPECT_FALSE(intervals_.may_dominate(enter(0)));
+  EXPECT_TRUE(intervals_.may_dominate(enter(2)));
   EXPECT_EQ(intervals_.next_begin(enter(0)), kNever);
   EXPECT_EQ(intervals_.next_begin(intervals_.start_slot(1)), 4);
 }
