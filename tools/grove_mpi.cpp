@@ -57,7 +57,7 @@ int run(MpiSession& session, bool speaks, int argc, char** argv) {
   try {
     return run_program(app, argc, argv, speaks, [&](const std::string& why) { lines.refuse(why); });
   } catch (const std::exception& error) {
-    complain(app, fmt::format("internal failure of rank {}: {}", session.rank(), error.what()));
+    print_error(app, fmt::format("internal failure of rank {}: {}", session.rank(), error.what()));
     session.abort(kExitInternalFailure);
   }
 }

@@ -228,7 +228,7 @@ class Study {
     std::fflush(stdout);
     table_ += line + '\n';
   }
-  static void note(const std::string& text) { say_on_stderr("grove-sim: " + text); }
+  static void note(const std::string& text) { print_to_stderr("grove-sim: " + text); }
 
   SimArguments& a_;
   SolveOptions options_;

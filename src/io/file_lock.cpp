@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxHolderLength = 400;
 
-std::string who_i_am() {
+std::string description_of_this_process() {
   return fmt::format("process {} on host {}, since {:%F %T} UTC", ::getpid(), host_name(),
                      fmt::gmtime(std::time(nullptr)));
 }
@@ -47,7 +47,7 @@ FileDescriptor open_lock_file(const fs::path& path) {
 }
 
 bool write_holder(const FileDescriptor& file) {
-  return ::ftruncate(file.get(), 0) == 0 && write_all(file.get(), who_i_am());
+  return ::ftruncate(file.get(), 0) == 0 && write_all(file.get(), description_of_this_process());
 }
 
 // For example ".grove-plan.json.lock" for "plan.json".

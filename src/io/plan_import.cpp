@@ -115,7 +115,7 @@ Paths read_path_lists(const std::filesystem::path& path, const Instance& instanc
 }
 
 // The paths of a file, and its claims about them.
-struct ToldPaths {
+struct ClaimedPaths {
   std::optional<Paths> paths;  // nullopt: not solved
   std::optional<Cost> cost;
   std::optional<Cost> lower_bound;
@@ -156,10 +156,10 @@ Path read_schedule_of_agent(const Instance& instance, const YamlValue& steps) {
 }
 
 // Reads the schedules of libMultiRobotPlanning, MGCBS and ITA-CBS.
-ToldPaths read_schedule(const std::filesystem::path& path, const Instance& instance,
-                        const std::string& name) {
+ClaimedPaths read_schedule(const std::filesystem::path& path, const Instance& instance,
+                           const std::string& name) {
   const YamlDocument document(path);
-  ToldPaths claimed;
+  ClaimedPaths claimed;
   if (const auto statistics = document.root().find("statistics"))
     if (const auto cost = statistics->find("cost"))
       claimed.cost = cost->integer(0, std::numeric_limits<int>::max());
@@ -175,9 +175,9 @@ ToldPaths read_schedule(const std::filesystem::path& path, const Instance& insta
   return claimed;
 }
 
-ToldPaths read_visualizer_text(const std::filesystem::path& path, const Instance& instance,
-                               const std::vector<std::string_view>& lines) {
-  ToldPaths text;
+ClaimedPaths read_visualizer_text(const std::filesystem::path& path, const Instance& instance,
+                                  const std::vector<std::string_view>& lines) {
+  ClaimedPaths text;
   std::size_t k = 0;
   for (; k < lines.size() && lines[k] != "solution="; ++k) {
     LineReader line(path, k + 1, lines[k]);
@@ -214,7 +214,7 @@ std::vector<TaskIndex> order_of_tasks(const Instance& instance, const Agent& age
   return tasks;
 }
 
-Solution solution_of(const Instance& instance, ToldPaths text) {
+Solution solution_of(const Instance& instance, ClaimedPaths text) {
   Solution solution;
   solution.omega = Omega::infinite();
   solution.lower_bound = text.lower_bound.value_or(0);
@@ -287,7 +287,7 @@ ClaimedPlan read_plan_of_any_tool(const std::filesystem::path& path, const Insta
     throw InputError(path.string(), "line 1",
                      "expected a plan file (JSON), since the instance is on a roadmap");
   const std::vector<std::string_view> lines = split_lines(content);
-  ToldPaths text;
+  ClaimedPaths text;
   if (std::ranges::any_of(lines, is_schedule)) {
     text = read_schedule(path, instance, path.string());
   } else if (std::ranges::any_of(lines, is_path_list)) {

@@ -40,7 +40,7 @@ std::optional<int> decimal(const std::string& text) {
 }
 
 // An event handler that ignores all events.
-class Deaf : public YAML::EventHandler {
+class IgnoringHandler : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
@@ -61,9 +61,10 @@ class Deaf : public YAML::EventHandler {
 void require_one_document(const std::string& file, const std::string& text) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
-  Deaf deaf;
-  if (!parser.HandleNextDocument(deaf)) throw InputError(file, "", "is empty; expected a YAML map");
-  if (parser.HandleNextDocument(deaf))
+  IgnoringHandler handler;
+  if (!parser.HandleNextDocument(handler))
+    throw InputError(file, "", "is empty; expected a YAML map");
+  if (parser.HandleNextDocument(handler))
     throw InputError(file, "", "has more than one YAML document; expected one");
 }
 

@@ -175,7 +175,7 @@ std::vector<batch::Entry> entries_of(const BenchArguments& a) {
   batch::SweptScenarios swept =
       batch::read_scenarios(a.instances, {.agents = agents, .scenarios = a.scenarios}, rules);
   if (swept.too_short > 0)
-    say_on_stderr(
+    print_to_stderr(
         fmt::format("grove: warning: {} scenario{} fewer rows than the maximum of --agents; "
                     "instances with more agents than rows are left out",
                     swept.too_short, swept.too_short == 1 ? " has" : "s have"));
@@ -185,7 +185,7 @@ std::vector<batch::Entry> entries_of(const BenchArguments& a) {
 void warn_of_unreadable(const std::vector<bench::BenchInstance>& instances) {
   for (const bench::BenchInstance& instance : instances)
     if (!instance.error.empty())
-      say_on_stderr(
+      print_to_stderr(
           fmt::format("grove: warning: {}; its rows have an error", one_line(instance.error)));
 }
 
@@ -217,11 +217,11 @@ void run(const CLI::App& app, BenchArguments& a) {
   const bench::BenchState state = run_bench(instances, methods, options);
   if (!a.quiet) display.finish(progress_text(state));
   for (const std::string& version : state.other_versions)
-    say_on_stderr(
+    print_to_stderr(
         fmt::format("grove: warning: {} has rows of {}; they are kept", a.output_dir, version));
   if (state.work.left > 0)
-    say_on_stderr(fmt::format("grove: stopped with {} run{} left; repeat the command to resume",
-                              state.work.left, state.work.left == 1 ? "" : "s"));
+    print_to_stderr(fmt::format("grove: stopped with {} run{} left; repeat the command to resume",
+                                state.work.left, state.work.left == 1 ? "" : "s"));
   fmt::print("{}table: {}\n", summary_table(state), batch::csv_file(a.output_dir).string());
   if (state.work.left > 0) throw CommandFailed(kExitInterrupted);
 }

@@ -96,7 +96,7 @@ void add_default(Words& words, const CLI::App& app, const std::string& option,
 bench::Method read_run(const std::string& text, const RunDefaults& defaults) {
   const NameAndOptions given = split(text);
   CLI::App app;
-  let_last_option_count(app);
+  let_last_option_win(app);
   SolveArguments a;
   a.time_limit_s = defaults.time_limit_s;
   a.seed = defaults.seed;

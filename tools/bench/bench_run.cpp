@@ -233,7 +233,7 @@ class Bench {
     if (end.kind == ChildEnd::Kind::kCancelled) return false;
     outcome.verify_s = end.wall_s;
     outcome.proof_bytes = static_cast<std::int64_t>(fs::file_size(files.proof));
-    outcome.certified = is_verified(outcome, end, files.output_file);
+    outcome.certified = check_claims(outcome, end, files.output_file);
     return true;
   }
 

@@ -61,8 +61,8 @@ std::string refusal(const std::filesystem::path& output_file, const std::string&
   return words;
 }
 
-bool is_verified(batch::Outcome& outcome, const ChildEnd& end,
-                 const std::filesystem::path& output_file) {
+bool check_claims(batch::Outcome& outcome, const ChildEnd& end,
+                  const std::filesystem::path& output_file) {
   constexpr std::string_view kCost = "verified: no plan costs less than ";
   std::string why = end.kind == ChildEnd::Kind::kTooLong ? "takes too long" : "is not verified";
   if (end.kind == ChildEnd::Kind::kExited && end.code == 0) {

@@ -24,8 +24,8 @@ batch::Outcome outcome_of_run(const ChildEnd& end, double time_limit_s, const In
 
 // Returns whether the certificate checker, with output `output_file`, verified all that the outcome
 // claims. Otherwise its message becomes the outcome's error, unless there is one.
-bool is_verified(batch::Outcome& outcome, const ChildEnd& end,
-                 const std::filesystem::path& output_file);
+bool check_claims(batch::Outcome& outcome, const ChildEnd& end,
+                  const std::filesystem::path& output_file);
 
 inline constexpr const char* kTimeLimit = "time limit";  // as text of an error
 

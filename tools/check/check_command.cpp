@@ -60,10 +60,10 @@ void print_verdict(const ClaimedPlan& claimed) {
 
 void print_violations(const std::string& file, const std::vector<Violation>& violations) {
   for (const Violation& violation : violations)
-    say_on_stderr(fmt::format("{}: {}: {}", one_line(file), violation.json_pointer,
-                              one_line(violation.message)));
+    print_to_stderr(fmt::format("{}: {}: {}", one_line(file), violation.json_pointer,
+                                one_line(violation.message)));
   if (violations.size() >= kMaxViolations)
-    say_on_stderr(fmt::format("{}: stopped after {} violations", one_line(file), kMaxViolations));
+    print_to_stderr(fmt::format("{}: stopped after {} violations", one_line(file), kMaxViolations));
 }
 
 LoadedInstance load_before_plan(const InstanceArguments& instance) {

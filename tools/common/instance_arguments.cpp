@@ -129,7 +129,7 @@ std::string read_standard_input() {
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) say_on_stderr("grove: warning: " + warning);
+  for (const std::string& warning : warnings) print_to_stderr("grove: warning: " + warning);
 }
 
 }  // namespace grove::detail

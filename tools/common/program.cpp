@@ -85,17 +85,17 @@ bool handle_program_help(const CLI::App& app, const Words& words, bool speaks) {
 // Reports a full disk or a closed pipe as a failure.
 int flush_output(const CLI::App& app) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return kExitSuccess;
-  complain(app, "standard output: cannot be written");
+  print_error(app, "standard output: cannot be written");
   return kExitInternalFailure;
 }
 
 }  // namespace
 
-void complain(const CLI::App& app, const std::string& message) {
-  say_on_stderr(fmt::format("{}: error: {}", app.get_name(), one_line(message)));
+void print_error(const CLI::App& app, const std::string& message) {
+  print_to_stderr(fmt::format("{}: error: {}", app.get_name(), one_line(message)));
 }
 
-void let_last_option_count(CLI::App& app) {
+void let_last_option_win(CLI::App& app) {
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 
@@ -104,14 +104,14 @@ void prepare_program(CLI::App& app) {
   app.formatter(std::make_shared<HelpFormatter>());
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
-  let_last_option_count(app);
+  let_last_option_win(app);
 }
 
 int run_program(CLI::App& app, int argc, char** argv, bool speaks,
                 const std::function<void(const std::string& why)>& refused) {
   const auto say = [&](const std::string& message) {
     refused(message);
-    if (speaks) complain(app, message);
+    if (speaks) print_error(app, message);
     return kExitBadInput;
   };
   try {
@@ -140,7 +140,7 @@ int run_only_process(CLI::App& app, int argc, char** argv) {
   try {
     return run_program(app, argc, argv);
   } catch (const std::exception& error) {
-    complain(app, fmt::format("internal failure: {}", error.what()));
+    print_error(app, fmt::format("internal failure: {}", error.what()));
     return kExitInternalFailure;
   }
 }

@@ -9,12 +9,12 @@
 namespace grove::detail {
 
 // Prints one line on standard error: "grove: error: ...".
-void complain(const CLI::App& app, const std::string& message);
+void print_error(const CLI::App& app, const std::string& message);
 
 // If an option with one value is given several times, the last one counts, as with compilers, so
 // that a user can override the options of a script. Call it before options and subcommands are
 // added.
-void let_last_option_count(CLI::App& app);
+void let_last_option_win(CLI::App& app);
 
 // Sets the help layout and the version option that all programs have. Call it before subcommands
 // are added, because they inherit both.

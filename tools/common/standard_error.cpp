@@ -5,7 +5,7 @@
 
 namespace grove::detail {
 
-void say_on_stderr(std::string_view line) {
+void print_to_stderr(std::string_view line) {
   std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
 }
 

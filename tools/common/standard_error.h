@@ -8,6 +8,6 @@
 namespace grove::detail {
 
 // Writes a line to standard error if possible. Throws nothing. Thread-safe.
-void say_on_stderr(std::string_view line);
+void print_to_stderr(std::string_view line);
 
 }  // namespace grove::detail

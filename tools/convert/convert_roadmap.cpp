@@ -122,7 +122,7 @@ std::string in_units(const Rounding& rounding, const StepScale& scale) {
              : fmt::format("{:.4g} m", rounding.absolute() * *scale.metres_per_step);
 }
 
-std::string described(const Rounding& rounding, const RoadNetwork& network) {
+std::string description(const Rounding& rounding, const RoadNetwork& network) {
   const Link& link = network.links[rounding.link];
   return fmt::format("{:.10g} became {}, {} from '{}' to '{}'", rounding.exact, rounding.steps,
                      link.place, one_line(network.vertices[link.from].id),
@@ -138,9 +138,9 @@ void print_rounding(const SteppedRoads& stepped, const RoadNetwork& network,
     return;
   }
   fmt::print("rounding: at most {:.4g} steps ({}): {}\n", absolute.absolute(),
-             in_units(absolute, scale), described(absolute, network));
+             in_units(absolute, scale), description(absolute, network));
   fmt::print("rounding: at most {:.4g} %: {}\n", 100 * relative.relative(),
-             described(relative, network));
+             description(relative, network));
 }
 
 void print_roadmap(const std::string& file, const Roadmap& roadmap) {

@@ -112,7 +112,7 @@ class BatchRun {
       : app_(app), a_(arguments), session_(session) {}
 
   void run() {
-    share_machine(app_, a_.solve, session_);
+    divide_machine(app_, a_.solve, session_);
     options_ = options_of_one_search(a_.solve);
     if (a_.ranks_per_instance > session_.ranks())
       throw CLI::ValidationError("--ranks-per-instance",
@@ -143,7 +143,7 @@ class BatchRun {
           master_ ? &*master_ : nullptr);
       client.run();
     } catch (const InputError& error) {  // the other ranks would wait for ever
-      complain(*app_.get_parent(), error.what());
+      print_error(*app_.get_parent(), error.what());
       session_.abort(kExitBadInput);
     }
     if (!master_) return;
@@ -173,8 +173,8 @@ class BatchRun {
     const auto other = std::ranges::find_if(
         table_->rows(), [](const auto& row) { return row.outcome.version != version_text(); });
     if (other != table_->rows().end())
-      say_on_stderr(fmt::format("grove-mpi: warning: {} has rows of {}; they are kept", a_.output,
-                                other->outcome.version));
+      print_to_stderr(fmt::format("grove-mpi: warning: {} has rows of {}; they are kept", a_.output,
+                                  other->outcome.version));
   }
 
   // Throws on all ranks of the group if `error` is not "" on one of them: the text of the first.
@@ -251,8 +251,8 @@ class BatchRun {
       return solve_distributed(problem, options_, limits, *search_, observer, poll);
     } catch (const std::exception& error) {
       if (farm_->ranks() == 1) throw;  // a row
-      complain(*app_.get_parent(),
-               fmt::format("internal failure of rank {}: {}", session_.rank(), error.what()));
+      print_error(*app_.get_parent(),
+                  fmt::format("internal failure of rank {}: {}", session_.rank(), error.what()));
       session_.abort(kExitInternalFailure);  // the other ranks would wait for ever
     }
   }

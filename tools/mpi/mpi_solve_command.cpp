@@ -51,7 +51,7 @@ class Run {
       : app_(app), a_(arguments), session_(session) {}
 
   void run() {
-    share_machine(app_, a_, session_);
+    divide_machine(app_, a_, session_);
     options_ = options_of_one_search(a_);
     require_same(session_, "version", version_text());
     require_same(session_, "options", options_text(app_));
@@ -164,11 +164,11 @@ class Run {
       missing_ = silence.ranks;
       return std::move(silence.solution);
     } catch (const InputError& error) {
-      complain(*app_.get_parent(), error.what());
+      print_error(*app_.get_parent(), error.what());
       session_.abort(kExitBadInput);
     } catch (const std::exception& error) {
-      complain(*app_.get_parent(),
-               fmt::format("internal failure of rank {}: {}", session_.rank(), error.what()));
+      print_error(*app_.get_parent(),
+                  fmt::format("internal failure of rank {}: {}", session_.rank(), error.what()));
       session_.abort(kExitInternalFailure);
     }
   }

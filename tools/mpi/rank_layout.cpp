@@ -29,7 +29,7 @@ int count_equal(const MpiSession& session, const std::string& mine) {
 
 }  // namespace
 
-void share_machine(const CLI::App& app, SolveArguments& arguments, const MpiSession& session) {
+void divide_machine(const CLI::App& app, SolveArguments& arguments, const MpiSession& session) {
   const int on_cores = count_equal(session, host_name() + usable_cores_text());
   const int on_host = count_equal(session, host_name());
   if (app.count("--threads") == 0) arguments.threads = std::max(1, usable_cores() / on_cores);

@@ -24,7 +24,7 @@ struct RankLayout {
 
 // Collective. If --threads or --memory-limit is not given, sets it to this rank's share of the
 // cores that several ranks may use, and of the memory of its host.
-void share_machine(const CLI::App& app, SolveArguments& arguments, const MpiSession& session);
+void divide_machine(const CLI::App& app, SolveArguments& arguments, const MpiSession& session);
 
 // Collective. Gathers the layout; this rank has `threads` threads and the shared memory `memory`.
 RankLayout gather_rank_layout(const MpiSession& session, std::int64_t threads,

@@ -200,7 +200,7 @@ class Replanning {
 
   // Reports that existing plans of the replaced file are not plans of the new one.
   static void report_replaced(const fs::path& file, const std::string& what) {
-    say_on_stderr(fmt::format(
+    print_to_stderr(fmt::format(
         "grove: {} had another {} and was replaced; plans of that one are not valid for this one; "
         "to keep it, give another name with --output-instance",
         file.string(), what));
@@ -210,7 +210,7 @@ class Replanning {
   static void report_ends_of_old_plan(const Solution& solution) {
     const auto ends = solution.stats.texts.find("ends_of_old_plan");
     if (ends == solution.stats.texts.end()) return;
-    say_on_stderr(
+    print_to_stderr(
         fmt::format("grove: the end of the old plan is now the destination of {}: no plan as good "
                     "was found that "
                     "ends on a remaining task; bound and status are of this instance",

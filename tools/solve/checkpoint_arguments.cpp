@@ -36,7 +36,7 @@ void make_folder(const std::filesystem::path& folder) {
 FileLock lock_folder(const std::filesystem::path& folder) {
   FileLock lock(folder / "checkpoint.lock");
   if (!lock.is_held())
-    say_on_stderr(
+    print_to_stderr(
         fmt::format("grove: warning: {}: cannot be locked on this file system; make sure "
                     "that no other run uses it",
                     folder.string()));
@@ -54,7 +54,7 @@ void start_from_incumbent(const std::filesystem::path& file, const Instance& ins
                           SolveOptions& options) {
   if (!std::filesystem::exists(file)) return;
   if (!is_whole(file))
-    return say_on_stderr(fmt::format(
+    return print_to_stderr(fmt::format(
         "grove: warning: {}: is incomplete; continuing without that plan", file.string()));
   Plan plan = read_valid_plan(file, instance);
   if (!options.start || plan.cost < options.start->cost) options.start = std::move(plan);

@@ -40,7 +40,7 @@ void DiskFlusher::run() {
       flush_file(file.value());
     } catch (const InputError& error) {
       if (!std::exchange(failed, true))
-        say_on_stderr(
+        print_to_stderr(
             fmt::format("grove: warning: {}; a crash of the machine may lose plans", error.what()));
     }
     guard.lock();

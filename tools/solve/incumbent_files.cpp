@@ -60,8 +60,8 @@ void IncumbentFiles::write(const Plan& plan, const Progress& progress) {
     if (!best_.empty()) write_file(best_, solution);
     if (!prefix_.empty()) write_file(file(prefix_, ++written_), solution);
   } catch (const InputError& error) {
-    say_on_stderr(fmt::format("grove: warning: {}; no plan is written until the end of the run",
-                              error.what()));
+    print_to_stderr(fmt::format("grove: warning: {}; no plan is written until the end of the run",
+                                error.what()));
     failed_ = true;
   }
 }

@@ -32,15 +32,15 @@ void LogSink::line(std::string_view text) {
 }
 
 void LogSink::warn_if_log_hidden(std::string_view text) const {
-  if (!screen_) say_on_stderr(fmt::format("grove: warning: {}", text));
+  if (!screen_) print_to_stderr(fmt::format("grove: warning: {}", text));
 }
 
 // Closes a log that cannot be written, with a warning on standard error; the run continues.
 bool LogSink::write(std::FILE* file, std::string_view text, const char* name) {
   std::fprintf(file, "%.*s\n", static_cast<int>(text.size()), text.data());
   if (std::fflush(file) == 0 && std::ferror(file) == 0) return true;
-  say_on_stderr(fmt::format("grove: warning: {} cannot be written ({}); the log ends here", name,
-                            std::strerror(errno)));
+  print_to_stderr(fmt::format("grove: warning: {} cannot be written ({}); the log ends here", name,
+                              std::strerror(errno)));
   std::clearerr(file);
   return false;
 }

@@ -72,7 +72,7 @@ std::optional<Cost> write_plan(const std::filesystem::path& file, const Instance
 void report_missing_plan(const Solution& solution, const std::filesystem::path& file,
                          std::optional<Cost> kept) {
   if (solution.plan && !kept) return;
-  say_on_stderr(fmt::format(
+  print_to_stderr(fmt::format(
       "grove: {} ({}){}",
       solution.plan ? fmt::format("the plan found costs {}", solution.plan->cost)
                     : std::string("no plan was found"),

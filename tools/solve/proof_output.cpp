@@ -66,12 +66,12 @@ void warn_of_joint_search(const fs::path& file, const Instance& instance, const 
   const auto searched = stats.counts.find("joint_states");
   if (searched != stats.counts.end()) {
     if (searched->second > kFewJointStates)
-      say_on_stderr(fmt::format(
+      print_to_stderr(fmt::format(
           "grove: warning: {}: the proof is a joint search of all agents, which the checker must "
           "repeat; the search had {} joint states, and grove-verify may take 10 times as long",
           file.string(), searched->second));
   } else if (!has_few_joint_states(instance)) {
-    say_on_stderr(fmt::format(
+    print_to_stderr(fmt::format(
         "grove: warning: {}: the proof is a joint search of all agents that Grove did not need; it "
         "may take too much time or memory of grove-verify",
         file.string()));

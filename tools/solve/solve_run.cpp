@@ -132,7 +132,7 @@ std::string finish_run(const SolveArguments& a, const Instance& instance, const 
 
 void report_failures(const std::vector<std::string>& failures) {
   for (const std::string& failure : failures)
-    if (!failure.empty()) say_on_stderr("grove: error: " + failure);
+    if (!failure.empty()) print_to_stderr("grove: error: " + failure);
   if (std::ranges::any_of(failures, [](const std::string& failure) { return !failure.empty(); }))
     throw CommandFailed(kExitInternalFailure);
 }
