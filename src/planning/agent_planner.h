@@ -22,7 +22,7 @@ enum class PathOutcome : std::uint8_t {
   kAboveCutoff,  // proven: no path costs `cutoff` or less (there may be none at all)
   kInfeasible,   // proven: there is no path
   kStopped,  // nothing is proven: a limit or label_limit was reached, the costs to go would be too
-             // large, or function known_sequences_only
+             // large, or see known_sequences_only
 };
 
 // Constraints and preferences for the path of one agent. All pointers and spans must stay valid

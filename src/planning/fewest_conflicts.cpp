@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Problem: the low level prefers few conflicts among the paths that it generates, but it keeps one
-// label per safe interval and stage, the earliest. So it does not function where else a delay could
+// label per safe interval and stage, the earliest. So it does not see where else a delay could
 // be spent.
 //
 // Method: dynamic programming over the MDD, which has every path. The conflicts of a step depend

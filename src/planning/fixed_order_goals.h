@@ -20,7 +20,7 @@
 // longest_finish() later.
 //
 // *Gates.* Let G be a label of goal k just visited, in interval [a, b], reached at time g. (If
-// agents turn, g is max_turn_time() later here; function stop_dominance.cpp.) Let L be a label that
+// agents turn, g is max_turn_time() later here; see stop_dominance.cpp.) Let L be a label that
 // has yet to visit goal k and cannot do so before g: f(L) >= g + after_goal(k). A path P through L
 // that visits goal k at some time <= b does so at a time in [g, b]. G could stand there then as
 // well, waiting, and from there on P is open to G. So L is needed only for paths that visit goal k

@@ -8,9 +8,9 @@ bool FreeOrderGoals::assign(SequenceStages& goals, SafeIntervals& intervals,
   goals_ = &goals;
   greed_percent_ = inflation_percent;
   const AgentStops& stops = goals.stops();
-  intervals.function(stops.start_place());
-  if (stops.destination()) intervals.function(*stops.destination());
-  for (int stop = 0; stop < stops.count(); ++stop) intervals.function(stops.place(stop));
+  intervals.see(stops.start_place());
+  if (stops.destination()) intervals.see(*stops.destination());
+  for (int stop = 0; stop < stops.count(); ++stop) intervals.see(stops.place(stop));
   find_deadlines(intervals);
   find_rests(intervals);
   return first_rest_ < kNever && first_rest_ <= intervals.latest_rest() && goals.plausible();

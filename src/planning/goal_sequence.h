@@ -28,7 +28,7 @@ class GoalSequence {
   // The task that takes time at goal k; -1 if there is none.
   TaskIndex work(int k) const { return work_[checked(k)]; }
   bool has_work() const { return has_work_; }
-  // Function AgentStops.
+  // See AgentStops.
   Time longest_finish(Place place) const;
   Time max_turn_time() const { return turn_about_; }
 

@@ -58,7 +58,7 @@ class LabelPlanes {
   }
   bool exhausted() const { return exhausted_; }
 
-  // The state must be open: function open().
+  // The state must be open: see open().
   Label& label(std::int32_t slot, std::int32_t state) {
     const Use& use = by_state_[state];
     GROVE_ASSERT(use.stamp == stamp_, "labels are asked for of an open state");

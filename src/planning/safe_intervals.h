@@ -23,7 +23,7 @@ struct SafeInterval {
   Time begin = 0;
   Time end = kNever;           // inclusive; kNever: for ever
   Time last_arrival = kNever;  // an agent that arrives later is in another interval
-  std::uint8_t copy = 0;       // copy of the place, function SafeIntervals
+  std::uint8_t copy = 0;       // copy of the place, see SafeIntervals
   bool may_rest = false;       // may the agent rest here for ever?
   // With reservations: the agent that was here before moves to this place at `begin`.
   Place left_for = kNoPlace;
@@ -33,13 +33,13 @@ struct SafeInterval {
 // The safe intervals of all states under one list of constraints. Most places have no constraint
 // and take no memory except one number: the only interval of a state there, all of time, is the
 // *slot* with the number of the state. The intervals of states on other places are the slots from
-// state_count() on; those of one state are contiguous and, within a copy (function below), in order
+// state_count() on; those of one state are contiguous and, within a copy (see below), in order
 // of time. The object is reused for many lists. Each list takes O(constraints), plus sorting and
 // the length of the corridors that may not be traversed.
 //
 // With reservations instead of constraints, the intervals of a place are made when the place is
-// first seen: function() must be called before any other query about it. With constraints
-// function() does nothing.
+// first seen: see() must be called before any other query about it. With constraints
+// see() does nothing.
 //
 // Each arrival leads to one slot, and a slot determines what the agent can do after the arrival:
 //
@@ -68,7 +68,7 @@ class SafeIntervals {
   // the next assign().
   void assign(const ReservationTable& reservations);
 
-  void function(Place place) {
+  void see(Place place) {
     if (reservations_ && group_of_[place] == kNoGroup) look_up(place);
   }
   // Upper bound on slot_count() until the next assign().
@@ -83,7 +83,7 @@ class SafeIntervals {
     return slot < states_ ? kNever : interval(slot).last_arrival;
   }
   // May an agent that arrived in this slot stay for ever? If states are places, this does not test
-  // the time of kRestBy: there the agent finishes when it arrives, function latest_rest().
+  // the time of kRestBy: there the agent finishes when it arrives, see latest_rest().
   bool may_rest(int slot) const {
     return (only_rest_ == kNoPlace || place_of(slot) == only_rest_) &&
            (slot < states_ || interval(slot).may_rest);
@@ -199,7 +199,7 @@ class SafeIntervals {
     const Place from = place_of(state);
     for (State next : world_.moves(state)) {
       const Place to = place_of(next);
-      function(to);
+      see(to);
       if (unconstrained(to))
         arrive(next, next, from_time + 1);
       else if (to == from)

@@ -40,7 +40,7 @@ class AgentStops {
   Place place(int stop) const { return places_[stop]; }
   // The stop that an agent visits in this state: the state is on the stop's place or, if the stop
   // takes time, its work has just been completed. Returns kNoStop if there is none. A value less
-  // than kNoStop means that the agent is at work; function stop_of_work().
+  // than kNoStop means that the agent is at work; see stop_of_work().
   int stop_at(State state) const { return stop_at_[state]; }
   // For a value of stop_at() less than kNoStop: the stop at which the agent is at work. Returns
   // kNoStop if the work is not that of one of its own stops.
@@ -234,7 +234,7 @@ class SequenceStages {
   SequenceClass class_;
   StopSet free_;                   // stops that are not in the prefix
   StopSet first_free_;             // of these, the stops that may be the first
-  bool rest_is_not_first_;         // without a destination: function the .cpp
+  bool rest_is_not_first_;         // without a destination: see the .cpp
   std::size_t stride_;             // of after_
   Time built_outside_bound_ = -1;  // outside_bound() of the costs to go when the stages were made
   StageId first_stage_ = kOutside;
