@@ -69,7 +69,7 @@ void serialize(Archive& archive, RelaxedRow& row) {
 
 template <class Archive>
 void serialize(Archive& archive, MultiplierUpdate& news) {
-  archive(news.rows, news.charges);
+  archive(news.rows, news.multipliers);
 }
 
 template <class Archive>

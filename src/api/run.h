@@ -48,7 +48,7 @@ class Run {
    private:
     Progress to_public(const detail::Progress& progress) const;
     template <class Function>
-    void call(Function&& call);
+    void call(Function&& function);
 
     const detail::Instance& instance_;
     const Options& options_;

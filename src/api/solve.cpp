@@ -89,11 +89,11 @@ Progress Run::Observer::to_public(const detail::Progress& progress) const {
 
 // An exception of a user's function must not pass through the search. It is stored and ends the
 // run.
-template <class Tell>
-void Run::Observer::tell(Tell&& tell) {
+template <class Function>
+void Run::Observer::call(Function&& function) {
   if (failure) return;
   try {
-    tell();
+    function();
   } catch (...) {
     failure = std::current_exception();
     stop_ = true;
@@ -103,7 +103,7 @@ void Run::Observer::tell(Tell&& tell) {
 void Run::Observer::on_incumbent(const detail::Plan& plan, detail::PlanSource /*source*/,
                                  const detail::Progress& progress) {
   if (options_.on_incumbent)
-    tell([&] { options_.on_incumbent(public_plan(instance_, plan), to_public(progress)); });
+    call([&] { options_.on_incumbent(public_plan(instance_, plan), to_public(progress)); });
 }
 
 void Run::Observer::on_event(detail::RunEvent event, const detail::Progress& progress) {
@@ -112,7 +112,7 @@ void Run::Observer::on_event(detail::RunEvent event, const detail::Progress& pro
   if (event != detail::RunEvent::kEnd && now < next_) return;
   next_ = now + std::chrono::duration_cast<Clock::duration>(
                     std::chrono::duration<double>(std::min(options_.progress_interval, 1e9)));
-  tell([&] { options_.on_progress(to_public(progress)); });
+  call([&] { options_.on_progress(to_public(progress)); });
 }
 
 Solution solve(const Instance& instance, const Options& options) {

@@ -105,10 +105,11 @@ Cost LargeNeighborhoodSearch::worse_allowed(Cost cost) {
   return std::max<Cost>(0, best_ + static_cast<Cost>(more + random_.unit()) - cost);
 }
 
-// Returns false if the agents, planned in this order, find no paths of total cost `cutoff` or less.
-bool LargeNeighborhoodSearch::replan(const std::vector<AgentIndex>& agents, Cost cutoff,
+// Returns false if the agents, planned in this order, find no paths of total cost `total_cutoff` or
+// less.
+bool LargeNeighborhoodSearch::replan(const std::vector<AgentIndex>& agents, Cost total_cutoff,
                                      RepairOperator& repair, const Limits& limits) {
-  Cost left = cutoff;
+  Cost left = total_cutoff;
   for (AgentIndex agent : agents) left -= low_level_.individual_cost(agent);
   for (AgentIndex agent : agents) {
     const Cost cutoff = left + low_level_.individual_cost(agent);

@@ -58,7 +58,7 @@ class LargeNeighborhoodSearch {
 
   RepairOperator& choose_repair();
   Cost worse_allowed(Cost cost);
-  bool replan(const std::vector<AgentIndex>& agents, Cost cutoff, RepairOperator& repair,
+  bool replan(const std::vector<AgentIndex>& agents, Cost total_cutoff, RepairOperator& repair,
               const Limits& limits);
   bool find(AgentIndex agent, Cost cutoff, RepairOperator& repair, const Limits& limits);
   void restore(const std::vector<AgentIndex>& agents);

@@ -34,9 +34,9 @@ class SubproblemTable {
   using Id = std::int32_t;
 
   struct CostBound {
-    Time lower_bound = 0;  // no path costs less; kNever: no path exists
-    bool exact = false;    // a path of that cost exists, or `lower_bound` is kNever
-    bool hard = false;     // a computation of the cost was once aborted
+    Time lower_bound = 0;      // no path costs less; kNever: no path exists
+    bool exact = false;        // a path of that cost exists, or `lower_bound` is kNever
+    bool was_aborted = false;  // a computation of the cost was once aborted
     friend bool operator==(const CostBound&, const CostBound&) = default;
   };
 

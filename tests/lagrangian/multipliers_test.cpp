@@ -67,7 +67,7 @@ TEST(Multipliers, AreEqualInAReplicaThatReceivedAllUpdates) {
         ASSERT_EQ(replica.price(agent, path), multipliers.price(agent, path));
       }
       const MultiplierUpdate nothing = multipliers.update_for(known);
-      EXPECT_TRUE(nothing.rows.empty() && nothing.charges.empty());
+      EXPECT_TRUE(nothing.rows.empty() && nothing.multipliers.empty());
     }
   }
   EXPECT_GT(changes, 3000);

@@ -96,7 +96,7 @@ message::RequestPricing some_question() {
   ask.share.first = 2;
   ask.share.known = {4096, kNoCost};
   ask.share.news.rows = {{.kind = RelaxedRow::Kind::kEdge, .a = 3, .b = 4, .time = 9}};
-  ask.share.news.charges = std::string("\x00\x05", 2);
+  ask.share.news.multipliers = std::string("\x00\x05", 2);
   return ask;
 }
 
@@ -106,7 +106,7 @@ TEST(Messages, PricingRequestAndReplyRoundTrip) {
   EXPECT_EQ(share.first, 2);
   EXPECT_EQ(share.known, some_question().share.known);
   EXPECT_EQ(share.news.rows, some_question().share.news.rows);
-  EXPECT_EQ(share.news.charges, some_question().share.news.charges);
+  EXPECT_EQ(share.news.multipliers, some_question().share.news.charges);
   message::PricingDone sent;
   sent.answer.round = 7;
   sent.answer.digest = 0xfedcba9876543210;
