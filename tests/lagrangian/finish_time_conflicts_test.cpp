@@ -73,13 +73,13 @@ TEST(FinishTimeConflicts, AgreeWithJointBreadthFirstSearch) {
 // Pairs that are incompatible with sufficient limits: an MDD that is too large proves nothing, nor
 // does a joint search that is cut short.
 TEST(FinishTimeConflicts, ProveNothingWithoutEffort) {
-  constexpr FinishTimeConflicts::Most kEnough{1 << 20, 1 << 20, 1 << 28};
+  constexpr FinishTimeConflicts::MaxSizes kEnough{1 << 20, 1 << 20, 1 << 28};
   int excluded = 0;
   for (std::uint64_t seed = 1; seed <= 120; ++seed) {
     SCOPED_TRACE(seed);
     TinyProblem known(tiny_instance(seed));
     if (known.instance.agent_count() < 2) continue;
-    const auto finds_incompatible = [&](FinishTimeConflicts::Most most,
+    const auto finds_incompatible = [&](FinishTimeConflicts::MaxSizes most,
                                         const FinishTimePair& pair) {
       return FinishTimeConflicts(known.instance.world(), known.stops, most)
           .are_incompatible(pair, {});
