@@ -17,10 +17,10 @@ inline constexpr std::int64_t kExpansionsPerPoll = 512;
 // Returns a time from which on the constraints are constant: a cell or move is then either
 // forbidden at this and every later time, or never again.
 inline Time static_from(std::span<const Constraint> constraints) {
-  Time memory_returned = 0;
+  Time static_time = 0;
   for (const Constraint& c : constraints)
-    memory_returned = std::max(memory_returned, c.end < kNever ? c.end + 1 : c.begin);
-  return memory_returned;
+    static_time = std::max(static_time, c.end < kNever ? c.end + 1 : c.begin);
+  return static_time;
 }
 
 // Returns the slot of `cell` at `time`, -1 if the cell is forbidden then. Only with vertex and edge

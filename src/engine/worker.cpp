@@ -28,7 +28,7 @@ std::string count_of_splits(ConstraintKind kind) {
 // Runs `what` on an expander and records its work, counts and new cache entries in the item.
 template <class What>
 void run_and_measure(Worker::WorkItem& turn, Expander& by, const What& what) {
-  by.turn_to(turn.memory);
+  by.use_shared_cache(turn.memory);
   const std::int64_t work = by.work();
   const ExpansionCounts counts = by.counts();
   what();
@@ -225,8 +225,8 @@ void Worker::add_counts(Stats& stats) const {
   counts["bypasses"] += tree.bypasses;
   counts["branching_cost_queries"] += tree.branching_cost_queries;
   counts["branching_cost_hits"] += tree.branching_cost_hits;
-  counts["mdd_queries"] += tree.sets_asked;
-  counts["mdd_hits"] += tree.sets_known;
+  counts["mdd_queries"] += tree.mdd_queries;
+  counts["mdd_hits"] += tree.mdd_hits;
   counts["assists"] += helps_;
   if (joint_states_ > 0) counts["joint_states"] += joint_states_;
   counts["primal_steps"] += primal.steps;

@@ -55,9 +55,9 @@ Brancher::Brancher(const Problem& problem, const SearchOptions& options, PathPla
       options_(options),
       planner_(planner),
       memory_(memory),
-      prices_(planner, memory, options.tuning.strong_branching_labels),
+      child_costs_(planner, memory, options.tuning.strong_branching_labels),
       others_(problem.instance.world()),
-      shown_(problem.instance.agent_count()) {}
+      table_paths_(problem.instance.agent_count()) {}
 
 // The number of bypasses per call is limited. Each bypass lowers the number of conflicts, but the
 // count is not symmetric for two agents that rest on one cell, so the count does not prove that the
@@ -69,7 +69,7 @@ Brancher::Outcome Brancher::branch(NodeView& view, Cost cutoff,
   const Task task{view, cutoff - view.node()->cost() - 1, limits};
   if (task.slack < 0) return Outcome::kBranched;
   for (std::int64_t round = 0; !view.conflict_free(); ++round) {
-    show_others(view);
+    update_avoidance_table(view);
     Branching chosen;
     if (!choose(task, fallback_splits, chosen)) return Outcome::kStopped;
     const Split& split = chosen.split;
@@ -88,13 +88,13 @@ Brancher::Outcome Brancher::branch(NodeView& view, Cost cutoff,
 }
 
 // Updates the conflict avoidance table to the paths in scope. Most are those of the previous node.
-void Brancher::show_others(const NodeView& view) {
-  for (std::size_t agent = 0; agent < shown_.size(); ++agent) {
+void Brancher::update_avoidance_table(const NodeView& view) {
+  for (std::size_t agent = 0; agent < table_paths_.size(); ++agent) {
     const Path& path = view.paths()[agent];
-    if (shown_[agent] == path) continue;
-    others_.remove(shown_[agent]);
+    if (table_paths_[agent] == path) continue;
+    others_.remove(table_paths_[agent]);
     others_.add(path);
-    shown_[agent] = path;
+    table_paths_[agent] = path;
   }
   if (options_.audit) audit(problem_, others_, view.paths());
 }
@@ -127,7 +127,7 @@ bool Brancher::improve(Choice& choice, const Branching& by, const Task& task) {
   std::array<Cost, 2> increases{};
   for (int i = 0; i < 2; ++i) {
     const auto outcome =
-        prices_.increase(task.view, by.split[i], task.slack, task.limits, increases[i]);
+        child_costs_.increase(task.view, by.split[i], task.slack, task.limits, increases[i]);
     if (outcome != ChildCosts::Outcome::kDone) return outcome == ChildCosts::Outcome::kTooHard;
   }
   const std::pair<Cost, Cost> gain = std::minmax(increases[0], increases[1]);
@@ -185,8 +185,8 @@ bool Brancher::replan_one(const Task& task, AgentIndex agent, const Constraint& 
   const AgentSequencing& order = task.view.order(agent);
   if (options_.techniques.has(Technique::kFewestConflicts)) {
     Time cost = 0;
-    if (prices_.cost(task.view, agent, more, cutoff, PathQuery::kUnlimited, task.limits, cost) !=
-        ChildCosts::Outcome::kDone)
+    if (child_costs_.cost(task.view, agent, more, cutoff, PathQuery::kUnlimited, task.limits,
+                          cost) != ChildCosts::Outcome::kDone)
       return false;
     found = cost <= cutoff;
     if (!found) return true;

@@ -59,7 +59,7 @@ class Brancher {
   std::int64_t optimal_nodes() const { return fewest_conflicts_.nodes(); }
   std::span<const std::int64_t, kConstraintKinds> splits() const { return splits_made_; }
   std::int64_t bypasses() const { return bypasses_; }
-  const ChildCosts& prices() const { return prices_; }
+  const ChildCosts& child_costs() const { return child_costs_; }
 
  private:
   // Result of one branch of a split.
@@ -82,7 +82,7 @@ class Brancher {
     const Limits& limits;
   };
 
-  void show_others(const NodeView& view);
+  void update_avoidance_table(const NodeView& view);
   // Returns false if a limit was reached.
   bool choose(const Task& task, std::span<const Split> fallback_splits, Branching& chosen);
   bool improve(Choice& choice, const Branching& by, const Task& task);
@@ -99,10 +99,10 @@ class Brancher {
   const SearchOptions options_;
   PathPlanner& planner_;
   WorkerCache& memory_;
-  ChildCosts prices_;
+  ChildCosts child_costs_;
   FewestConflicts fewest_conflicts_;
   ConflictAvoidanceTable others_;  // the paths in scope
-  std::vector<Path> shown_;        // what others_ holds, by AgentIndex
+  std::vector<Path> table_paths_;  // what others_ holds, by AgentIndex
 
   std::vector<Split> splits_;
   std::array<Branch, 2> branches_;

@@ -12,7 +12,7 @@ ChildCosts::Outcome ChildCosts::increase(NodeView& view, const AgentConstraint& 
     const Time cutoff = cutoff_for(view, agent, slack - increase);
     Time least = 0;
     const Outcome outcome =
-        cost(view, agent, *constraint_on(agent, constraint), cutoff, max_labels_, limits, least);
+        cost(view, agent, *constraint_on(agent, constraint), cutoff, label_limit_, limits, least);
     if (outcome != Outcome::kDone) return outcome;
     if (least > cutoff) {
       increase = kInfiniteCost;

@@ -26,7 +26,7 @@ class ChildCosts {
   // `planner` and `memory` must outlive this object. `label_limit` is the label limit of each low
   // level call of increase(); a split that needs more labels is not considered.
   ChildCosts(PathPlanner& planner, WorkerCache& memory, std::int64_t label_limit)
-      : planner_(planner), memory_(memory), max_labels_(label_limit) {}
+      : planner_(planner), memory_(memory), label_limit_(label_limit) {}
 
   // Computes by how much the individual costs of the agents in scope rise in total if `constraint`
   // is added; kInfiniteCost if by more than `slack`.
@@ -46,7 +46,7 @@ class ChildCosts {
  private:
   PathPlanner& planner_;
   WorkerCache& memory_;
-  const std::int64_t max_labels_;
+  const std::int64_t label_limit_;
   std::vector<AgentIndex> disturbed_;
   Path path_;
   std::int64_t asked_ = 0;

@@ -150,7 +150,7 @@ double Expander::whole_work() const {
   return static_cast<double>(planner_.work() + done.group_work) +
          work::kPerOptimalNode * static_cast<double>(done.optimal_nodes) +
          work::kPerJointPair * static_cast<double>(done.joint_mdd_nodes) +
-         work::kPerSituation * static_cast<double>(done.subproblems) +
+         work::kPerSubproblem * static_cast<double>(done.subproblems) +
          work::kPerGroup * static_cast<double>(done.groups) +
          work::kPerStepSeen * static_cast<double>(done.path_steps);
 }
@@ -172,8 +172,8 @@ ExpansionCounts Expander::counts() const {
   counts.bypasses = brancher_.bypasses();
   counts.branching_cost_queries = brancher_.prices().asked();
   counts.branching_cost_hits = brancher_.prices().known();
-  counts.sets_asked = memory_.sets_asked();
-  counts.sets_known = memory_.sets_known();
+  counts.mdd_queries = memory_.mdd_queries();
+  counts.mdd_hits = memory_.mdd_hits();
   return counts;
 }
 

@@ -53,8 +53,8 @@ struct ExpansionCounts {
   std::int64_t bypasses = 0;
   std::int64_t branching_cost_queries = 0;
   std::int64_t branching_cost_hits = 0;
-  std::int64_t sets_asked = 0;
-  std::int64_t sets_known = 0;
+  std::int64_t mdd_queries = 0;
+  std::int64_t mdd_hits = 0;
 
   ExpansionCounts& operator+=(const ExpansionCounts& more);
   ExpansionCounts& operator-=(const ExpansionCounts& less);
@@ -98,7 +98,9 @@ class Expander {
   void publish() { memory()->merge(take_delta()); }
   CacheDelta take_delta() { return memory_.take_delta(); }
   // Continues with another shared cache, possibly an empty one.
-  void turn_to(std::shared_ptr<SharedCache> memory) { memory_.turn_to(std::move(memory)); }
+  void use_shared_cache(std::shared_ptr<SharedCache> memory) {
+    memory_.use_shared_cache(std::move(memory));
+  }
   const std::shared_ptr<SharedCache>& memory() const { return memory_.common(); }
   // Per-agent data cache between nodes; see NodeView::swap_cache.
   struct AgentCaches {

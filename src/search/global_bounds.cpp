@@ -53,9 +53,9 @@ bool GlobalBounds::post(Plan plan) {
   return true;
 }
 
-void GlobalBounds::update(Cost live_bound, Cost next_tree_bound) {
+void GlobalBounds::update(Cost node_bound, Cost next_tree_bound) {
   const std::lock_guard lock(mutex_);
-  open_bound_ = std::max(open_bound_, std::min(live_bound, next_tree_bound));
+  open_bound_ = std::max(open_bound_, std::min(node_bound, next_tree_bound));
 }
 
 Cost GlobalBounds::lower_bound_locked() const {
@@ -93,11 +93,11 @@ bool GlobalBounds::prunes(Cost bound) const {
   return incumbent_ && bound >= incumbent_->cost;
 }
 
-bool GlobalBounds::needs_new_tree(Cost best_live, std::optional<Cost> last_tree_cost) const {
+bool GlobalBounds::needs_new_tree(Cost best_bound, std::optional<Cost> last_tree_cost) const {
   if (!last_tree_cost) return true;
   if (omega_.is_infinite()) return false;
-  if (best_live >= kInfiniteCost) return true;
-  return !omega_.accepts(best_live, *last_tree_cost);
+  if (best_bound >= kInfiniteCost) return true;
+  return !omega_.accepts(best_bound, *last_tree_cost);
 }
 
 }  // namespace grove::detail

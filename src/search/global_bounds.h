@@ -24,10 +24,10 @@ class GlobalBounds {
   // Throws std::logic_error if the checker refuses the plan: the code that made it has a bug.
   bool post(Plan plan);
 
-  // Updates the lower bound from `live_bound`, the least bound of the live nodes, and
+  // Updates the lower bound from `node_bound`, the least bound of the live nodes, and
   // `next_tree_bound`, a proven lower bound on every tree not yet instantiated (kInfiniteCost if
   // there is none). Both must have held at one moment.
-  void update(Cost live_bound, Cost next_tree_bound);
+  void update(Cost node_bound, Cost next_tree_bound);
 
   // Proven lower bound on the cost of every plan. Never decreases; at most the incumbent's cost.
   Cost lower_bound() const;
@@ -41,10 +41,10 @@ class GlobalBounds {
   bool proven_infeasible() const;
   // Whether a node of this bound cannot lead to a plan cheaper than the incumbent.
   bool prunes(Cost bound) const;
-  // Algorithm 4: whether the next tree must be instantiated before a node of bound `best_live`
+  // Algorithm 4: whether the next tree must be instantiated before a node of bound `best_bound`
   // (kInfiniteCost: no live node) is expanded. `last_tree_cost` is the cost of the joint sequence
   // instantiated last, nullopt before the first.
-  bool needs_new_tree(Cost best_live, std::optional<Cost> last_tree_cost) const;
+  bool needs_new_tree(Cost best_bound, std::optional<Cost> last_tree_cost) const;
 
  private:
   Cost lower_bound_locked() const;

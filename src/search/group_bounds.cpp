@@ -55,7 +55,7 @@ class Collector {
  public:
   explicit Collector(SharedCache& memory) : memory_(memory), subproblems_(memory) {}
 
-  void look_at(const Node& node, std::int32_t place, std::vector<GroupBound>& findings) {
+  void load_subproblems(const Node& node, std::int32_t place, std::vector<GroupBound>& findings) {
     const std::vector<Id>& ids = subproblems_.of(node);
     is_new_.resize(ids.size());
     for (std::size_t agent = 0; agent < ids.size(); ++agent)
@@ -102,7 +102,7 @@ std::vector<GroupBound> group_bounds_of(std::span<const NodePtr> nodes, SharedCa
   if (memory.excesses.bytes() == 0) return findings;
   Collector collector(memory);
   for (std::size_t place = 0; place < nodes.size(); ++place)
-    collector.look_at(*nodes[place], static_cast<std::int32_t>(place), findings);
+    collector.load_subproblems(*nodes[place], static_cast<std::int32_t>(place), findings);
   return findings;
 }
 

@@ -21,12 +21,12 @@ void NodeView::enter(const NodePtr& node, std::span<const AgentIndex> scope) {
   scope_.assign(scope.begin(), scope.end());
   rerouted_.clear();
   node->paths(problem_, scope_, paths_);
-  look_at_constraints();
+  update_constraints();
   find_conflicts();
 }
 
 // Updates only agents whose constraints differ from those at the last node; most have the same.
-void NodeView::look_at_constraints() {
+void NodeView::update_constraints() {
   node_->constraints(constraints_);
   for (auto* by_agent : {&agent_cache_.node_constraints, &agent_cache_.constraints})
     by_agent->resize(constraints_.size());

@@ -86,7 +86,7 @@ class NodeView {
 
  private:
   bool is_in_scope(AgentIndex agent) const { return std::ranges::binary_search(scope_, agent); }
-  void look_at_constraints();
+  void update_constraints();
   void find_conflicts();
 
   const Problem& problem_;

@@ -28,7 +28,7 @@ PebbleGraph::PebbleGraph(const World& world, std::vector<Place> part, Place root
   number(world, root);
   join(world);
   find_blocks();
-  count_ways();
+  count_edges();
   find_regions();
 }
 
@@ -91,7 +91,7 @@ void PebbleGraph::find_blocks() {
   }
 }
 
-void PebbleGraph::count_ways() {
+void PebbleGraph::count_edges() {
   for (PebbleNode node = 1; node < size(); ++node) {
     Block& block = blocks_[block_of_[node]];
     for (const PebbleNode other : neighbors(node)) {

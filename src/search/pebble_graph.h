@@ -64,7 +64,7 @@ class PebbleGraph {
   void number(const World& world, Place root);
   void join(const World& world);
   void find_blocks();
-  void count_ways();
+  void count_edges();
   void find_regions();
   // True if the edge to its parent is a bridge.
   bool is_bridge_to_parent(PebbleNode node) const { return block(node).nodes.size() == 2; }

@@ -29,14 +29,14 @@ namespace {
 
 constexpr std::size_t kMaxSearchedNodes = 7;  // nodes: 5,040 configurations
 
-std::vector<AgentIndex> those_on(const std::vector<PebbleNode>& nodes,
-                                 const PebbleConfiguration& arrangement) {
+std::vector<AgentIndex> agents_on(const std::vector<PebbleNode>& nodes,
+                                  const PebbleConfiguration& arrangement) {
   std::vector<AgentIndex> agents;
   for (const PebbleNode node : nodes) agents.push_back(arrangement[node]);
   return agents;
 }
 
-bool are_the_same(std::vector<AgentIndex> a, std::vector<AgentIndex> b) {
+bool same_agents(std::vector<AgentIndex> a, std::vector<AgentIndex> b) {
   std::ranges::sort(a);
   std::ranges::sort(b);
   return a == b;
@@ -79,13 +79,13 @@ class SmallPart {
     }
     for (std::size_t first = 0; first < nodes_.size(); ++first) {
       std::vector<std::size_t> way{first};
-      find_circles(way);
+      find_cycles(way);
     }
   }
 
   bool leads(const PebbleConfiguration& from, const PebbleConfiguration& to) const {
-    const std::vector<AgentIndex> end = those_on(nodes_, to);
-    std::set<std::vector<AgentIndex>> seen{those_on(nodes_, from)};
+    const std::vector<AgentIndex> end = agents_on(nodes_, to);
+    std::set<std::vector<AgentIndex>> seen{agents_on(nodes_, from)};
     std::vector<std::vector<AgentIndex>> open(seen.begin(), seen.end());
     while (!open.empty() && !seen.contains(end)) {
       const std::vector<AgentIndex> now = std::move(open.back());
@@ -99,12 +99,12 @@ class SmallPart {
 
  private:
   // Finds the cycles whose first node is their least.
-  void find_circles(std::vector<std::size_t>& way) {
+  void find_cycles(std::vector<std::size_t>& way) {
     for (const std::size_t next : neighbors_[way.back()]) {
       if (next == way.front() && way.size() > 2) circles_.push_back(way);
       if (next <= way.front() || std::ranges::count(way, next) > 0) continue;
       way.push_back(next);
-      find_circles(way);
+      find_cycles(way);
       way.pop_back();
     }
   }
@@ -134,10 +134,10 @@ class SmallPart {
 class RingReach : public ReachableConfigurations {
  public:
   RingReach(const PebbleGraph& board, const PebbleConfiguration& start)
-      : nodes_(board.blocks().front().nodes), start_(those_on(nodes_, start)) {}
+      : nodes_(board.blocks().front().nodes), start_(agents_on(nodes_, start)) {}
   bool has(PebbleNode, PebbleNode) const override { return true; }
   bool has(const PebbleConfiguration& arrangement) const override {
-    return are_in_the_same_order(start_, those_on(nodes_, arrangement));
+    return are_in_the_same_order(start_, agents_on(nodes_, arrangement));
   }
 
  private:
@@ -181,9 +181,9 @@ class OneFreeReach : public ReachableConfigurations {
   // The free node enters the block by the block's first node.
   bool has(const PebbleGraph::Block& block, const PebbleConfiguration& then) const {
     const std::vector<PebbleNode> others(block.nodes.begin() + 1, block.nodes.end());
-    const auto a = those_on(others, start_);
-    const auto b = those_on(others, then);
-    if (!are_the_same(a, b)) return false;
+    const auto a = agents_on(others, start_);
+    const auto b = agents_on(others, then);
+    if (!same_agents(a, b)) return false;
     if (a == b) return true;
     if (block.is_ring()) return are_in_the_same_order(a, b);
     if (block.nodes.size() > kMaxSearchedNodes) return !block.is_bipartite || is_even(a, b);
@@ -231,9 +231,9 @@ class FullReach : public ReachableConfigurations {
   };
 
   bool has(const Region& region, const PebbleConfiguration& then) const {
-    const auto a = those_on(region.nodes, start_);
-    const auto b = those_on(region.nodes, then);
-    if (!are_the_same(a, b)) return false;
+    const auto a = agents_on(region.nodes, start_);
+    const auto b = agents_on(region.nodes, then);
+    if (!same_agents(a, b)) return false;
     if (a == b) return true;
     if (region.is_ring) return are_in_the_same_order(a, b);
     if (region.nodes.size() > kMaxSearchedNodes) return !region.has_odd_rings_only || is_even(a, b);

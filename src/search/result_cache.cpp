@@ -34,7 +34,7 @@ NewEntries SharedCache::take_new_entries() {
   return std::exchange(news_, {});
 }
 
-void WorkerCache::turn_to(std::shared_ptr<SharedCache> common) {
+void WorkerCache::use_shared_cache(std::shared_ptr<SharedCache> common) {
   if (common == common_) return;
   found_ = {};
   common_ = std::move(common);

@@ -96,7 +96,7 @@ class WorkerCache {
   CacheDelta take_delta() { return std::exchange(found_, {}); }
   // Uses this shared cache from now on. If it is a different one, results that were not taken are
   // dropped, and all subproblem numbers become invalid.
-  void turn_to(std::shared_ptr<SharedCache> common);
+  void use_shared_cache(std::shared_ptr<SharedCache> common);
   const std::shared_ptr<SharedCache>& common() const { return common_; }
   // Number of the shared cache: subproblem numbers stay valid as long as it is the same.
   std::int64_t numbering() const { return common_->number; }
@@ -110,8 +110,8 @@ class WorkerCache {
   std::int64_t asked() const { return asked_; }
   std::int64_t groups_asked() const { return groups_asked_; }
   // MDD queries so far, and those of them that the cache could answer.
-  std::int64_t sets_asked() const { return sets_asked_; }
-  std::int64_t sets_known() const { return sets_known_; }
+  std::int64_t mdd_queries() const { return sets_asked_; }
+  std::int64_t mdd_hits() const { return sets_known_; }
   SubproblemTable::CostBound known(Id id) const;
   void merge(Id id, SubproblemTable::CostBound known) { found_.costs[id] = known; }
 

@@ -83,7 +83,7 @@ WdgHeuristic::Outcome WdgHeuristic::find_bound(const NodePtr& node, NodeView& vi
   bound = cutoff;
   const Cost slack = cutoff - node->cost() - 1;
   if (slack < 0) return Outcome::kDone;
-  look_at(view);
+  load_subproblems(view);
   if (bounding_effort == BoundingEffort::kFull) {
     const Outcome outcome = compute_weights(view, slack, limits);
     if (outcome != Outcome::kDone) return outcome;
@@ -115,14 +115,14 @@ bool WdgHeuristic::help(const NodePtr& node, NodeView& view, Cost cutoff, double
                         const Limits& limits) {
   const Cost slack = cutoff - node->cost() - 1;
   if (slack < 0) return false;
-  look_at(view);
+  load_subproblems(view);
   const std::int64_t before = work();
   abort_at_ = before + tuning_.bound_work;
   solve_conflicting_pairs(view, slack, share, limits);
   return work() > before;
 }
 
-void WdgHeuristic::look_at(NodeView& view) {
+void WdgHeuristic::load_subproblems(NodeView& view) {
   for (AgentIndex agent = 0; agent < agents_; ++agent) {
     subproblem_[agent] = view.subproblem(agent);
     GROVE_ASSERT(may_cost(agent, view.cost_of(agent)),
@@ -335,14 +335,14 @@ void WdgHeuristic::collect(std::vector<GroupExcess>& statements) {
 }
 
 ProofKey WdgHeuristic::why(NodeView& view, const Split& split) {
-  look_at(view);
+  load_subproblems(view);
   const auto [a, b] = std::minmax(split[0].agent, split[1].agent);
   return lemma_at(view, std::array{a, b}, known(a, b).excess).key();
 }
 
 void WdgHeuristic::splits(NodeView& view, std::vector<Split>& splits) {
-  look_at(view);
-  const auto finishes_when_it_comes = [&](AgentIndex i) {
+  load_subproblems(view);
+  const auto finishes_on_arrival = [&](AgentIndex i) {
     const Agent& agent = instance_.agent(i);
     const auto works_there = [&](TaskIndex t) {
       return instance_.task(t).duration > 0 && instance_.task(t).cell == *agent.goal;
@@ -358,8 +358,8 @@ void WdgHeuristic::splits(NodeView& view, std::vector<Split>& splits) {
   for (const Conflict& c : view.conflicts()) {
     if (std::pair(c.first, c.second) == last) continue;
     last = {c.first, c.second};
-    const bool apply = known(c.first, c.second).excess > 0 && finishes_when_it_comes(c.first) &&
-                       finishes_when_it_comes(c.second);
+    const bool apply = known(c.first, c.second).excess > 0 && finishes_on_arrival(c.first) &&
+                       finishes_on_arrival(c.second);
     if (apply) splits.push_back({later(c.first), later(c.second)});
   }
 }

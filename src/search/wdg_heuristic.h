@@ -78,7 +78,7 @@ class WdgHeuristic {
     NodePtr node;
   };
 
-  void look_at(NodeView& view);
+  void load_subproblems(NodeView& view);
   bool may_cost(AgentIndex agent, Time cost) const;
   Outcome compute_weights(NodeView& view, Cost slack, const Limits& limits);
   ExcessBound known(AgentIndex a, AgentIndex b) const {

@@ -22,7 +22,7 @@ inline constexpr std::int64_t kStatesPriced = 5;  // states of a congestion dist
 // was examined in full; its rate was fitted when all groups of a list were examined.
 inline constexpr double kPerOptimalNode = 0.55;
 inline constexpr double kPerJointPair = 0.85;
-inline constexpr double kPerSituation = 2;
+inline constexpr double kPerSubproblem = 2;
 inline constexpr double kPerGroup = 1.7;
 inline constexpr double kPerStepSeen = 0.15;
 

@@ -53,7 +53,7 @@ class RankWithRoot {
     SharedSearch& search = rank_.search();
     const NodePtr node = search.take();
     if (!node) return false;
-    expander_.turn_to(search.memory());
+    expander_.use_shared_cache(search.memory());
     search.finish(node, expander_.expand(node, search.shared_bounds().cutoff(), limits_), 0);
     return true;
   }

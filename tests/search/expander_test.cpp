@@ -125,7 +125,7 @@ TEST(Expander, BoundsAHardNodeAlikeInOneOrSeveralCalls) {
 
   // An expander whose shared cache follows another one leaves no work for a later call.
   Expander other(problem, stops, {Techniques::defaults(), 0});
-  other.turn_to(std::make_shared<SharedCache>(SharedCache::Successor{}));
+  other.use_shared_cache(std::make_shared<SharedCache>(SharedCache::Successor{}));
   const Expansion at_once = other.expand(root, kInfiniteCost, limits);
   ASSERT_FALSE(at_once.unfinished);
   ASSERT_EQ(in_parts.children.size(), at_once.children.size());
@@ -170,7 +170,7 @@ TEST(Expander, OneExpanderServesTwoWorkersLikeTwoExpanders) {
     for (std::size_t i = 0; i < nodes.size() && i < 40; ++i) {
       Worker& worker = workers[i % 2];
       Expander& expander = expander_of(i % 2);
-      expander.turn_to(worker.memory);
+      expander.use_shared_cache(worker.memory);
       if (exchanges) expander.swap_cache(worker.caches);
       Expansion expansion;
       do {

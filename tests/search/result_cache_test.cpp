@@ -221,9 +221,9 @@ TEST(WorkerCache, IsPrivateUntilPublished) {
 TEST(WorkerCache, DropsUnpublishedEntriesWhenItSwitchesCaches) {
   TwoWorkers s;
   s.memory.merge_pair(1, 2, 1, {3, true, 1});
-  s.memory.turn_to(s.memory.common());  // the same cache: no effect
+  s.memory.use_shared_cache(s.memory.common());  // the same cache: no effect
   EXPECT_EQ(s.memory.of_pair(1, 2).excess, 3);
-  s.memory.turn_to(std::make_shared<SharedCache>(SharedCache::Successor()));
+  s.memory.use_shared_cache(std::make_shared<SharedCache>(SharedCache::Successor()));
   EXPECT_EQ(s.memory.of_pair(1, 2).excess, 0);
   EXPECT_TRUE(s.memory.take_delta().pairs.empty());
   EXPECT_TRUE(s.memory.common()->follows_another);
