@@ -32,7 +32,7 @@ class ConflictAvoidanceTable {
   // they are equal).
   int conflicts(Place from, Place to, Time time) const {
     const int count = vertex_conflicts(to, time);
-    return from == to ? count : count + comers(from, time).from(to);
+    return from == to ? count : count + arrivals(from, time).from(to);
   }
   // Only the vertex conflicts.
   int vertex_conflicts(Place place, Time time) const {
@@ -54,12 +54,12 @@ class ConflictAvoidanceTable {
     const Moves* moves_ = nullptr;
     Place place_ = kNoPlace;
   };
-  Arrivals comers(Place place, Time time) const {
-    Arrivals comers;
-    comers.world_ = &world_;
-    comers.place_ = place;
-    if (const Counts* counts = counts_of(place, time)) comers.moves_ = &counts->moves;
-    return comers;
+  Arrivals arrivals(Place place, Time time) const {
+    Arrivals arrivals;
+    arrivals.world_ = &world_;
+    arrivals.place_ = place;
+    if (const Counts* counts = counts_of(place, time)) arrivals.moves_ = &counts->moves;
+    return arrivals;
   }
   // Sum of the vertex conflicts of waiting on `place` from time `first` to time `last`.
   int conflicts_of_waiting(Place place, Time first, Time last) const;
@@ -118,7 +118,7 @@ class ConflictAvoidanceTable {
   }
   // Returns nullptr if no path is there.
   const Counts* counts_of(Place place, Time time) const {
-    if (!perhaps(place, time)) return nullptr;
+    if (!may_be_visited(place, time)) return nullptr;
     const Counts& counts = counts_[slot(key(place, time))];
     return counts.key == key(place, time) ? &counts : nullptr;
   }
@@ -137,7 +137,7 @@ class ConflictAvoidanceTable {
     return std::uint32_t{1} << (static_cast<std::uint32_t>(time) / kTimesPerBit % 32);
   }
   // Returns false if no path is on this place at this time, except for paths that rest there.
-  bool perhaps(Place place, Time time) const {
+  bool may_be_visited(Place place, Time time) const {
     const Visited& visited = visited_[place];
     return (visited.times & time_bit(time)) != 0 && visited.generation == generation_;
   }

@@ -30,10 +30,10 @@ bool walk_to_end(const World& world, Place before, Place next, std::vector<Place
 Corridors::Corridors(const World& world)
     : corridor_of_(world.place_count(), kNoCorridor), position_(world.place_count(), 0) {
   for (Place place = 0; place < world.place_count(); ++place)
-    if (is_inner(world, place) && position_[place] == 0) add_chain_through(world, place);
+    if (is_inner(world, place) && position_[place] == 0) add_corridor_through(world, place);
 }
 
-void Corridors::add_chain_through(const World& world, Place inner) {
+void Corridors::add_corridor_through(const World& world, Place inner) {
   const auto begin = static_cast<std::ptrdiff_t>(places_.size());
   const auto ways = world.neighbors(inner);
   const bool ends = walk_to_end(world, inner, ways[0], places_);

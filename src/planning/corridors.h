@@ -36,7 +36,7 @@ class Corridors {
  private:
   static constexpr int kSeen = -2;  // on a ring
 
-  void add_chain_through(const World& world, Place inner);
+  void add_corridor_through(const World& world, Place inner);
   void number_inner_places(int corridor);
 
   std::vector<std::int32_t> corridor_of_;  // by place

@@ -28,7 +28,7 @@ void FewestConflicts::find(const Mdd& paths, const ConflictAvoidanceTable& other
       if (time == cost)
         best = {others.conflicts_of_resting(place, time), kNoNode};
       else
-        best = best_step(paths, node, others.comers(place, time + 1));
+        best = best_step(paths, node, others.arrivals(place, time + 1));
       if (time > 0) best.conflicts += others.vertex_conflicts(place, time);
     }
   }
@@ -41,11 +41,11 @@ void FewestConflicts::find(const Mdd& paths, const ConflictAvoidanceTable& other
 }
 
 FewestConflicts::Best FewestConflicts::best_step(const Mdd& paths, NodeId node,
-                                                 ConflictAvoidanceTable::Arrivals comers) const {
+                                                 ConflictAvoidanceTable::Arrivals arrivals) const {
   Best best{std::numeric_limits<std::int32_t>::max(), kNoNode};
   for (const NodeId next : paths.successors(node)) {
     const Place to = paths.place(next);
-    const int swaps = to == paths.place(node) ? 0 : comers.from(to);
+    const int swaps = to == paths.place(node) ? 0 : arrivals.from(to);
     if (const std::int32_t conflicts = best_[next].conflicts + swaps; conflicts < best.conflicts)
       best = {conflicts, next};
   }

@@ -30,7 +30,7 @@ class FewestConflicts {
     NodeId next;
   };
 
-  Best best_step(const Mdd& paths, NodeId node, ConflictAvoidanceTable::Arrivals comers) const;
+  Best best_step(const Mdd& paths, NodeId node, ConflictAvoidanceTable::Arrivals arrivals) const;
 
   std::vector<Best> best_;  // from each node to the end
   std::int64_t nodes_ = 0;

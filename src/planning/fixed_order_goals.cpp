@@ -9,7 +9,7 @@ namespace grove::detail {
 bool FixedOrderGoals::assign(const World& world, const GoalSequence& goals,
                              const SafeIntervals& intervals) {
   world_ = &world;
-  turn_about_ = goals.max_turn_time();
+  max_turn_time_ = goals.max_turn_time();
   last_progress_ = goals.size() - 1;
   first_rest_ = goals.last() == kNoPlace ? 0 : intervals.rest_begin(goals.last());
   if (first_rest_ >= kNever || goals.distance(goals.start(), 0) >= kNever) return false;
@@ -37,9 +37,9 @@ bool FixedOrderGoals::assign(const World& world, const GoalSequence& goals,
 }
 
 // Keeps one gate per progress: the one that postpones furthest.
-void FixedOrderGoals::close_gate(State, Progress, Progress progress, Time time, Time until) {
+void FixedOrderGoals::add_gate(State, Progress, Progress progress, Time time, Time until) {
   const Time after_goal = stages_[progress - 1].after_goal;
-  const Time from = time + turn_about_ + after_goal;
+  const Time from = time + max_turn_time_ + after_goal;
   if (until != kNever) until += after_goal;
   for (int p = 0; p < progress; ++p) {
     Stage& stage = stages_[p];

@@ -70,16 +70,16 @@ class FixedOrderGoals {
   bool may_end(Progress progress, State state) const {
     return progress == last_progress_ && is_at_goal(progress, state);
   }
-  Time put_off(Progress progress, State state, Time time, Time layer) const {
+  Time postponed_layer(Progress progress, State state, Time time, Time layer) const {
     const Stage& stage = stages_[progress];
     if (stage.gate_until <= layer || min_cost(progress, state, time) < stage.gate_from)
       return layer;
     return stage.gate_until < kNever ? stage.gate_until : kDropped;
   }
-  bool opens_gate(State state, Progress, Progress progress) const {
+  bool can_be_gate(State state, Progress, Progress progress) const {
     return progress > 0 && is_at_goal(progress - 1, state);
   }
-  void close_gate(State state, Progress before, Progress progress, Time time, Time until);
+  void add_gate(State state, Progress before, Progress progress, Time time, Time until);
 
  private:
   // Is the next goal after `progress` visited in this state? Most states are not base states on the
@@ -106,7 +106,7 @@ class FixedOrderGoals {
   std::vector<Stage> stages_;  // by progress
   const World* world_ = nullptr;
   int last_progress_ = 0;
-  Time turn_about_ = 0;
+  Time max_turn_time_ = 0;
   Time first_rest_ = 0;
 };
 

@@ -6,7 +6,7 @@ namespace grove::detail {
 bool FreeOrderGoals::assign(SequenceStages& goals, SafeIntervals& intervals,
                             int inflation_percent) {
   goals_ = &goals;
-  greed_percent_ = inflation_percent;
+  inflation_percent_ = inflation_percent;
   const AgentStops& stops = goals.stops();
   intervals.see(stops.start_place());
   if (stops.destination()) intervals.see(*stops.destination());
@@ -42,7 +42,7 @@ void FreeOrderGoals::find_rests(const SafeIntervals& intervals) {
 
 void FreeOrderGoals::begin(Time cap) {
   cap_ = cap;
-  over_ = outside_ = false;
+  dropped_by_cap_ = dropped_uncovered_ = false;
   gates_.begin_search();
 }
 
@@ -54,18 +54,18 @@ bool FreeOrderGoals::misses_deadline(Progress stage, State state, Time time) con
   });
 }
 
-Time FreeOrderGoals::put_off_by_gates(Progress id, State state, Time time, Time layer) {
+Time FreeOrderGoals::postponed_layer_by_gates(Progress id, State state, Time time, Time layer) {
   const Time until = gates_.min_cost(*goals_, id, state, time);
-  Time put_off = kDropped;
+  Time postponed_layer = kDropped;
   if (until > cap_) {
-    over_ |= until < kNever;
+    dropped_by_cap_ |= until < kNever;
   } else {
-    put_off = layer_of(until, greed_percent_ == 0 ? 0 : goals_->distance(id, state));
-    if (put_off <= layer) return layer;
+    postponed_layer = layer_of(until, inflation_percent_ == 0 ? 0 : goals_->distance(id, state));
+    if (postponed_layer <= layer) return layer;
   }
   const SequenceStages::Stage& stage = goals_->stage(id);
-  if (std::popcount(stage.next) * goals_->stops().ports() != stage.count) outside_ = true;
-  return put_off;
+  if (std::popcount(stage.next) * goals_->stops().ports() != stage.count) dropped_uncovered_ = true;
+  return postponed_layer;
 }
 
 }  // namespace grove::detail

@@ -48,27 +48,28 @@ class FreeOrderGoals {
   // `goals` must outlive the search. Returns false if a quick test proves that there is no path.
   bool assign(SequenceStages& goals, SafeIntervals& intervals, int inflation_percent);
   // Continues with the same class over other costs to go.
-  void turn_to(SequenceStages& goals) { goals_ = &goals; }
-  SequenceStages& free_goals() const { return *goals_; }
+  void set_stages(SequenceStages& goals) { goals_ = &goals; }
+  SequenceStages& stages() const { return *goals_; }
 
   // Starts a search that drops labels of f > cap. Resets is_complete() and the gates.
   void begin(Time cap);
   // Was no label dropped that could matter? Then "no path found" proves that there is none.
   bool is_complete() const {
-    return !over_ && (!outside_ || goals_->cost_to_go().outside_bound() == kNever);
+    return !dropped_by_cap_ &&
+           (!dropped_uncovered_ || goals_->cost_to_go().outside_bound() == kNever);
   }
 
   Time first_rest() const { return first_rest_; }
   template <class Reach>
   void on_arrival(Progress stage, State state, Reach reach) {
-    if (!goals_->on_arrival(stage, state, reach)) outside_ = true;
+    if (!goals_->on_arrival(stage, state, reach)) dropped_uncovered_ = true;
   }
   Time layer(Progress stage, State state, Time time) {
     if (!deadlines_.empty() && misses_deadline(stage, state, time)) return kDropped;
     const Time to_go = distance(stage, state);
-    if (to_go >= kNever) outside_ = true;
+    if (to_go >= kNever) dropped_uncovered_ = true;
     if (to_go > cap_ - time) {
-      over_ |= to_go < kNever;
+      dropped_by_cap_ |= to_go < kNever;
       return kDropped;
     }
     return layer_of(time + to_go, to_go);
@@ -77,11 +78,11 @@ class FreeOrderGoals {
     const SequenceStages::Stage& stage = goals_->stage(progress);
     return stage.left == 0 && goals_->is_rest(stage, state);
   }
-  Time put_off(Progress stage, State state, Time time, Time layer) {
-    return gates_.any(stage) ? put_off_by_gates(stage, state, time, layer) : layer;
+  Time postponed_layer(Progress stage, State state, Time time, Time layer) {
+    return gates_.any(stage) ? postponed_layer_by_gates(stage, state, time, layer) : layer;
   }
-  bool opens_gate(State, Progress before, Progress progress) const { return before != progress; }
-  void close_gate(State state, Progress before, Progress, Time time, Time until) {
+  bool can_be_gate(State, Progress before, Progress progress) const { return before != progress; }
+  void add_gate(State state, Progress before, Progress, Time time, Time until) {
     gates_.close(*goals_, before, state, time, until);
   }
 
@@ -95,7 +96,7 @@ class FreeOrderGoals {
   void find_deadlines(const SafeIntervals& intervals);
   void find_rests(const SafeIntervals& intervals);
   bool misses_deadline(Progress stage, State state, Time time) const;
-  Time put_off_by_gates(Progress stage, State state, Time time, Time layer);
+  Time postponed_layer_by_gates(Progress stage, State state, Time time, Time layer);
   // Lower bound on the cost of a path from here on.
   Time distance(Progress stage, State state) const {
     const Time distance = goals_->distance(stage, state);
@@ -103,20 +104,21 @@ class FreeOrderGoals {
     return std::max(distance, goals_->stops().distance(state, only_rest_));
   }
   Time layer_of(Time min_cost, Time to_go) const {
-    if (greed_percent_ == 0) return min_cost;
+    if (inflation_percent_ == 0) return min_cost;
     return std::max(min_cost, first_rest_) +
-           static_cast<Time>(std::int64_t{to_go} * greed_percent_ / 100);
+           static_cast<Time>(std::int64_t{to_go} * inflation_percent_ / 100);
   }
 
   SequenceStages* goals_ = nullptr;
-  int greed_percent_ = 0;
+  int inflation_percent_ = 0;
   std::vector<Deadline> deadlines_;
   Time first_rest_ = 0;
   int only_rest_ = AgentStops::kNoStop;  // without a destination: the stop of kRestBy
   StopDominance gates_;
   Time cap_ = 0;
-  bool over_ = false;     // a label was dropped by the cap
-  bool outside_ = false;  // a label was dropped because the costs to go do not cover its stage
+  bool dropped_by_cap_ = false;  // a label was dropped by the cap
+  bool dropped_uncovered_ =
+      false;  // a label was dropped because the costs to go do not cover its stage
 };
 
 }  // namespace grove::detail

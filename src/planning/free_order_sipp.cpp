@@ -79,10 +79,10 @@ namespace {
 
 // After this many expansions in one call, or before the costs to go are extended a second time, it
 // pays to check whether each stop can be visited at all, or within the cutoff.
-constexpr std::int64_t kExpansionsBeforeDoubt = 1 << 12;
+constexpr std::int64_t kExpansionsBeforeCheck = 1 << 12;
 // After this many expansions in one call the costs of the legs are recomputed. Both the expansions
 // and the recomputation take some milliseconds.
-constexpr std::int64_t kExpansionsBeforePricing = 1 << 13;
+constexpr std::int64_t kExpansionsBeforeRecomputation = 1 << 13;
 
 constexpr std::int64_t kNotAgain = PathQuery::kUnlimited;
 
@@ -105,13 +105,13 @@ class FreeOrderSipp::Workspace {
   PathOutcome find_any();
   PathOutcome find_known();
   std::optional<PathOutcome> find_within(Time cap);
-  std::optional<PathOutcome> doubt();
+  std::optional<PathOutcome> check_feasibility();
   bool recompute_costs();
-  SequenceStages& goals() { return search_.goals().free_goals(); }
+  SequenceStages& goals() { return search_.goals().stages(); }
 
   Search search_;
   SingleStopBound visit_check_;
-  LateGoals late_goals_;
+  LateStages late_goals_;
 
   // Of the current call.
   const ConflictAvoidanceTable* others_ = nullptr;
@@ -119,10 +119,11 @@ class FreeOrderSipp::Workspace {
   Path* path_ = nullptr;
   Time latest_ = 0;                                // largest cost of a useful path,
   PathOutcome above_ = PathOutcome::kAboveCutoff;  // and the outcome if every path costs more
-  // Values of expanded() at which to abort, to call doubt(), and to call recompute_costs().
+  // Values of expanded() at which to abort, to call check_feasibility(), and to call
+  // recompute_costs().
   std::int64_t abort_at_ = 0;
-  std::int64_t doubt_at_ = 0;
-  std::int64_t price_at_ = 0;
+  std::int64_t check_feasibility_at_ = 0;
+  std::int64_t recompute_costs_at_ = 0;
 };
 
 FreeOrderSipp::FreeOrderSipp(const World& world) : workspace_(std::make_unique<Workspace>(world)) {}
@@ -167,12 +168,12 @@ void FreeOrderSipp::Workspace::decide_when(const PathQuery& query) {
   // With reservations and a label limit the caller does not need a proof of infeasibility.
   const bool doubts = !query.reservations || query.label_limit == PathQuery::kUnlimited;
   abort_at_ = search_.expanded_after(query.label_limit);
-  doubt_at_ = doubts ? search_.expanded_after(kExpansionsBeforeDoubt) : kNotAgain;
-  price_at_ = search_.expanded_after(kExpansionsBeforePricing);
+  check_feasibility_at_ = doubts ? search_.expanded_after(kExpansionsBeforeCheck) : kNotAgain;
+  recompute_costs_at_ = search_.expanded_after(kExpansionsBeforeRecomputation);
 }
 
 PathOutcome FreeOrderSipp::Workspace::find_known() {
-  price_at_ = kNotAgain;
+  recompute_costs_at_ = kNotAgain;
   const PathOutcome outcome = *find_within(latest_);
   if (outcome == PathOutcome::kFound) return outcome;
   if (goals().cost_to_go().outside_bound() < kNever) return PathOutcome::kStopped;
@@ -188,7 +189,7 @@ PathOutcome FreeOrderSipp::Workspace::find_any() {
     if (*outcome != PathOutcome::kAboveCutoff) return *outcome;
     if (latest_ < outside_bound || outside_bound == kNever) return above_;
     if (goals().first_stage() != SequenceStages::kOutside) {
-      if (const auto answer = doubt()) return *answer;
+      if (const auto answer = check_feasibility()) return *answer;
       if (recompute_costs()) continue;
     }
     if (!goals().cost_to_go().extend(outside_bound, *limits_)) return PathOutcome::kStopped;
@@ -206,7 +207,7 @@ std::optional<PathOutcome> FreeOrderSipp::Workspace::find_within(Time cap) {
   search_.goals().begin(cap);
   search_.begin(goals().stops().start(), first, 0, others_, *limits_);
   for (;;) {
-    switch (search_.run(std::min({abort_at_, doubt_at_, price_at_}))) {
+    switch (search_.run(std::min({abort_at_, check_feasibility_at_, recompute_costs_at_}))) {
       case Search::End::kFound:
         search_.write_path(*path_);
         return PathOutcome::kFound;
@@ -218,17 +219,17 @@ std::optional<PathOutcome> FreeOrderSipp::Workspace::find_within(Time cap) {
         break;
     }
     if (search_.expanded() >= abort_at_) return PathOutcome::kStopped;
-    if (search_.expanded() >= doubt_at_)
-      if (const auto answer = doubt()) return answer;
-    if (search_.expanded() >= price_at_ && recompute_costs()) return std::nullopt;
+    if (search_.expanded() >= check_feasibility_at_)
+      if (const auto answer = check_feasibility()) return answer;
+    if (search_.expanded() >= recompute_costs_at_ && recompute_costs()) return std::nullopt;
   }
 }
 
 // Feasibility check, at most once per call. Returns the outcome if it is proven that there is no
 // path, or none of cost at most latest_, or if a limit was reached; otherwise nullopt.
-std::optional<PathOutcome> FreeOrderSipp::Workspace::doubt() {
-  if (doubt_at_ == kNotAgain) return std::nullopt;
-  doubt_at_ = kNotAgain;
+std::optional<PathOutcome> FreeOrderSipp::Workspace::check_feasibility() {
+  if (check_feasibility_at_ == kNotAgain) return std::nullopt;
+  check_feasibility_at_ = kNotAgain;
   const Time min_cost =
       visit_check_.min_cost(goals().stops(), search_.goals().first_rest(), *limits_);
   if (limits_->stop_requested()) return PathOutcome::kStopped;
@@ -239,10 +240,10 @@ std::optional<PathOutcome> FreeOrderSipp::Workspace::doubt() {
 // Recomputes the costs of the legs, at most once per call. Returns true if the search must restart
 // with the new costs to go.
 bool FreeOrderSipp::Workspace::recompute_costs() {
-  if (price_at_ == kNotAgain) return false;
-  price_at_ = kNotAgain;
+  if (recompute_costs_at_ == kNotAgain) return false;
+  recompute_costs_at_ = kNotAgain;
   SequenceStages* const late = late_goals_.over(goals(), *limits_);
-  if (late) search_.goals().turn_to(*late);
+  if (late) search_.goals().set_stages(*late);
   return late != nullptr;
 }
 

@@ -10,7 +10,7 @@ GoalSequence::GoalSequence(const Instance& instance, const DistanceFields& dista
     : start_(instance.agent(agent).start) {
   const World& world = instance.world();
   const Agent& who = instance.agent(agent);
-  turn_about_ = world.max_turn_time(who.kind);
+  max_turn_time_ = world.max_turn_time(who.kind);
   const auto add = [&](Place place, TaskIndex work, Time duration, DistanceView to_goal) {
     goals_.push_back(place);
     work_.push_back(work);
@@ -33,7 +33,7 @@ GoalSequence::GoalSequence(const Instance& instance, const DistanceFields& dista
 }
 
 Time GoalSequence::longest_finish(Place place) const {
-  Time longest = turn_about_;
+  Time longest = max_turn_time_;
   for (int k = 0; k < size(); ++k)
     if (goals_[k] == place) longest += durations_[k];
   return longest;

@@ -30,7 +30,7 @@ class GoalSequence {
   bool has_work() const { return has_work_; }
   // See AgentStops.
   Time longest_finish(Place place) const;
-  Time max_turn_time() const { return turn_about_; }
+  Time max_turn_time() const { return max_turn_time_; }
 
   // Lower bound on the steps from `state` through goals k, k+1, ... to the last one, without
   // constraints. Exact if agents turn freely. Admissible and consistent. kNever or more if there is
@@ -52,7 +52,7 @@ class GoalSequence {
   }
 
   State start_;
-  Time turn_about_;
+  Time max_turn_time_;
   bool has_work_ = false;
   std::vector<Place> goals_;
   std::vector<TaskIndex> work_;

@@ -165,7 +165,7 @@ Time min_cost(SequenceStages& goals) {
 
 // A direct leg costs at least as much as the late leg by any path. The last leg is that of the
 // plain matrix, because the late one begins when all others are done (sequence_dag.cpp, Pairs).
-CostToGo late_completions(const AgentStops& stops, CostMatrix late) {
+CostToGo late_costs_to_go(const AgentStops& stops, CostMatrix late) {
   const auto make_direct = [&instance = stops.instance(), agent = stops.agent(), late,
                             plain = stops.cost_to_go().matrix()] {
     CostMatrix direct = direct_legs(instance, agent, late);
@@ -178,7 +178,7 @@ CostToGo late_completions(const AgentStops& stops, CostMatrix late) {
 
 }  // namespace
 
-SequenceStages* LateGoals::over(SequenceStages& plain, const Limits& limits) {
+SequenceStages* LateStages::over(SequenceStages& plain, const Limits& limits) {
   const Time plain_cost = min_cost(plain);
   auto matrix = late_cost_matrix(world_, intervals_, plain.stops(), plain_cost);
   if (!matrix) return nullptr;
@@ -188,7 +188,7 @@ SequenceStages* LateGoals::over(SequenceStages& plain, const Limits& limits) {
   if (!known) {  // otherwise reuses the costs to go of an earlier call
     agent_ = plain.stops().agent();
     class_ = plain.sequence_class();
-    cost_to_go_ = late_completions(plain.stops(), std::move(*matrix));
+    cost_to_go_ = late_costs_to_go(plain.stops(), std::move(*matrix));
     if (auto of_class = cost_to_go_->of_class(class_)) cost_to_go_ = std::move(of_class);
   }
   cost_to_go_->reset();

@@ -17,10 +17,10 @@ std::optional<CostMatrix> late_cost_matrix(const World& world, SafeIntervals& in
                                            const AgentStops& stops, Time min_cost);
 
 // Stages of one agent over late costs, for a search that plain distances mislead.
-class LateGoals {
+class LateStages {
  public:
   // Both must outlive this.
-  LateGoals(const World& world, SafeIntervals& intervals) : world_(world), intervals_(intervals) {}
+  LateStages(const World& world, SafeIntervals& intervals) : world_(world), intervals_(intervals) {}
 
   // The stages of the same class over late costs. Returns nullptr unless these prove a higher cost
   // of the best sequence; a limit may prevent that. Valid until the next call.

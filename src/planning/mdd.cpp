@@ -53,7 +53,7 @@ class MddBuilder::Workspace {
 
   Outcome build(SequenceStages& goals, std::span<const Constraint> constraints, Time cost,
                 std::size_t max_nodes, const Limits& limits, Mdd& paths);
-  std::int64_t nodes() const { return met_; }
+  std::int64_t nodes() const { return effort_; }
 
  private:
   using StageId = SequenceStages::StageId;
@@ -117,7 +117,7 @@ class MddBuilder::Workspace {
   std::vector<LabelId> here_;           // labels of the layer being written
   std::vector<NodeId> nodes_;           // by label: its node in the layer after it
   Mdd written_;                         // the MDD written so far; keeps its capacity
-  std::int64_t met_ = 0;                // labels and nodes of all calls
+  std::int64_t effort_ = 0;             // labels and nodes of all calls
 
   // Of the current call.
   SequenceStages* goals_ = nullptr;
@@ -179,7 +179,7 @@ MddBuilder::Outcome MddBuilder::Workspace::build(SequenceStages& goals,
   limits_ = &limits;
   cost_ = cost;
   const Outcome outcome = make_layers(max_nodes, paths);
-  met_ += std::ssize(labels_) + paths.node_count();
+  effort_ += std::ssize(labels_) + paths.node_count();
   return outcome;
 }
 

@@ -61,11 +61,12 @@ inline constexpr Time kDropped = std::numeric_limits<Time>::max();
 // - layer(progress, state, time): the layer in which this label is to be popped, or kDropped;
 // - may_end(progress, state): is this a finish, if the agent may rest here for ever?
 // - first_rest(): lower bound on the cost of every path;
-// - put_off(progress, state, time, layer): the layer to which this label is postponed, or kDropped;
+// - postponed_layer(progress, state, time, layer): the layer to which this label is postponed, or
+// kDropped;
 //   `layer` or less if it is not postponed;
-// - opens_gate(state, before, progress): may a label whose parent has progress `before` dominate
+// - can_be_gate(state, before, progress): may a label whose parent has progress `before` dominate
 //   others (be a *gate*)?
-// - close_gate(state, before, progress, time, until): the label dominates others, from `time` to
+// - add_gate(state, before, progress, time, until): the label dominates others, from `time` to
 //   before `until`.
 template <class Goals>
 class SafeIntervalSearch {
@@ -121,7 +122,7 @@ class SafeIntervalSearch {
 
   Label& label(const Entry& entry) { return planes_.label(entry.slot, entry.progress); }
   bool postpone(const Entry& entry, State state);
-  void close_gate(const Entry& entry, State state, Progress before);
+  void add_gate(const Entry& entry, State state, Progress before);
   void expand(const Entry& entry, State state);
   void reach(const Entry& from, State from_state, std::int32_t slot, State state, Time time,
              Progress progress);
@@ -168,7 +169,7 @@ typename SafeIntervalSearch<Goals>::End SafeIntervalSearch<Goals>::run(std::int6
       finish_ = entry;
       return planes_.exhausted() ? End::kStopped : End::kFound;
     }
-    close_gate(entry, state, l.parent_progress);
+    add_gate(entry, state, l.parent_progress);
     expand(entry, state);
     ++expanded_;
     if (expanded_ % kLabelsPerPoll == 0 && limits_->stop_requested()) return End::kStopped;
@@ -179,7 +180,7 @@ typename SafeIntervalSearch<Goals>::End SafeIntervalSearch<Goals>::run(std::int6
 
 template <class Goals>
 bool SafeIntervalSearch<Goals>::postpone(const Entry& entry, State state) {
-  const Time layer = goals_.put_off(entry.progress, state, entry.time, queue_.layer());
+  const Time layer = goals_.postponed_layer(entry.progress, state, entry.time, queue_.layer());
   if (layer <= queue_.layer()) return false;
   if (layer != kDropped) queue_.push(layer, entry);
   return true;
@@ -187,9 +188,9 @@ bool SafeIntervalSearch<Goals>::postpone(const Entry& entry, State state) {
 
 // A gate must permit whatever the labels that it dominates can do next.
 template <class Goals>
-void SafeIntervalSearch<Goals>::close_gate(const Entry& entry, State state, Progress before) {
-  if (goals_.opens_gate(state, before, entry.progress) && intervals_.may_dominate(entry.slot))
-    goals_.close_gate(state, before, entry.progress, entry.time, intervals_.next_begin(entry.slot));
+void SafeIntervalSearch<Goals>::add_gate(const Entry& entry, State state, Progress before) {
+  if (goals_.can_be_gate(state, before, entry.progress) && intervals_.may_dominate(entry.slot))
+    goals_.add_gate(state, before, entry.progress, entry.time, intervals_.next_begin(entry.slot));
 }
 
 template <class Goals>

@@ -65,7 +65,7 @@ void SafeIntervals::forget() {
   groups_.clear();
   intervals_.clear();
   bars_.clear();
-  chains_used_.clear();
+  restricted_corridors_.clear();
   only_rest_ = kNoPlace;
   latest_rest_ = kNever;
 }
@@ -130,16 +130,19 @@ void SafeIntervals::keep_rest_by(const Constraint& c) {
 }
 
 void SafeIntervals::keep_traversal(const Constraint& c) {
-  ChainUsed& used = chain_used(corridors_->corridor_of(c.from));
+  RestrictedCorridor& used = chain_used(corridors_->corridor_of(c.from));
   const bool at_back = leaves_at_back(c);
   (at_back ? used.from_front = kFromFront : used.from_back = kFromBack);
   const std::uint8_t barred = at_back ? kFromFront : kFromBack;
   bars_.push_back({c.cell, c.from, c.begin, c.end, Bar::Kind::kMove, barred});
 }
 
-SafeIntervals::ChainUsed& SafeIntervals::chain_used(int corridor) {
-  const auto known = std::ranges::find(chains_used_, corridor, &ChainUsed::corridor);
-  return known != chains_used_.end() ? *known : chains_used_.emplace_back(ChainUsed{corridor});
+SafeIntervals::RestrictedCorridor& SafeIntervals::chain_used(int corridor) {
+  const auto known =
+      std::ranges::find(restricted_corridors_, corridor, &RestrictedCorridor::corridor);
+  return known != restricted_corridors_.end()
+             ? *known
+             : restricted_corridors_.emplace_back(RestrictedCorridor{corridor});
 }
 
 SafeIntervals::Group& SafeIntervals::group(Place place) {
@@ -151,8 +154,8 @@ SafeIntervals::Group& SafeIntervals::group(Place place) {
 }
 
 void SafeIntervals::group_inner_places() {
-  for (std::size_t used = 0; used < chains_used_.size(); ++used) {
-    const auto places = corridors_->places(chains_used_[used].corridor);
+  for (std::size_t used = 0; used < restricted_corridors_.size(); ++used) {
+    const auto places = corridors_->places(restricted_corridors_[used].corridor);
     for (const Place inner : places.subspan(1, places.size() - 2))
       group(inner).corridor = static_cast<std::int32_t>(used);
     group(places[1]).front = places.front();
@@ -179,7 +182,7 @@ void SafeIntervals::add_slots(Group& group) {
   group.first_slot = slot_count();
   world_.for_each_state(group.place, [&](State state) {
     if (group.corridor != kNoCopies) {
-      const ChainUsed& used = chains_used_[group.corridor];
+      const RestrictedCorridor& used = restricted_corridors_[group.corridor];
       if (used.from_front != kFree) add_intervals(group, state, used.from_front);
       if (used.from_back != kFree) add_intervals(group, state, used.from_back);
     }
@@ -223,7 +226,7 @@ void SafeIntervals::add_unending_interval(const Group& group, State state, Time 
 
 SafeIntervals::Range SafeIntervals::slots_of_copy(const Group& group, State state,
                                                   std::uint8_t copy) const {
-  const ChainUsed& used = chains_used_[group.corridor];
+  const RestrictedCorridor& used = restricted_corridors_[group.corridor];
   const int before =
       static_cast<int>(copy > used.from_front) + static_cast<int>(copy > used.from_back);
   const int copies =

@@ -176,7 +176,7 @@ class SafeIntervals {
     std::uint8_t copy;  // the copy that the move leaves; kFree: any
   };
   // A corridor with a barred traversal. If no constraint bars a copy, it is kFree.
-  struct ChainUsed {
+  struct RestrictedCorridor {
     int corridor;
     std::uint8_t from_front = kFree;
     std::uint8_t from_back = kFree;
@@ -189,7 +189,7 @@ class SafeIntervals {
     std::int32_t first_bar = 0;
     std::int32_t first_move = 0;  // the barred moves to the place come last
     std::int32_t end_move = 0;
-    std::int32_t corridor = kNoCopies;  // of an inner place: in chains_used_
+    std::int32_t corridor = kNoCopies;  // of an inner place: in restricted_corridors_
     Place front = kNoPlace;             // the front of that corridor, if adjacent
   };
 
@@ -243,7 +243,7 @@ class SafeIntervals {
   // The slots of `state` that a move from `from` may lead into.
   Range slots_entered(const Group& to, int from_slot, Place from, State state) const {
     if (to.corridor == kNoCopies) return slots(to, state);
-    const ChainUsed& corridor = chains_used_[to.corridor];
+    const RestrictedCorridor& corridor = restricted_corridors_[to.corridor];
     // A neighbor with copies is an inner place of the same corridor.
     if (has_copies(from)) return slots_of_copy(to, state, interval(from_slot).copy);
     return slots_of_copy(to, state, from == to.front ? corridor.from_front : corridor.from_back);
@@ -282,7 +282,7 @@ class SafeIntervals {
   void keep_traversal(const Constraint& constraint);
   bool leaves_at_front(const Constraint& constraint) const;
   bool leaves_at_back(const Constraint& constraint) const;
-  ChainUsed& chain_used(int corridor);
+  RestrictedCorridor& chain_used(int corridor);
   Group& group(Place place);
   void group_inner_places();
   void group_bars();
@@ -300,7 +300,7 @@ class SafeIntervals {
   std::vector<SafeInterval> intervals_;
   std::vector<Bar> bars_;               // by place, kind, begin
   std::optional<Corridors> corridors_;  // made for the first barred traversal
-  std::vector<ChainUsed> chains_used_;
+  std::vector<RestrictedCorridor> restricted_corridors_;
   Place only_rest_ = kNoPlace;
   Time latest_rest_ = kNever;
 };
