@@ -18,8 +18,8 @@ class Assignment {
   explicit Assignment(const std::vector<std::vector<std::int64_t>>& cost)
       : cost_(cost),
         columns_(cost.empty() ? 0 : static_cast<int>(cost.front().size())),
-        row_price_(cost.size()),
-        column_price_(columns_),
+        row_dual_(cost.size()),
+        column_dual_(columns_),
         row_of_(columns_, kNone) {}
 
   // Adds a row. Returns false if no column is available for it, whatever the others take.
@@ -36,7 +36,7 @@ class Assignment {
       done_[column] = true;
       reached = distance_[column];
     }
-    update_prices(row, reached);
+    update_duals(row, reached);
     augment(row, column);
     return true;
   }
@@ -53,7 +53,7 @@ class Assignment {
     for (int column = 0; column < columns_; ++column) {
       if (done_[column] || cost_[from][column] == kForbidden) continue;
       const std::int64_t through =
-          reached + cost_[from][column] - row_price_[from] - column_price_[column];
+          reached + cost_[from][column] - row_dual_[from] - column_dual_[column];
       if (through >= distance_[column]) continue;
       distance_[column] = through;
       before_[column] = via;
@@ -69,12 +69,12 @@ class Assignment {
     return best;
   }
 
-  void update_prices(int row, std::int64_t reached) {
-    row_price_[row] += reached;
+  void update_duals(int row, std::int64_t reached) {
+    row_dual_[row] += reached;
     for (int column = 0; column < columns_; ++column) {
       if (!done_[column]) continue;
-      column_price_[column] -= reached - distance_[column];
-      if (row_of_[column] != kNone) row_price_[row_of_[column]] += reached - distance_[column];
+      column_dual_[column] -= reached - distance_[column];
+      if (row_of_[column] != kNone) row_dual_[row_of_[column]] += reached - distance_[column];
     }
   }
 
@@ -86,8 +86,8 @@ class Assignment {
 
   const std::vector<std::vector<std::int64_t>>& cost_;
   const int columns_;
-  std::vector<std::int64_t> row_price_;
-  std::vector<std::int64_t> column_price_;
+  std::vector<std::int64_t> row_dual_;
+  std::vector<std::int64_t> column_dual_;
   std::vector<int> row_of_;  // by column
   std::vector<std::int64_t> distance_;
   std::vector<int> before_;  // by column: its predecessor on the path; kNone: the entering row

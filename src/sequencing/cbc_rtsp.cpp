@@ -48,14 +48,14 @@ namespace {
 constexpr double kIntegral = 1e-5;  // tolerance; a value further from an integer is an error
 
 // Lock that is held while a program is solved. The constructor waits for it and polls the limits;
-// mine() is false if a limit was reached first.
-class SolverTurn {
+// is_locked() is false if a limit was reached first.
+class SolverLock {
  public:
-  explicit SolverTurn(const Limits& limits) : lock_(mutex(), std::defer_lock) {
+  explicit SolverLock(const Limits& limits) : lock_(mutex(), std::defer_lock) {
     while (!limits.stop_requested() && !lock_.try_lock())
       std::this_thread::sleep_for(std::chrono::microseconds(500));
   }
-  bool mine() const { return lock_.owns_lock(); }
+  bool is_locked() const { return lock_.owns_lock(); }
 
  private:
   static std::mutex& mutex() {
@@ -274,8 +274,8 @@ class CbcRtsp : public RtspSolver {
     if (bound >= kNever) return {Kind::kInfeasible, kNever};
     if (bound > cutoff) return {Kind::kAboveCutoff, bound};
 
-    const SolverTurn turn(limits_);
-    if (!turn.mine()) return {Kind::kStopped, bound};
+    const SolverLock turn(limits_);
+    if (!turn.is_locked()) return {Kind::kStopped, bound};
     PathProgram program(rest.matrix, limits_);
     switch (program.solve()) {
       case PathProgram::Outcome::kStopped:

@@ -89,7 +89,7 @@ OneTreeRelaxation::OneTreeRelaxation(const CostMatrix& matrix)
     : stops_(matrix.stops()),
       ports_(matrix.ports),
       shift_(row_count(), 0),
-      apart_(stops_ * stops_),
+      symmetric_costs_(stops_ * stops_),
       potential_(stops_, 0),
       weight_(stops_ * stops_) {
   for (int from = 0; from < row_count(); ++from)
@@ -102,7 +102,7 @@ OneTreeRelaxation::OneTreeRelaxation(const CostMatrix& matrix)
   } else {
     shift_legs();
     balance();
-    climb();
+    ascend();
   }
 }
 
@@ -123,7 +123,8 @@ void OneTreeRelaxation::shift_legs() {
       edge = std::min(edge, leg);
     }
   for (int i = 0; i < stops_; ++i)
-    for (int j = 0; j < stops_; ++j) apart_[i * stops_ + j] = std::min(edge(i, j), edge(j, i));
+    for (int j = 0; j < stops_; ++j)
+      symmetric_costs_[i * stops_ + j] = std::min(edge(i, j), edge(j, i));
 }
 
 void OneTreeRelaxation::balance() {
@@ -140,10 +141,10 @@ void OneTreeRelaxation::balance() {
   shift_legs();
 }
 
-void OneTreeRelaxation::weigh() {
+void OneTreeRelaxation::update_weights() {
   for (int i = 0; i < stops_; ++i)
     for (int j = 0; j < stops_; ++j)
-      weight_[i * stops_ + j] = apart_[i * stops_ + j] + potential_[i] + potential_[j];
+      weight_[i * stops_ + j] = symmetric_costs_[i * stops_ + j] + potential_[i] + potential_[j];
 }
 
 OneTreeRelaxation::Tree OneTreeRelaxation::tree(StopSet left) const {
@@ -265,10 +266,10 @@ std::int64_t OneTreeRelaxation::bound_and_excess(Excess& excess) const {
 
 // Subgradient ascent with a geometrically decreasing step and a part of the last direction kept
 // (Volgenant and Jonker 1982). Any potentials and shifts are sound; the best ones found are kept.
-void OneTreeRelaxation::climb() {
+void OneTreeRelaxation::ascend() {
   Excess excess;
   Excess last;
-  weigh();
+  update_weights();
   std::vector<std::int64_t> best_potential = potential_;
   std::vector<std::int64_t> best_shift = shift_;
   std::int64_t best = bound_and_excess(last);
@@ -297,13 +298,13 @@ void OneTreeRelaxation::climb() {
       move(shift_, excess.of_port, last.of_port, stops_ * ports_, step);
       shift_legs();
     }
-    weigh();
+    update_weights();
     std::swap(excess, last);
   }
   potential_ = best_potential;
   shift_ = best_shift;
   shift_legs();
-  weigh();
+  update_weights();
   root_bound_ = to_cost(best);
 }
 

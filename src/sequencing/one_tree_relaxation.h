@@ -51,9 +51,9 @@ class OneTreeRelaxation {
   };
 
   void balance();
-  void climb();
+  void ascend();
   void shift_legs();
-  void weigh();
+  void update_weights();
   Tree tree(StopSet left) const;
   void add_end_legs(Tail& tail, StopSet left) const;
   EndLegs end_legs(const Tail& tail, StopSet next, int from) const;
@@ -69,13 +69,13 @@ class OneTreeRelaxation {
 
   int stops_;
   int ports_;
-  std::vector<std::int64_t> costs_;      // in fixed point, laid out as the matrix
-  std::vector<std::int64_t> shift_;      // by row of the matrix
-  std::vector<std::int64_t> legs_;       // from a row to a stop or the end: least over its ports
-  std::vector<std::int64_t> edges_;      // from a stop or the start: least over its ports too
-  std::vector<std::int64_t> apart_;      // between two stops, in the cheaper direction
-  std::vector<std::int64_t> potential_;  // by stop, in fixed point
-  std::vector<std::int64_t> weight_;     // edges between stops, both potentials added
+  std::vector<std::int64_t> costs_;  // in fixed point, laid out as the matrix
+  std::vector<std::int64_t> shift_;  // by row of the matrix
+  std::vector<std::int64_t> legs_;   // from a row to a stop or the end: least over its ports
+  std::vector<std::int64_t> edges_;  // from a stop or the start: least over its ports too
+  std::vector<std::int64_t> symmetric_costs_;  // between two stops, in the cheaper direction
+  std::vector<std::int64_t> potential_;        // by stop, in fixed point
+  std::vector<std::int64_t> weight_;           // edges between stops, both potentials added
   Time root_bound_ = 0;
 };
 

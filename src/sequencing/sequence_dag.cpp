@@ -100,7 +100,7 @@ class SequenceDagBuilder {
         max_states_(scope.max_states),
         cost_limit_(cost_limit),
         limits_(limits),
-        ways_(ways(scope.matrix, scope.direct)),
+        pair_costs_(pair_costs(scope.matrix, scope.direct)),
         parity_(direct_ == nullptr || direct_->keeps_parity() ? common_parity(matrix_) : -1) {
     dag_.ports_ = kPorts;
   }
@@ -209,14 +209,14 @@ class SequenceDagBuilder {
   Time bound_of_pairs(StopSet left, int from) const {
     Time bound = 0;
     for_each_stop(left, [&](int one) {
-      const Time to_one = ways_.cost(from, one);
-      const Time from_one = ways_.cost(one, matrix_.stops());
+      const Time to_one = pair_costs_.cost(from, one);
+      const Time from_one = pair_costs_.cost(one, matrix_.stops());
       bound = std::max(bound, add_costs(to_one, from_one));
       for_each_stop(left & ~(bit(one) | (bit(one) - 1)), [&](int two) {
-        const Time one_first =
-            add_costs(add_costs(to_one, ways_.cost(one, two)), ways_.cost(two, matrix_.stops()));
+        const Time one_first = add_costs(add_costs(to_one, pair_costs_.cost(one, two)),
+                                         pair_costs_.cost(two, matrix_.stops()));
         const Time two_first =
-            add_costs(add_costs(ways_.cost(from, two), ways_.cost(two, one)), from_one);
+            add_costs(add_costs(pair_costs_.cost(from, two), pair_costs_.cost(two, one)), from_one);
         bound = std::max(bound, std::min(one_first, two_first));
       });
     });
@@ -224,7 +224,7 @@ class SequenceDagBuilder {
   }
   // The least legs over the ports. The last column, to the end, is that of the direct legs, which
   // holds for any path.
-  static CostMatrix ways(const CostMatrix& matrix, const DirectLegs* direct) {
+  static CostMatrix pair_costs(const CostMatrix& matrix, const DirectLegs* direct) {
     if (direct == nullptr) return {};
     CostMatrix any = matrix;
     const int end = any.cost.size() - 1;
@@ -310,30 +310,31 @@ class SequenceDagBuilder {
   // Computes the least cost of reaching each port of a visited stop, by direct legs from the stops
   // of the node's states.
   void walk(const SequenceDag::Node& node) {
-    walked_.fill(kNever);
-    walkers_.clear();
+    leg_costs_.fill(kNever);
+    reached_ports_.clear();
     std::uint32_t state = node.first;
     for_each_stop(node.at, [&](int stop) {
       const Time* here = costs_of(state++);
       for (int i = 0; i < kPorts; ++i) walk_to(stop * kPorts + i, here[i]);
     });
-    for (std::size_t next = 0; next < walkers_.size(); ++next)
-      for (const int by : direct_->hops(walkers_[next]))
+    for (std::size_t next = 0; next < reached_ports_.size(); ++next)
+      for (const int by : direct_->hops(reached_ports_[next]))
         if ((node.left & bit(by / kPorts)) == 0)
-          walk_to(by, add_costs(walked_[walkers_[next]], direct_->leg(walkers_[next], by)));
+          walk_to(by, add_costs(leg_costs_[reached_ports_[next]],
+                                direct_->leg(reached_ports_[next], by)));
   }
   void walk_to(int port, Time cost) {
-    if (cost >= walked_[port]) return;
-    walked_[port] = cost;
-    walkers_.push_back(port);
+    if (cost >= leg_costs_[port]) return;
+    leg_costs_[port] = cost;
+    reached_ports_.push_back(port);
   }
   PortCosts costs_of_walking_to(int next) const {
     PortCosts costs;
     costs.fill(kNever);
-    for (const int from : walkers_)
+    for (const int from : reached_ports_)
       for (int to = 0; to < kPorts; ++to)
-        costs[to] =
-            std::min(costs[to], add_costs(walked_[from], direct_->leg(from, next * kPorts + to)));
+        costs[to] = std::min(costs[to],
+                             add_costs(leg_costs_[from], direct_->leg(from, next * kPorts + to)));
     return costs;
   }
 
@@ -379,7 +380,7 @@ class SequenceDagBuilder {
 
   // Computes the cost to go from each port of a visited stop by direct legs, to a fixed point.
   void compute_walks(const SequenceDag::Node& node) {
-    walked_.fill(kNever);
+    leg_costs_.fill(kNever);
     std::array<Time, kMaxTasksPerAgent * kPorts> onward;
     for_each_stop(node.left, [&](int next) {
       for (int port = next * kPorts; port < (next + 1) * kPorts; ++port)
@@ -393,7 +394,8 @@ class SequenceDagBuilder {
     for_each_visited([&](int from) {
       for_each_stop(node.left, [&](int next) {
         for (int to = next * kPorts; to < (next + 1) * kPorts; ++to)
-          walked_[from] = std::min(walked_[from], add_costs(direct_->leg(from, to), onward[to]));
+          leg_costs_[from] =
+              std::min(leg_costs_[from], add_costs(direct_->leg(from, to), onward[to]));
       });
     });
     for (bool changed = true; changed;) {
@@ -401,16 +403,16 @@ class SequenceDagBuilder {
       for_each_visited([&](int from) {
         for (const int by : direct_->hops(from)) {
           if ((node.left & bit(by / kPorts)) != 0) continue;
-          const Time cost = add_costs(direct_->leg(from, by), walked_[by]);
-          if (cost >= walked_[from]) continue;
-          walked_[from] = cost;
+          const Time cost = add_costs(direct_->leg(from, by), leg_costs_[by]);
+          if (cost >= leg_costs_[from]) continue;
+          leg_costs_[from] = cost;
           changed = true;
         }
       });
     }
     std::uint32_t state = node.first;
     for_each_stop(node.at, [&](int stop) {
-      std::copy_n(&walked_[stop * kPorts], kPorts, costs_of(state++));
+      std::copy_n(&leg_costs_[stop * kPorts], kPorts, costs_of(state++));
     });
   }
 
@@ -445,7 +447,7 @@ class SequenceDagBuilder {
   const std::size_t max_states_;
   const Time cost_limit_;
   const Limits& limits_;
-  const CostMatrix ways_;  // by stop; empty without direct legs
+  const CostMatrix pair_costs_;  // by stop; empty without direct legs
   const int parity_;
 
   SequenceDag dag_{kNever};
@@ -457,8 +459,8 @@ class SequenceDagBuilder {
   std::size_t asked_bytes_ = 0;
   // Of the node in progress, by port of a visited stop; and the ports with a cost, some of them
   // twice.
-  std::array<Time, kMaxTasksPerAgent * kPorts> walked_;
-  std::vector<int> walkers_;
+  std::array<Time, kMaxTasksPerAgent * kPorts> leg_costs_;
+  std::vector<int> reached_ports_;
 };
 
 std::optional<SequenceDag> SequenceDag::build(const CostMatrix& matrix,
