@@ -76,7 +76,7 @@ ResultTable::ResultTable(fs::path folder, TableOf what)
 void ResultTable::read() {
   if (!fs::exists(file())) return;
   const std::string text = read_text(file());
-  torn_ = !text.empty() && text.back() != '\n';
+  has_incomplete_line_ = !text.empty() && text.back() != '\n';
   int number = 0;
   for (const std::string_view line : whole_lines(text)) {
     ++number;
@@ -145,7 +145,8 @@ void ResultTable::erase_rows_of(const std::vector<Pair>& pairs) {
     const auto it = index_.find(pair_of(rows_[i].run));
     if (it != index_.end() && it->second == i) kept.push_back(std::move(rows_[i]));
   }
-  const bool as_in_file = !torn_ && kept.size() == rows_.size() && fs::exists(file());
+  const bool as_in_file =
+      !has_incomplete_line_ && kept.size() == rows_.size() && fs::exists(file());
   rows_ = std::move(kept);
   index_rows();
   if (!as_in_file) {

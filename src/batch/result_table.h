@@ -122,7 +122,7 @@ class ResultTable {
   std::vector<Row> rows_;
   std::map<Pair, std::size_t> index_;  // positions in rows_
   std::map<Pair, std::size_t> order_;  // positions in `runs` of begin()
-  bool torn_ = false;
+  bool has_incomplete_line_ = false;
   std::optional<LineFile> lines_;
   std::optional<LineFile> begun_;
 };

@@ -62,16 +62,16 @@ class EpeaStar::Search {
         from_on_(static_cast<std::size_t>(instance.world().place_count()), kNoAgent),
         to_on_(from_on_) {
     if (std::ranges::any_of(agents_, [](const auto& agent) { return agent.count() == 0; })) return;
-    for (const AgentGraph& agent : agents_) alone_ += agent.to_go(AgentGraph::start());
+    for (const AgentGraph& agent : agents_) individual_costs_ += agent.to_go(AgentGraph::start());
     if (tables) groups_.plan();
-    first_layer_ = lower_bound_ = std::max<Cost>(alone_, known_bound);
+    first_layer_ = lower_bound_ = std::max<Cost>(individual_costs_, known_bound);
     if (!groups_.are_due()) begin();
   }
 
   Outcome run(std::int64_t states, Cost cutoff, const Limits& limits) {
     if (groups_.are_due()) return make_database(limits) ? Outcome::kWorking : Outcome::kTooLarge;
     // Databases take at most half of the work.
-    if (groups_.is_late_due(made_ / kMadePerWork))
+    if (groups_.is_late_due(generated_ / kMadePerWork))
       return groups_.make_late(limits) ? Outcome::kWorking : Outcome::kTooLarge;
     for (; states > 0 && !paths_; --states) {
       const Index state = pop();
@@ -102,18 +102,18 @@ class EpeaStar::Search {
     return plan;
   }
   std::int64_t states() const { return states_; }
-  std::int64_t work() const { return groups_.work() + made_ / kMadePerWork; }
+  std::int64_t work() const { return groups_.work() + generated_ / kMadePerWork; }
 
  private:
   static constexpr std::int8_t kNoAgent = -1;
 
   struct Record {
     Index parent = kNone;
-    std::int32_t cost = 0;        // from the start
-    std::int32_t layer = 0;       // no plan through a successor not yet generated costs less
-    std::int32_t alone = 0;       // sum of individual costs to go
-    std::int32_t looked_at = -1;  // expanded for delta_f up to this; -1: not yet
-    std::uint32_t tables = 0;     // number of tables that its layer includes
+    std::int32_t cost = 0;              // from the start
+    std::int32_t layer = 0;             // no plan through a successor not yet generated costs less
+    std::int32_t individual_costs = 0;  // sum of individual costs to go
+    std::int32_t expanded_budget = -1;  // expanded for delta_f up to this; -1: not yet
+    std::uint32_t tables = 0;           // number of tables that its layer includes
   };
 
   bool make_database(const Limits& limits) {
@@ -123,7 +123,7 @@ class EpeaStar::Search {
   }
   void begin() {
     const std::vector<Node> start(size(), AgentGraph::start());
-    reach(start.data(), hash_of(start.data()), kNone, 0, alone_);
+    reach(start.data(), hash_of(start.data()), kNone, 0, individual_costs_);
   }
 
   std::size_t size() const { return agents_.size(); }
@@ -177,20 +177,20 @@ class EpeaStar::Search {
   // Records that a state is reached at this cost, if that is less than before and its layer is
   // below the cutoff. A state known at this cost needs no new estimate.
   void reach(const Node* nodes, std::uint64_t hash, Index parent, std::int32_t cost,
-             std::int32_t alone) {
-    ++made_;
+             std::int32_t individual_costs) {
+    ++generated_;
     if (2 * (records_.size() + 1) > slots_.size()) grow();
     Index& slot = slots_[slot_of(nodes, hash)];
     if (slot != kNone && records_[slot].cost <= cost) return;
-    const Cost layer = std::max(lower_bound_, cost + alone + groups_.excess(nodes));
+    const Cost layer = std::max(lower_bound_, cost + individual_costs + groups_.excess(nodes));
     if (layer >= cutoff_) return;
     if (slot == kNone) {
       slot = static_cast<Index>(records_.size());
       records_.emplace_back();
       nodes_.insert(nodes_.end(), nodes, nodes + size());
     }
-    records_[slot] = {parent, cost, static_cast<std::int32_t>(layer),
-                      alone,  -1,   static_cast<std::uint32_t>(groups_.count())};
+    records_[slot] = {parent,           cost, static_cast<std::int32_t>(layer),
+                      individual_costs, -1,   static_cast<std::uint32_t>(groups_.count())};
     push(slot);
   }
   // If a table made since then raises the layer of the state, queues it in the new layer and
@@ -199,14 +199,14 @@ class EpeaStar::Search {
     Record& record = records_[state];
     if (record.tables == groups_.count()) return false;
     record.tables = static_cast<std::uint32_t>(groups_.count());
-    const Cost layer = record.cost + record.alone + groups_.excess(nodes_of(state));
+    const Cost layer = record.cost + record.individual_costs + groups_.excess(nodes_of(state));
     if (layer <= record.layer) return false;
     if (layer >= cutoff) return true;
     record.layer = static_cast<std::int32_t>(layer);
     push(state);
     return true;
   }
-  bool is_final(Index state) const { return records_[state].alone == 0; }
+  bool is_final(Index state) const { return records_[state].individual_costs == 0; }
 
   // --- expansion ---
 
@@ -216,8 +216,8 @@ class EpeaStar::Search {
     from_.assign(nodes_of(state), nodes_of(state) + size());
     to_.resize(size());
     const Record& record_now = records_[state];
-    budget_ = record_now.layer - record_now.cost - record_now.alone;
-    looked_at_ = record_now.looked_at;
+    budget_ = record_now.layer - record_now.cost - record_now.individual_costs;
+    expanded_budget_ = record_now.expanded_budget;
     next_budget_ = kNever;
     most_.assign(size() + 1, 0);
     for (std::size_t i = size(); i-- > 0;)
@@ -229,9 +229,9 @@ class EpeaStar::Search {
     for (std::size_t i = 0; i < size(); ++i) from_on_[place(i, from_)] = kNoAgent;
     if (next_budget_ == kNever) return;
     Record& record = records_[state];
-    const Cost layer = record.cost + record.alone + next_budget_;
+    const Cost layer = record.cost + record.individual_costs + next_budget_;
     if (layer >= cutoff) return;
-    record.looked_at = budget_;
+    record.expanded_budget = budget_;
     record.layer = static_cast<std::int32_t>(layer);
     push(state);
   }
@@ -247,7 +247,8 @@ class EpeaStar::Search {
     }
     // States with the least delta_f are pushed last, so that a layer returns them first.
     for (std::size_t i = next_.size(); i-- > 0;)
-      reach(next_nodes_.data() + i * size(), next_[i].hash, parent_, next_[i].cost, next_[i].alone);
+      reach(next_nodes_.data() + i * size(), next_[i].hash, parent_, next_[i].cost,
+            next_[i].individual_costs);
     next_.clear();
     next_nodes_.clear();
   }
@@ -257,17 +258,17 @@ class EpeaStar::Search {
   }
 
   // Chooses moves for `agent` and all later agents. The earlier ones have chosen and pay `cost`.
-  void choose(std::size_t agent, Time delta_f, std::int32_t cost, std::int32_t alone) {
+  void choose(std::size_t agent, Time delta_f, std::int32_t cost, std::int32_t individual_costs) {
     if (agent == size()) {
       next_nodes_.insert(next_nodes_.end(), to_.begin(), to_.end());
-      next_.push_back({hash_of(to_.data()), records_[parent_].cost + cost, alone});
+      next_.push_back({hash_of(to_.data()), records_[parent_].cost + cost, individual_costs});
       return;
     }
     const AgentGraph& graph = agents_[agent];
     const std::size_t here = place(agent, from_);
     for (const AgentGraph::Move& move : graph.moves(from_[agent])) {
       const Time sum = delta_f + move.delta_f;
-      if (sum + most_[agent + 1] <= looked_at_) continue;
+      if (sum + most_[agent + 1] <= expanded_budget_) continue;
       const auto there = static_cast<std::size_t>(graph.place(move.to));
       if (collides(agent, here, there)) continue;
       if (sum > budget_) {
@@ -276,7 +277,8 @@ class EpeaStar::Search {
       }
       to_[agent] = move.to;
       to_on_[there] = static_cast<std::int8_t>(agent);
-      choose(agent + 1, sum, cost + (graph.rests(move.to) ? 0 : 1), alone + graph.to_go(move.to));
+      choose(agent + 1, sum, cost + (graph.rests(move.to) ? 0 : 1),
+             individual_costs + graph.to_go(move.to));
       to_on_[there] = kNoAgent;
     }
   }
@@ -311,8 +313,8 @@ class EpeaStar::Search {
   const std::vector<AgentGraph> agents_;
   const std::size_t max_bytes_;
   DatabaseGroups groups_;
-  std::int32_t alone_ = 0;   // sum of individual costs at the start
-  std::vector<Node> nodes_;  // by state, then agent
+  std::int32_t individual_costs_ = 0;  // sum of individual costs at the start
+  std::vector<Node> nodes_;            // by state, then agent
   std::vector<Record> records_;
   std::vector<Index> slots_;  // hash table; size: a power of two
   std::vector<std::vector<Index>> layers_;
@@ -321,19 +323,19 @@ class EpeaStar::Search {
   Cost first_layer_ = 0;
   Cost lower_bound_ = 0;  // layer of at_
   std::int64_t states_ = 0;
-  std::int64_t made_ = 0;  // joint states generated, repetitions included
+  std::int64_t generated_ = 0;  // joint states generated, repetitions included
   std::optional<std::vector<Path>> paths_;
   // The current expansion.
   struct Next {
     std::uint64_t hash;
     std::int32_t cost;  // from the start
-    std::int32_t alone;
+    std::int32_t individual_costs;
   };
   std::vector<Next> next_;
   std::vector<Node> next_nodes_;  // nodes of each, by agent
   Index parent_ = kNone;
   Cost cutoff_ = kInfiniteCost;
-  Time looked_at_ = -1;
+  Time expanded_budget_ = -1;
   Time budget_ = 0;
   Time next_budget_ = kNever;
   std::vector<Node> from_;

@@ -59,7 +59,7 @@ class Reader {
         break;
       case LineStream::Next::kNone:
         fail("the file ends", "a line, ended by LF");
-      case LineStream::Next::kEndless:
+      case LineStream::Next::kUnterminated:
         fail("the file ends within it", "a line, ended by LF");
       case LineStream::Next::kTooLong:
         fail("it is too long", fmt::format("at most {} bytes", LineStream::kMaxLineLength));

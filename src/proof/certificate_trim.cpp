@@ -60,9 +60,9 @@ Constraints united(const Constraints& a, const Constraints& b) {
   return all;
 }
 
-class SplitSelector : public KeptParts {
+class DecidingPass : public KeptParts {
  public:
-  explicit SplitSelector(LemmaTable& lemmas) : lemmas_(lemmas) {}
+  explicit DecidingPass(LemmaTable& lemmas) : lemmas_(lemmas) {}
   std::vector<Keep> keeps;  // by split
   std::int64_t lines = 0;
 
@@ -72,7 +72,7 @@ class SplitSelector : public KeptParts {
   }
   void constraint(const CertificateConstraint& of_lemma) override {
     statement_.constraints.push_back(of_lemma);
-    in_force_.add(of_lemma);
+    active_.add(of_lemma);
   }
   void theorem(Cost bound) override {
     statement_ = {{}, bound, {}, 0};
@@ -85,7 +85,7 @@ class SplitSelector : public KeptParts {
     all.erase(std::unique(all.begin(), all.end()), all.end());
     if (needs_ && std::ranges::includes(all, *needs_)) all = std::move(*needs_);
     lemmas_.add(std::move(statement_));
-    in_force_.clear();
+    active_.clear();
   }
 
  private:
@@ -95,19 +95,19 @@ class SplitSelector : public KeptParts {
   };
 
   Keep opened(std::size_t number, const Fork& fork) override {
-    const Keep keep = in_force_.has_side(fork.sides[0])   ? Keep::kFirst
-                      : in_force_.has_side(fork.sides[1]) ? Keep::kSecond
-                                                          : Keep::kBoth;
+    const Keep keep = active_.has_side(fork.sides[0])   ? Keep::kFirst
+                      : active_.has_side(fork.sides[1]) ? Keep::kSecond
+                                                        : Keep::kBoth;
     keeps.resize(number + 1, Keep::kBoth);
     keeps[number] = keep;
     levels_.push_back({fork, std::nullopt});
     return keep;
   }
-  void begin_side(int which) override { in_force_.assume(levels_.back().fork.sides[which]); }
+  void begin_side(int which) override { active_.assume(levels_.back().fork.sides[which]); }
 
   Keep first_done(std::size_t number) override {
     Level& level = levels_.back();
-    if (keeps[number] != Keep::kSecond) in_force_.undo(level.fork.sides[0]);
+    if (keeps[number] != Keep::kSecond) active_.undo(level.fork.sides[0]);
     if (keeps[number] != Keep::kBoth) return keeps[number];
     if (proves_node()) return keeps[number] = Keep::kFirst;
     level.first = std::move(needs_);
@@ -115,7 +115,7 @@ class SplitSelector : public KeptParts {
   }
   void second_done(std::size_t number) override {
     const Level& level = levels_.back();
-    if (keeps[number] != Keep::kFirst) in_force_.undo(level.fork.sides[1]);
+    if (keeps[number] != Keep::kFirst) active_.undo(level.fork.sides[1]);
     if (keeps[number] == Keep::kBoth) {
       if (proves_node())
         keeps[number] = Keep::kSecond;
@@ -127,7 +127,7 @@ class SplitSelector : public KeptParts {
   // Whether the proof below a side proves the node, now that the side is not active.
   bool proves_node() const {
     return needs_ && std::ranges::all_of(*needs_, [&](const CertificateConstraint& constraint) {
-             return in_force_.has(constraint);
+             return active_.has(constraint);
            });
   }
   // Returns the needs of a split of which both sides stay. needs_ holds those of its second side.
@@ -140,10 +140,9 @@ class SplitSelector : public KeptParts {
   }
   Constraints without(const Constraints& constraints, const CertificateConstraint& side) const {
     Constraints rest;
-    std::ranges::copy_if(constraints, std::back_inserter(rest),
-                         [&](const CertificateConstraint& constraint) {
-                           return !in_force_.is_of(constraint, side);
-                         });
+    std::ranges::copy_if(
+        constraints, std::back_inserter(rest),
+        [&](const CertificateConstraint& constraint) { return !active_.is_of(constraint, side); });
     return rest;
   }
 
@@ -160,15 +159,15 @@ class SplitSelector : public KeptParts {
   LemmaTable& lemmas_;
   TableLemma statement_;
   bool is_theorem_ = false;
-  ActiveConstraints in_force_;
+  ActiveConstraints active_;
   std::deque<Level> levels_;
   Needs needs_;  // of the last complete proof
 };
 
 // Walks the certificate again, according to the decisions.
-class Decided : public KeptParts {
+class LaterPass : public KeptParts {
  public:
-  Decided(const LemmaTable& lemmas, const std::vector<Keep>& keeps)
+  LaterPass(const LemmaTable& lemmas, const std::vector<Keep>& keeps)
       : lemmas_(lemmas), keeps_(keeps) {}
 
   void lemma(Cost bound, std::span<const AgentIndex> /*agents*/) override {
@@ -205,10 +204,10 @@ class Decided : public KeptParts {
   LemmaNumber number_ = 0;
 };
 
-class Naming : public Decided {
+class NamingPass : public LaterPass {
  public:
-  Naming(const LemmaTable& lemmas, const std::vector<Keep>& keeps)
-      : Decided(lemmas, keeps), names_(lemmas.size()), needed_(lemmas.size()) {}
+  NamingPass(const LemmaTable& lemmas, const std::vector<Keep>& keeps)
+      : LaterPass(lemmas, keeps), names_(lemmas.size()), needed_(lemmas.size()) {}
 
   // Returns for each lemma whether it is needed. Call after the whole certificate was read.
   std::vector<bool> needed() && {
@@ -234,7 +233,7 @@ class Naming : public Decided {
       of_lemma_->push_back(lemma);
   }
   void proven() override {
-    Decided::proven();
+    LaterPass::proven();
     if (of_lemma_ == nullptr) return;
     std::ranges::sort(*of_lemma_);
     of_lemma_->erase(std::unique(of_lemma_->begin(), of_lemma_->end()), of_lemma_->end());
@@ -246,11 +245,11 @@ class Naming : public Decided {
   std::vector<LemmaNumber>* of_lemma_ = nullptr;
 };
 
-class Writing : public Decided {
+class WritingPass : public LaterPass {
  public:
-  Writing(const LemmaTable& lemmas, const std::vector<Keep>& keeps, const std::vector<bool>& needed,
-          CertificateOutput& output)
-      : Decided(lemmas, keeps), needed_(needed), numbers_(needed.size()), output_(output) {
+  WritingPass(const LemmaTable& lemmas, const std::vector<Keep>& keeps,
+              const std::vector<bool>& needed, CertificateOutput& output)
+      : LaterPass(lemmas, keeps), needed_(needed), numbers_(needed.size()), output_(output) {
     LemmaNumber next = 0;
     for (std::size_t lemma = 0; lemma < needed.size(); ++lemma)
       if (needed[lemma]) numbers_[lemma] = next++;
@@ -331,14 +330,14 @@ TrimmedCertificate trim_certificate(const fs::path& from, const fs::path& to, st
   limits.set_memory_limit(memory);
   TrimmedCertificate trimmed;
   LemmaTable lemmas;
-  SplitSelector deciding(lemmas);
+  DecidingPass deciding(lemmas);
   const bool is_compressed = walk(from, deciding, limits);
   trimmed.before = {deciding.lines, static_cast<std::int64_t>(fs::file_size(from))};
-  Naming naming(lemmas, deciding.keeps);
+  NamingPass naming(lemmas, deciding.keeps);
   walk(from, naming, limits);
   const std::vector<bool> needed = std::move(naming).needed();
   CertificateOutput output(to, is_compressed);
-  Writing writing(lemmas, deciding.keeps, needed, output);
+  WritingPass writing(lemmas, deciding.keeps, needed, output);
   walk(from, writing, limits);
   trimmed.after.lines = writing.lines;
   trimmed.after.bytes = output.commit();

@@ -14,32 +14,32 @@ void KeptParts::later(const CertificateLate& one, const CertificateLate& other, 
 }
 
 void KeptParts::leaf(std::span<const LemmaNumber> lemmas) {
-  if (!passes_over()) kept_leaf(lemmas);
+  if (!is_skipping()) kept_leaf(lemmas);
   close();
 }
 
 void KeptParts::joint() {
-  if (!passes_over()) kept_joint();
+  if (!is_skipping()) kept_joint();
   close();
 }
 
 void KeptParts::prices() {
-  if (!passes_over()) kept_prices();
+  if (!is_skipping()) kept_prices();
 }
 
 void KeptParts::row(std::int64_t charge) {
-  if (!passes_over()) kept_row(charge);
+  if (!is_skipping()) kept_row(charge);
 }
 
 void KeptParts::rows_end() {
-  if (!passes_over()) kept_rows_end();
+  if (!is_skipping()) kept_rows_end();
   close();
 }
 
 void KeptParts::open(const Fork& fork) {
   const std::size_t number = splits_++;
-  if (passes_over()) {
-    ++passed_over_;
+  if (is_skipping()) {
+    ++skipped_depth_;
     return;
   }
   levels_.push_back({number, opened(number, fork), false});
@@ -48,14 +48,14 @@ void KeptParts::open(const Fork& fork) {
 
 void KeptParts::begin(int which) {
   if (levels_.back().keep == (which == 0 ? Keep::kSecond : Keep::kFirst))
-    passed_over_ = 1;
+    skipped_depth_ = 1;
   else
     begin_side(which);
 }
 
 // Ends a proof, and all proofs that end with it.
 void KeptParts::close() {
-  if (passes_over() && --passed_over_ > 0) return;
+  if (is_skipping() && --skipped_depth_ > 0) return;
   while (!levels_.empty()) {
     Level& level = levels_.back();
     if (!level.has_first) {

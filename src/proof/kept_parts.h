@@ -54,11 +54,11 @@ class KeptParts : public CertificateVisitor {
   void open(const Fork& fork);
   void begin(int which);
   void close();
-  bool passes_over() const { return passed_over_ > 0; }
+  bool is_skipping() const { return skipped_depth_ > 0; }
 
   std::size_t splits_ = 0;
   std::deque<Level> levels_;
-  std::int64_t passed_over_ = 0;  // number of open subproofs of the skipped side
+  std::int64_t skipped_depth_ = 0;  // number of open subproofs of the skipped side
 };
 
 }  // namespace grove::detail

@@ -23,7 +23,7 @@ LineStream::Next LineStream::next() {
     }
     seen = size_ - begin_;
     if (seen > kMaxLineLength) return Next::kTooLong;
-    if (!take_more()) return seen == 0 ? Next::kNone : Next::kEndless;
+    if (!take_more()) return seen == 0 ? Next::kNone : Next::kUnterminated;
   }
 }
 

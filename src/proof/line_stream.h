@@ -17,7 +17,7 @@ using ByteSource = std::function<std::size_t(char* buffer, std::size_t size)>;
 class LineStream {
  public:
   static constexpr std::size_t kMaxLineLength = std::size_t{1} << 22;
-  enum class Next : std::uint8_t { kLine, kNone, kEndless, kTooLong };
+  enum class Next : std::uint8_t { kLine, kNone, kUnterminated, kTooLong };
 
   explicit LineStream(ByteSource source);
 
