@@ -68,13 +68,13 @@ void serialize(Archive& archive, RelaxedRow& row) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, MultiplierUpdate& news) {
-  archive(news.rows, news.multipliers);
+void serialize(Archive& archive, MultiplierUpdate& update) {
+  archive(update.rows, update.multipliers);
 }
 
 template <class Archive>
-void serialize(Archive& archive, PricingRequest& share) {
-  archive(share.round, share.first, share.known, share.news);
+void serialize(Archive& archive, PricingRequest& request) {
+  archive(request.round, request.first, request.known, request.update);
 }
 
 template <class Archive>
@@ -86,7 +86,7 @@ namespace message {
 
 template <class Archive>
 void serialize(Archive& archive, RequestPricing& ask) {
-  archive(ask.share);
+  archive(ask.request);
 }
 
 template <class Archive>

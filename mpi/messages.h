@@ -79,7 +79,7 @@ struct Status {
 // From rank 0 to a rank that has replied to every earlier request: solve these pricing problems at
 // once.
 struct RequestPricing {
-  PricingRequest share;
+  PricingRequest request;
 };
 
 // From a rank to rank 0: the reply to RequestPricing.

@@ -29,7 +29,7 @@ constexpr double kMaxLocalRatio = 4;  // Lagrangian work per unit of other work,
 void LagrangianScheduler::open(const Instance& instance, const AgentStopsCache& stops,
                                bool keeps_reasons) {
   instance_ = &instance;
-  keeps_reasons_ = keeps_reasons;
+  records_best_multipliers_ = keeps_reasons;
   stops_.emplace(stops);
   is_over_ = instance.agent_count() < tuning_.lagrangian_min_agents;
 }
@@ -58,7 +58,7 @@ void LagrangianScheduler::make() {
   try {
     bound_ = LagrangianBound::make(*instance_, *stops_, tuning_);
     if (bound_) bound_->set_helpers(ranks_ - 1);
-    if (bound_ && keeps_reasons_) bound_->record_best_multipliers();
+    if (bound_ && records_best_multipliers_) bound_->record_best_multipliers();
   } catch (const std::bad_alloc&) {
     bound_.reset();
   }
@@ -107,8 +107,8 @@ Cost LagrangianScheduler::commit(LagrangianBound::Job job) {
 
 void LagrangianScheduler::log_proof(ProofLog& proof) const {
   const LagrangianBound* const bound = this->bound();
-  if (bound != nullptr && !bound->reasons().empty())
-    proof.prices(bound->lower_bound(), bound->reasons());
+  if (bound != nullptr && !bound->best_multipliers().empty())
+    proof.prices(bound->lower_bound(), bound->best_multipliers());
 }
 
 Cost LagrangianScheduler::update_from_bound() {

@@ -75,7 +75,7 @@ class LagrangianScheduler {
   const Tuning& tuning_;
   const Instance* instance_ = nullptr;
   std::optional<AgentStopsCache> stops_;
-  bool keeps_reasons_ = false;
+  bool records_best_multipliers_ = false;
   std::atomic<std::int64_t> others_{0};
   std::atomic<std::int64_t> own_{0};       // includes work of other ranks
   std::atomic<std::int64_t> own_here_{0};  // on this process

@@ -53,8 +53,8 @@ FinishTimePair FinishTimeConflicts::extended(FinishTimePair pair, const Limits& 
 // Tests the paths that finish exactly `later_a` and `later_b` steps after the least finish times.
 FinishTimeConflicts::Verdict FinishTimeConflicts::compared(const FinishTimePair& pair, Time later_a,
                                                            Time later_b, const Limits& limits) {
-  const Mdd* const a = set(pair.a, later_a, limits);
-  const Mdd* const b = a ? set(pair.b, later_b, limits) : nullptr;
+  const Mdd* const a = mdd(pair.a, later_a, limits);
+  const Mdd* const b = a ? mdd(pair.b, later_b, limits) : nullptr;
   if (b == nullptr) return Verdict::kNotExcluded;
   const bool is_excluded =
       a->empty() || b->empty() ||
@@ -62,22 +62,22 @@ FinishTimeConflicts::Verdict FinishTimeConflicts::compared(const FinishTimePair&
   return is_excluded ? Verdict::kExcluded : Verdict::kNotExcluded;
 }
 
-const Mdd* FinishTimeConflicts::set(AgentIndex agent, Time later, const Limits& limits) {
+const Mdd* FinishTimeConflicts::mdd(AgentIndex agent, Time later, const Limits& limits) {
   OfAgent& of_agent = of(agent, limits);
   const auto at = static_cast<std::size_t>(later);
-  for (auto& sets = of_agent.sets; sets.size() <= at;) {
+  for (auto& mdds = of_agent.mdds; mdds.size() <= at;) {
     auto paths = std::make_unique<Mdd>();
-    const Time cost = of_agent.earliest + static_cast<Time>(sets.size());
+    const Time cost = of_agent.earliest + static_cast<Time>(mdds.size());
     const auto outcome =
         bytes_ > max_sizes_.bytes
             ? MddBuilder::Outcome::kTooLarge
-            : builder_.build(*of_agent.goals, {}, cost, max_sizes_.set_nodes, limits, *paths);
+            : builder_.build(*of_agent.goals, {}, cost, max_sizes_.mdd_nodes, limits, *paths);
     const bool is_known =
         outcome == MddBuilder::Outcome::kBuilt || outcome == MddBuilder::Outcome::kNone;
     bytes_ += static_cast<std::size_t>(paths->node_count()) * kBytesOfNode;
-    sets.push_back(is_known ? std::move(paths) : nullptr);
+    mdds.push_back(is_known ? std::move(paths) : nullptr);
   }
-  return of_agent.sets[at].get();
+  return of_agent.mdds[at].get();
 }
 
 FinishTimeConflicts::OfAgent& FinishTimeConflicts::of(AgentIndex agent, const Limits& limits) {

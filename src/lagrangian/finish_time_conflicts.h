@@ -30,7 +30,7 @@ class FinishTimeConflicts {
  public:
   // Limits: nodes of one MDD, pairs of nodes of one joint search, bytes of all MDDs.
   struct MaxSizes {
-    std::size_t set_nodes;
+    std::size_t mdd_nodes;
     std::size_t joint_mdd_nodes;
     std::size_t bytes;
   };
@@ -56,14 +56,14 @@ class FinishTimeConflicts {
     Time earliest = 0;  // earliest finish, or a lower bound on it
     // MDDs by cost - least. nullptr: not built within the limits. Empty: no path finishes exactly
     // then.
-    std::vector<std::unique_ptr<Mdd>> sets;
+    std::vector<std::unique_ptr<Mdd>> mdds;
   };
 
   static constexpr Time kGrid = 16;  // number of finish times examined, from least on
   using Grid = std::array<Verdict, kGrid * kGrid>;
 
   Verdict compared(const FinishTimePair& pair, Time later_a, Time later_b, const Limits& limits);
-  const Mdd* set(AgentIndex agent, Time later, const Limits& limits);
+  const Mdd* mdd(AgentIndex agent, Time later, const Limits& limits);
   OfAgent& of(AgentIndex agent, const Limits& limits);
 
   const World& world_;

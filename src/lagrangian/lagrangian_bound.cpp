@@ -39,7 +39,7 @@ constexpr std::size_t kMaxMarkBytes = std::size_t{1} << 26;  // marks of one age
 constexpr std::size_t kBytesOfMark = 16;
 constexpr std::int64_t kFirstLabels = 2000;  // expected labels of an agent before its first job
 constexpr std::int64_t kStepsPerWork = 32;   // path steps counted per unit of work
-constexpr int kRoundsPerList = 4;            // rounds so far per round until the next dual solution
+constexpr int kRoundsPerDualSolution = 4;    // rounds so far per round until the next dual solution
 constexpr double kMinDistance = 0.02 * Penalties::kUnit;  // shorter ways gain nothing
 
 }  // namespace
@@ -62,16 +62,16 @@ LagrangianBound::LagrangianBound(const Instance& instance, const AgentStopsCache
       tuning_(tuning),
       stops_(stops),
       rows_(instance.world(), instance.agent_count()),
-      encounters_(instance.world()),
+      occupancy_(instance.world()),
       pairs_(instance.world(), stops_,
-             {.set_nodes = static_cast<std::size_t>(tuning.mdd_nodes),
+             {.mdd_nodes = static_cast<std::size_t>(tuning.mdd_nodes),
               .joint_mdd_nodes = static_cast<std::size_t>(tuning.joint_mdd_nodes),
               .bytes = std::size_t{256} << 20}),
       ascent_(tuning),
       paths_(static_cast<std::size_t>(instance.agent_count())),
       prices_(paths_.size()),
       labels_(paths_.size(), kFirstLabels),
-      next_list_(tuning.first_dual_solution_round),
+      next_dual_solution_round_(tuning.first_dual_solution_round),
       is_priced_(paths_.size()),
       known_(paths_.size()) {
   begin_pricing();
@@ -87,7 +87,7 @@ void LagrangianBound::begin_pricing() {
 std::optional<LagrangianBound::Job> LagrangianBound::next() {
   const std::lock_guard lock(mutex_);
   std::optional<Job> job;
-  if (phase_ == Phase::kPricing) job = next_price();
+  if (phase_ == Phase::kPricing) job = next_value();
   if (phase_ == Phase::kBetween && in_progress_ == 0) job.emplace();
   if (job) ++in_progress_;
   return job;
@@ -99,7 +99,7 @@ bool LagrangianBound::has_jobs() const {
                                    : phase_ == Phase::kBetween && in_progress_ == 0;
 }
 
-std::optional<LagrangianBound::Job> LagrangianBound::next_price() {
+std::optional<LagrangianBound::Job> LagrangianBound::next_value() {
   const std::int64_t most = tuning_.lagrangian_step_work * kLabelsPerWork;
   std::int64_t labels = 0;
   Job job;
@@ -132,12 +132,12 @@ void LagrangianBound::do_perform(Job& job, Pricer& pricer, Cost cutoff, Cost kno
                                  const Limits& limits) {
   if (job.first == job.end) return end_round(job, cutoff, known, limits);
   for (auto agent = job.first + static_cast<AgentIndex>(job.known.size()); agent < job.end; ++agent)
-    job.known.push_back(known_price(agent));
+    job.known.push_back(known_value(agent));
   pricer.perform(job, limits);
 }
 
 // Penalised cost of the agent's current path under the multipliers of this round; kNoCost: no path.
-ScaledCost LagrangianBound::known_price(AgentIndex agent) const {
+ScaledCost LagrangianBound::known_value(AgentIndex agent) const {
   return paths_[agent].empty() ? kNoCost : multipliers().price(agent, paths_[agent]);
 }
 
@@ -148,19 +148,19 @@ void LagrangianBound::commit(Job job) {
   if (phase_ == Phase::kEnded) return;
   if (job.first == job.end) {
     work_between_ += job.work;
-    if (new_list_) list_ = std::move(new_list_);
+    if (new_dual_solution_) dual_solution_ = std::move(new_dual_solution_);
     return;
   }
   for (AgentIndex agent = job.first; agent < job.end; ++agent) {
     const auto at = static_cast<std::size_t>(agent - job.first);
     labels_[agent] = job.work * kLabelsPerWork / (job.end - job.first);
-    take_price(agent, job.prices[at], std::move(job.paths[at]));
+    store_value(agent, job.prices[at], std::move(job.paths[at]));
   }
   end_pricing_if_done();
 }
 
 // Stores a value unless the agent has one: a helper and a thread here may compute the same one.
-bool LagrangianBound::take_price(AgentIndex agent, ScaledCost price, Path path) {
+bool LagrangianBound::store_value(AgentIndex agent, ScaledCost price, Path path) {
   if (is_priced_[agent]) return false;
   is_priced_[agent] = 1;
   --unpriced_;
@@ -176,37 +176,37 @@ void LagrangianBound::end_pricing_if_done() {
   work_between_ = 0;
   const ScaledCost bound =
       std::accumulate(prices_.begin(), prices_.end(), ScaledCost{0}) - multipliers().sum();
-  if (bound > best_ && keeps_reasons_) note_best_multipliers();
+  if (bound > best_ && records_best_multipliers_) note_best_multipliers();
   best_ = std::max(best_, bound);
 }
 
 void LagrangianBound::note_best_multipliers() {
-  reasons_.clear();
+  best_multipliers_.clear();
   for (Multipliers::RowId id = 0; id < multipliers().count(); ++id)
-    if (multipliers().charge(id) > 0)
-      reasons_.push_back({multipliers().row(id), multipliers().charge(id)});
+    if (multipliers().multiplier(id) > 0)
+      best_multipliers_.push_back({multipliers().row(id), multipliers().multiplier(id)});
 }
 
 // The round cannot end in the meantime, because no thread and no helper has been given these agents
 // yet. So the multipliers do not change.
 std::vector<LagrangianBound::DispatchedRequest> LagrangianBound::dispatch_pricing() {
   const std::vector<AgentRange> cuts = partition_agents();
-  std::vector<DispatchedRequest> shares;
+  std::vector<DispatchedRequest> requests;
   for (const AgentRange& range : cuts) {
     Helper& helper = helpers_[static_cast<std::size_t>(range.helper)];
-    PricingRequest share;
-    share.round = rounds_;
-    share.first = range.first;
+    PricingRequest request;
+    request.round = rounds_;
+    request.first = range.first;
     for (AgentIndex agent = range.first; agent < range.end; ++agent)
-      share.known.push_back(known_[agent] = known_price(agent));
-    share.news = multipliers().update_for(helper.multipliers);
-    helper.owes = true;
-    shares.push_back({range.helper, range.work, std::move(share)});
+      request.known.push_back(known_[agent] = known_value(agent));
+    request.update = multipliers().update_for(helper.multipliers);
+    helper.is_awaiting_reply = true;
+    requests.push_back({range.helper, range.work, std::move(request)});
   }
-  if (cuts.empty()) return shares;
+  if (cuts.empty()) return requests;
   const std::lock_guard lock(mutex_);
   asked_ = cuts.back().first;
-  return shares;
+  return requests;
 }
 
 // Balances the expected work between helpers and this process. It counts the work between two
@@ -216,15 +216,15 @@ std::vector<LagrangianBound::AgentRange> LagrangianBound::partition_agents() {
   const std::lock_guard lock(mutex_);
   std::vector<AgentRange> cuts;
   if (phase_ != Phase::kPricing) return cuts;
-  const auto idle = std::ranges::count(helpers_, false, &Helper::owes);
+  const auto idle = std::ranges::count(helpers_, false, &Helper::is_awaiting_reply);
   const std::int64_t least = tuning_.lagrangian_min_remote_work;
   const std::int64_t left = idle > 0 ? work_left() : 0;
-  const std::int64_t shares = std::min<std::int64_t>(idle, left / least - 1);
-  if (shares <= 0) return cuts;
+  const std::int64_t requests = std::min<std::int64_t>(idle, left / least - 1);
+  if (requests <= 0) return cuts;
   const std::int64_t between = std::exchange(work_between_, 0);
-  const std::int64_t part = std::max(least, (left + between) / (shares + 1)) * kLabelsPerWork;
-  for (int helper = 0; std::ssize(cuts) < shares && next_agent_ < end_agent_; ++helper) {
-    if (helpers_[static_cast<std::size_t>(helper)].owes) continue;
+  const std::int64_t part = std::max(least, (left + between) / (requests + 1)) * kLabelsPerWork;
+  for (int helper = 0; std::ssize(cuts) < requests && next_agent_ < end_agent_; ++helper) {
+    if (helpers_[static_cast<std::size_t>(helper)].is_awaiting_reply) continue;
     const AgentIndex end = end_agent_;
     std::int64_t labels = 0;
     while (labels < part && next_agent_ < end_agent_) labels += labels_[--end_agent_];
@@ -242,7 +242,7 @@ std::int64_t LagrangianBound::work_left() const {
 }
 
 int LagrangianBound::accept(int helper, PricingReply answer) {
-  helpers_.at(static_cast<std::size_t>(helper)).owes = false;
+  helpers_.at(static_cast<std::size_t>(helper)).is_awaiting_reply = false;
   const std::lock_guard lock(mutex_);
   if (phase_ != Phase::kPricing || answer.round != rounds_ ||
       answer.digest != multipliers().digest())
@@ -254,8 +254,8 @@ int LagrangianBound::accept(int helper, PricingReply answer) {
   int counted = 0;
   for (AgentIndex i = 0; i < agents; ++i) {
     labels_[answer.first + i] = answer.work * kLabelsPerWork / agents;
-    counted += take_price(answer.first + i, answer.prices[static_cast<std::size_t>(i)],
-                          std::move(answer.paths[static_cast<std::size_t>(i)]));
+    counted += store_value(answer.first + i, answer.prices[static_cast<std::size_t>(i)],
+                           std::move(answer.paths[static_cast<std::size_t>(i)]));
   }
   end_pricing_if_done();
   return counted;
@@ -266,7 +266,7 @@ void LagrangianBound::end_round(Job& job, Cost cutoff, Cost known, const Limits&
   if (!is_counted_) {
     separate_conflict_rows();
     is_counted_ = true;
-    job.work += encounters_.end() * instance_.agent_count() / kStepsPerWork;
+    job.work += occupancy_.end() * instance_.agent_count() / kStepsPerWork;
   }
   separate_finish_rows(job, limits);
   if (!colliding_.empty()) return;
@@ -275,8 +275,8 @@ void LagrangianBound::end_round(Job& job, Cost cutoff, Cost known, const Limits&
 }
 
 void LagrangianBound::separate_conflict_rows() {
-  encounters_.count(paths_);
-  for (const Collision& collision : encounters_.collisions()) {
+  occupancy_.count(paths_);
+  for (const Collision& collision : occupancy_.collisions()) {
     rows_.add(collision);
     const auto [a, b] = std::minmax(collision.a, collision.b);
     const FinishTimePair pair{a, b, static_cast<Time>(paths_[a].size()) - 1,
@@ -297,34 +297,35 @@ void LagrangianBound::separate_finish_rows(Job& job, const Limits& limits) {
 }
 
 // Rounds between two dual solutions increase, because the bound improves more and more slowly.
-void LagrangianBound::make_list(ScaledCost bound) {
+void LagrangianBound::store_dual_solution(ScaledCost bound) {
   {
     const std::lock_guard lock(mutex_);
-    if (rounds_ < next_list_ || bound < best_) return;
-    next_list_ = rounds_ + std::max(1, rounds_ / kRoundsPerList);
+    if (rounds_ < next_dual_solution_round_ || bound < best_) return;
+    next_dual_solution_round_ = rounds_ + std::max(1, rounds_ / kRoundsPerDualSolution);
   }
-  new_list_ = std::make_shared<const DualSolution>(DualSolution{multipliers(), prices_, paths_});
+  new_dual_solution_ =
+      std::make_shared<const DualSolution>(DualSolution{multipliers(), prices_, paths_});
 }
 
 void LagrangianBound::move_multipliers(Cost cutoff, Cost known) {
   const ScaledCost bound =
       std::accumulate(prices_.begin(), prices_.end(), ScaledCost{0}) - multipliers().sum();
-  make_list(bound);
-  const double squares = rows_.update_direction(paths_, encounters_, tuning_.lagrangian_smoothing);
+  store_dual_solution(bound);
+  const double squares = rows_.update_direction(paths_, occupancy_, tuning_.lagrangian_smoothing);
   const double most = static_cast<double>(cutoff) * Penalties::kUnit;
   if (squares > 0) rows_.take_step(ascent_.step(static_cast<double>(bound), most, squares));
   const std::lock_guard lock(mutex_);
-  const double hoped = static_cast<double>(best_) + ascent_.way();
+  const double hoped = static_cast<double>(best_) + ascent_.level_distance();
   const bool is_futile = rounds_ > tuning_.lagrangian_min_rounds &&
                          hoped < static_cast<double>(known) * Penalties::kUnit;
-  const bool is_over = squares <= 0 || ascent_.way() < kMinDistance || is_futile;
+  const bool is_over = squares <= 0 || ascent_.level_distance() < kMinDistance || is_futile;
   phase_ = is_over ? Phase::kEnded : Phase::kPricing;
   begin_pricing();
 }
 
 std::shared_ptr<const DualSolution> LagrangianBound::dual_solution() const {
   const std::lock_guard lock(mutex_);
-  return list_;
+  return dual_solution_;
 }
 
 bool LagrangianBound::ended() const {

@@ -49,7 +49,7 @@ class LagrangianBound {
   struct DispatchedRequest {
     int helper;
     std::int64_t work;  // expected
-    PricingRequest share;
+    PricingRequest request;
   };
   std::vector<DispatchedRequest> dispatch_pricing();
   // Processes a helper's answer. A value counts only if round and multipliers are still those of
@@ -58,9 +58,9 @@ class LagrangianBound {
   int accept(int helper, PricingReply answer);
 
   // Records from now on the multipliers that prove lower_bound().
-  void record_best_multipliers() { keeps_reasons_ = true; }
+  void record_best_multipliers() { records_best_multipliers_ = true; }
   // The recorded multipliers, those > 0. Call it only when no job is in progress.
-  const std::vector<RowMultiplier>& reasons() const { return reasons_; }
+  const std::vector<RowMultiplier>& best_multipliers() const { return best_multipliers_; }
 
   // Whether the bound has ended: it has no more jobs.
   bool ended() const;
@@ -85,48 +85,49 @@ class LagrangianBound {
   };
   struct Helper {
     std::vector<Multipliers::Amount> multipliers;  // by row: the multipliers that it has received
-    bool owes = false;                             // an answer is outstanding
+    bool is_awaiting_reply = false;                // an answer is outstanding
   };
 
   void begin_pricing();
-  std::optional<Job> next_price();
-  ScaledCost known_price(AgentIndex agent) const;
+  std::optional<Job> next_value();
+  ScaledCost known_value(AgentIndex agent) const;
   std::vector<AgentRange> partition_agents();
   std::int64_t work_left() const;
-  bool take_price(AgentIndex agent, ScaledCost price, Path path);
+  bool store_value(AgentIndex agent, ScaledCost price, Path path);
   void end_pricing_if_done();
   void note_best_multipliers();
   void do_perform(Job& job, Pricer& pricer, Cost cutoff, Cost known, const Limits& limits);
   void end_round(Job& job, Cost cutoff, Cost known, const Limits& limits);
   void separate_conflict_rows();
   void separate_finish_rows(Job& job, const Limits& limits);
-  void make_list(ScaledCost bound);
+  void store_dual_solution(ScaledCost bound);
   void move_multipliers(Cost cutoff, Cost known);
 
   const Instance& instance_;
   const Tuning& tuning_;
   AgentStopsCache stops_;  // used by pairs_
   RelaxedRows rows_;
-  OccupancyCounts encounters_;
+  OccupancyCounts occupancy_;
   FinishTimeConflicts pairs_;
   TargetLevelStep ascent_;
   std::vector<Path> paths_;                // by agent: path of its subproblem value
   std::vector<ScaledCost> prices_;         // by agent
   std::vector<std::int64_t> labels_;       // by agent: mean of its last job
   std::vector<FinishTimePair> colliding_;  // pairs still to be tested in this round
-  bool is_counted_ = false;                // encounters_ is of this round
-  std::int64_t next_list_;                 // round of the next dual solution, at the earliest
-  std::shared_ptr<const DualSolution> new_list_;
+  bool is_counted_ = false;                // occupancy_ is of this round
+  std::int64_t next_dual_solution_round_;  // round of the next dual solution, at the earliest
+  std::shared_ptr<const DualSolution> new_dual_solution_;
   std::vector<Helper> helpers_;  // used only by the thread that calls the methods about helpers
-  bool keeps_reasons_ = false;
+  bool records_best_multipliers_ = false;
 
   mutable std::mutex mutex_;  // guards:
   Phase phase_ = Phase::kPricing;
   int in_progress_ = 0;  // jobs in progress
   int rounds_ = 0;
   ScaledCost best_ = 0;
-  std::vector<RowMultiplier> reasons_;  // multipliers that prove best_, if they are recorded
-  std::shared_ptr<const DualSolution> list_;
+  std::vector<RowMultiplier>
+      best_multipliers_;  // multipliers that prove best_, if they are recorded
+  std::shared_ptr<const DualSolution> dual_solution_;
   // Agents are priced here in ascending order, and helpers are asked for the last ones. When no
   // other agents are left, those requested but not yet answered are priced here too, in descending
   // order.

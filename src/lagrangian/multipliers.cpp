@@ -110,8 +110,8 @@ void Multipliers::put_on_finish(AgentIndex agent, Time by, Amount more) {
 }
 
 MultiplierUpdate Multipliers::update_for(std::vector<Amount>& known) const {
-  MultiplierUpdate news;
-  news.rows.assign(rows_.begin() + std::ssize(known), rows_.end());
+  MultiplierUpdate update;
+  update.rows.assign(rows_.begin() + std::ssize(known), rows_.end());
   known.resize(rows_.size());
   std::uint32_t passed = 0;
   for (RowId id = 0; id < rows_.size(); ++id) {
@@ -119,28 +119,28 @@ MultiplierUpdate Multipliers::update_for(std::vector<Amount>& known) const {
       ++passed;
       continue;
     }
-    write(news.multipliers, passed);
-    write(news.multipliers, folded(multipliers_[id] - known[id]));
+    write(update.multipliers, passed);
+    write(update.multipliers, folded(multipliers_[id] - known[id]));
     passed = 0;
   }
   known = multipliers_;
-  return news;
+  return update;
 }
 
-void Multipliers::learn(const MultiplierUpdate& news) {
-  for (const RelaxedRow& row : news.rows) {
+void Multipliers::apply(const MultiplierUpdate& update) {
+  for (const RelaxedRow& row : update.rows) {
     if (!is_valid_row(row)) throw std::invalid_argument("multipliers: row of another instance");
     add(row);
   }
   std::uint64_t id = 0;
-  for (std::size_t at = 0; at < news.multipliers.size(); ++id) {
-    id += read(news.multipliers, at);
-    const std::int64_t more = unfolded(read(news.multipliers, at));
+  for (std::size_t at = 0; at < update.multipliers.size(); ++id) {
+    id += read(update.multipliers, at);
+    const std::int64_t more = unfolded(read(update.multipliers, at));
     if (id >= rows_.size()) throw std::invalid_argument("multipliers: unknown row");
-    const std::int64_t charge = multipliers_[id] + more;
-    if (charge < 0 || charge > PenalizedSearch::kMaxPenaltyCost)
+    const std::int64_t multiplier = multipliers_[id] + more;
+    if (multiplier < 0 || multiplier > PenalizedSearch::kMaxPenaltyCost)
       throw std::invalid_argument("multiplier out of range");
-    set_multiplier(static_cast<RowId>(id), static_cast<Amount>(charge));
+    set_multiplier(static_cast<RowId>(id), static_cast<Amount>(multiplier));
   }
 }
 

@@ -45,7 +45,7 @@ class Multipliers {
 
   std::size_t count() const { return rows_.size(); }
   const RelaxedRow& row(RowId id) const { return rows_[id]; }
-  Amount charge(RowId id) const { return multipliers_[id]; }
+  Amount multiplier(RowId id) const { return multipliers_[id]; }
   // Adds a row with multiplier 0. Rows are numbered in the order of insertion.
   void add(const RelaxedRow& row);
   // Sets a multiplier, and updates the penalties.
@@ -55,7 +55,7 @@ class Multipliers {
   // the current multipliers.
   MultiplierUpdate update_for(std::vector<Amount>& known) const;
   // Applies an update. Throws std::invalid_argument if the update does not fit these multipliers.
-  void learn(const MultiplierUpdate& news);
+  void apply(const MultiplierUpdate& update);
 
  private:
   void put_on_path(const RelaxedRow& row, Amount more);

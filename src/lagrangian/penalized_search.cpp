@@ -41,7 +41,7 @@ ScaledCost PenalizedSearch::search(SequenceStages& goals, std::span<const Amount
     marks_.clear();
     stamp_ = 1;
   }
-  look_at_ends();
+  compute_end_bounds();
   start();
   std::size_t layer = 0;
   std::size_t layers = 0;
@@ -54,13 +54,13 @@ ScaledCost PenalizedSearch::search(SequenceStages& goals, std::span<const Amount
         const Label& label = labels_[layer];
         least = std::min(least, label.paid + to_pay(label.distance, time_));
       }
-      labels_met_ += std::ssize(labels_);
+      labels_created_ += std::ssize(labels_);
       return least;
     }
     layer_ = penalties_.at(++time_);
     for (; layer < end; ++layer) expand(static_cast<std::uint32_t>(layer));
   }
-  labels_met_ += std::ssize(labels_);
+  labels_created_ += std::ssize(labels_);
   if (best_ && path != nullptr) *path = path_to(*best_);
   return below_;
 }
@@ -79,19 +79,19 @@ bool PenalizedSearch::improve(SequenceStages& goals, std::span<const Amount> on_
   return true;
 }
 
-// Computes ends_: by time, the least penalty of coming to rest then or later, plus a unit for each
-// step of delay. If the agent may rest on several places, the penalties of these places are left
-// out.
-void PenalizedSearch::look_at_ends() {
+// Computes end_bounds_: by time, the least penalty of coming to rest then or later, plus a unit for
+// each step of delay. If the agent may rest on several places, the penalties of these places are
+// left out.
+void PenalizedSearch::compute_end_bounds() {
   const AgentStops& stops = goals_->stops();
   const auto finishes = static_cast<Time>(on_finish_.size());
   const Time last = std::max(finishes, penalties_.end());
   const bool has_one_rest = !stops.rests_on_last_stop() && stops.destination();
-  ends_.assign(static_cast<std::size_t>(last) + 1, 0);
+  end_bounds_.assign(static_cast<std::size_t>(last) + 1, 0);
   for (Time time = last - 1; time >= 0; --time) {
     Amount then = time < finishes ? on_finish_[time] : 0;
     if (has_one_rest) then += rest_from(*stops.destination(), time);
-    ends_[time] = std::min(then, ends_[time + 1] + Penalties::kUnit);
+    end_bounds_[time] = std::min(then, end_bounds_[time + 1] + Penalties::kUnit);
   }
 }
 

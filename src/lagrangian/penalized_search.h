@@ -47,7 +47,7 @@ class PenalizedSearch {
                std::int64_t label_limit, const Limits& limits, Path& path);
 
   // Labels created so far.
-  std::int64_t labels() const { return labels_met_; }
+  std::int64_t labels() const { return labels_created_; }
 
  private:
   using Amount = Penalties::Amount;
@@ -71,12 +71,13 @@ class PenalizedSearch {
   bool may_arrive(Place from, Place to) const {
     return others_ == nullptr || others_->may_arrive(from, to, time_);
   }
-  void look_at_ends();
+  void compute_end_bounds();
   void start();
   // Lower bound on the penalised cost still to come, `distance` steps from rest at `time`.
   ScaledCost to_pay(Time distance, Time time) const {
     const auto end = static_cast<std::size_t>(time) + static_cast<std::size_t>(distance);
-    return ScaledCost{distance} * Penalties::kUnit + ends_[std::min(end, ends_.size() - 1)];
+    return ScaledCost{distance} * Penalties::kUnit +
+           end_bounds_[std::min(end, end_bounds_.size() - 1)];
   }
   void expand(std::uint32_t label);
   void arrive(std::uint32_t from, State state, StageId stage, Amount paid);
@@ -91,8 +92,8 @@ class PenalizedSearch {
   std::uint32_t stamp_ = 0;
   std::vector<Label> labels_;                                 // layer by layer in time
   std::vector<std::pair<Place, std::vector<Amount>>> rests_;  // penalty by first time of rest
-  std::vector<Amount> ends_;                                  // see look_at_ends()
-  std::int64_t labels_met_ = 0;
+  std::vector<Amount> end_bounds_;                            // see compute_end_bounds()
+  std::int64_t labels_created_ = 0;
 
   // Data of the current call.
   SequenceStages* goals_ = nullptr;

@@ -18,7 +18,7 @@ void Pricer::perform(PricingJob& job, const Limits& limits) {
     const ScaledCost known = job.known[static_cast<std::size_t>(agent - job.first)];
     const std::int64_t labels = search_.labels();
     Path path;
-    job.prices.push_back(known == kNoCost ? first_price(agent, limits, path)
+    job.prices.push_back(known == kNoCost ? first_value(agent, limits, path)
                                           : price_below(known, agent, limits, path));
     job.paths.push_back(std::move(path));
     job.work += (search_.labels() - labels) / kLabelsPerWork + 1;
@@ -34,7 +34,7 @@ SequenceStages& Pricer::goals(AgentIndex agent) {
 
 // First value of an agent: no path is known whose cost could be the cutoff. The cutoff rises from
 // just above the least cost, because hardly any value is much higher.
-ScaledCost Pricer::first_price(AgentIndex agent, const Limits& limits, Path& path) {
+ScaledCost Pricer::first_value(AgentIndex agent, const Limits& limits, Path& path) {
   const ScaledCost least = ScaledCost{min_cost(goals(agent), limits)} * Penalties::kUnit;
   ScaledCost price = 0;
   for (ScaledCost more = Penalties::kUnit; path.empty(); more *= 4) {

@@ -34,7 +34,7 @@ struct PricingRequest {
   std::int64_t round = 0;
   std::int32_t first = 0;         // first agent
   std::vector<ScaledCost> known;  // as in PricingJob, from agent `first` on
-  MultiplierUpdate news;          // changes of the multipliers since the helper's last request
+  MultiplierUpdate update;        // changes of the multipliers since the helper's last request
 };
 
 struct PricingReply {
@@ -59,7 +59,7 @@ class Pricer {
 
  private:
   SequenceStages& goals(AgentIndex agent);
-  ScaledCost first_price(AgentIndex agent, const Limits& limits, Path& path);
+  ScaledCost first_value(AgentIndex agent, const Limits& limits, Path& path);
   ScaledCost price_below(ScaledCost below, AgentIndex agent, const Limits& limits, Path& path);
 
   const Multipliers& multipliers_;

@@ -25,7 +25,7 @@ struct RelaxedRow {
 // A row and its multiplier in units of 1/1024 step.
 struct RowMultiplier {
   RelaxedRow row;
-  std::int32_t charge = 0;
+  std::int32_t multiplier = 0;
 };
 
 }  // namespace grove::detail

@@ -87,9 +87,9 @@ bool RelaxedRows::has(const FinishTimePair& pair) const {
          });
 }
 
-double RelaxedRows::update_direction(std::span<const Path> paths, const OccupancyCounts& encounters,
+double RelaxedRows::update_direction(std::span<const Path> paths, const OccupancyCounts& occupancy,
                                      double memory) {
-  count_uses(paths, encounters);
+  count_uses(paths, occupancy);
   double squares = 0;
   for (RowState& row : row_states_) {
     const bool is_at_rest = row.exact_multiplier <= 0;  // it cannot decrease
@@ -102,7 +102,7 @@ double RelaxedRows::update_direction(std::span<const Path> paths, const Occupanc
   return squares;
 }
 
-void RelaxedRows::count_uses(std::span<const Path> paths, const OccupancyCounts& encounters) {
+void RelaxedRows::count_uses(std::span<const Path> paths, const OccupancyCounts& occupancy) {
   const auto finishes_by = [&](AgentIndex agent, Time time) {
     return !paths[agent].empty() && static_cast<Time>(paths[agent].size()) - 1 <= time ? 1 : 0;
   };
@@ -110,13 +110,12 @@ void RelaxedRows::count_uses(std::span<const Path> paths, const OccupancyCounts&
     const RelaxedRow& row = multipliers_.row(id);
     std::int32_t& used = row_states_[id].used;
     used = 0;
-    if (row.kind == Kind::kPlace) used = encounters.at(row.a, row.time);
+    if (row.kind == Kind::kPlace) used = occupancy.at(row.a, row.time);
     if (row.kind == Kind::kFinish)
       used = finishes_by(row.a, row.time) + finishes_by(row.b, row.time_b);
   }
   for (const Path& path : paths)
-    if (!path.empty())
-      count_moves(path, std::max(encounters.end(), multipliers_.penalties().end()));
+    if (!path.empty()) count_moves(path, std::max(occupancy.end(), multipliers_.penalties().end()));
 }
 
 void RelaxedRows::count_moves(const Path& path, Time end) {

@@ -31,7 +31,7 @@ class RelaxedRows {
 
   // Sets the direction of each row: its uses by `paths` minus 1, plus `memory` times the old
   // direction; not below 0 if the multiplier is 0. Returns the squared length of the direction.
-  double update_direction(std::span<const Path> paths, const OccupancyCounts& encounters,
+  double update_direction(std::span<const Path> paths, const OccupancyCounts& occupancy,
                           double memory);
   // Moves each multiplier by `step` times its direction, within 0 .. 64 steps.
   void take_step(double step);
@@ -50,7 +50,7 @@ class RelaxedRows {
                const RelaxedRow& row);
   std::uint64_t place_key(Place place, Time time) const;
   std::uint64_t edge_key(Place from, Place to, Time arrival) const;
-  void count_uses(std::span<const Path> paths, const OccupancyCounts& encounters);
+  void count_uses(std::span<const Path> paths, const OccupancyCounts& occupancy);
   void count_moves(const Path& path, Time end);
   void count_move(Place from, Place to, Time arrival);
   void use_edge(Place from, Place to, Time arrival);

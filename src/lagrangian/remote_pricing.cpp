@@ -19,7 +19,7 @@ void RemotePricing::accept(PricingRequest share) {
   const auto agents = static_cast<std::int64_t>(share.known.size());
   if (share_ || agents == 0 || share.first < 0 || share.first + agents > instance_.agent_count())
     throw std::invalid_argument("prices are asked for that cannot be wanted");
-  multipliers_.learn(share.news);
+  multipliers_.apply(share.update);
   answer_.round = share.round;
   answer_.digest = multipliers_.digest();
   answer_.first = share.first;

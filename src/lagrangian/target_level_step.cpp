@@ -20,20 +20,20 @@ constexpr int kRoundsForFarBelow = 5;
 
 double TargetLevelStep::step(double value, double upper_bound, double squares) {
   best_ = std::max(best_, value);
-  if (value < best_ - kFarBelow * way_) waited_ += kRoundsForFarBelow;
+  if (value < best_ - kFarBelow * level_distance_) waited_ += kRoundsForFarBelow;
   choose_level(upper_bound);
-  return std::max(0.0, best_ + way_ - value) / squares;
+  return std::max(0.0, best_ + level_distance_ - value) / squares;
 }
 
 void TargetLevelStep::choose_level(double upper_bound) {
   const double room = std::max(0.0, upper_bound - best_);
-  if (way_ <= 0) {
-    way_ = tuning_.lagrangian_level * best_;
-  } else if (best_ < best_at_level_ + kSufficientProgress * way_) {
+  if (level_distance_ <= 0) {
+    level_distance_ = tuning_.lagrangian_level * best_;
+  } else if (best_ < best_at_level_ + kSufficientProgress * level_distance_) {
     if (++waited_ < tuning_.lagrangian_patience) return;
-    way_ *= tuning_.lagrangian_shrink;
+    level_distance_ *= tuning_.lagrangian_shrink;
   }
-  way_ = std::min(way_, room);
+  level_distance_ = std::min(level_distance_, room);
   best_at_level_ = best_;
   waited_ = 0;
 }

@@ -7,8 +7,8 @@
 namespace grove::detail {
 
 // Target level method (Goffin and Kiwiel 1999). The step is a Polyak step towards a level, which is
-// way() above the best value so far. way() shrinks when the level is not reached. Heuristic: the
-// validity of the bound does not depend on the step. One thread at a time.
+// level_distance() above the best value so far. level_distance() shrinks when the level is not
+// reached. Heuristic: the validity of the bound does not depend on the step. One thread at a time.
 class TargetLevelStep {
  public:
   explicit TargetLevelStep(const Tuning& tuning) : tuning_(tuning) {}
@@ -17,7 +17,7 @@ class TargetLevelStep {
   // 0. `upper_bound`: upper bound on all values.
   double step(double value, double upper_bound, double squares);
   // Distance from the best value so far to the level; 0 before the first step.
-  double way() const { return way_; }
+  double level_distance() const { return level_distance_; }
 
  private:
   void choose_level(double upper_bound);
@@ -25,7 +25,7 @@ class TargetLevelStep {
   const Tuning& tuning_;
   double best_ = 0;
   double best_at_level_ = 0;  // best_ when this level was chosen
-  double way_ = 0;
+  double level_distance_ = 0;
   int waited_ = 0;
 };
 

@@ -53,7 +53,7 @@ TEST(FinishTimeConflicts, AgreeWithJointBreadthFirstSearch) {
     const auto b = AgentGraph::make(known.instance, 1);
     if (!a || !b || a->count() == 0 || b->count() == 0) continue;
     FinishTimeConflicts pairs(known.instance.world(), known.stops,
-                              {.set_nodes = 1 << 20, .joint_mdd_nodes = 1 << 20, .bytes = 1 << 28});
+                              {.mdd_nodes = 1 << 20, .joint_mdd_nodes = 1 << 20, .bytes = 1 << 28});
     const Time min_a = a->to_go(AgentGraph::start());
     const Time min_b = b->to_go(AgentGraph::start());
     for (Time by_a = min_a; by_a < min_a + 4; ++by_a)
@@ -92,8 +92,8 @@ TEST(FinishTimeConflicts, ProveNothingWithoutEffort) {
     if (!finds_incompatible(kEnough, pair)) continue;
     ++excluded;
     EXPECT_FALSE(finds_incompatible({0, kEnough.joint_mdd_nodes, kEnough.bytes}, pair));
-    EXPECT_FALSE(finds_incompatible({kEnough.set_nodes, 0, kEnough.bytes}, pair));
-    EXPECT_FALSE(finds_incompatible({kEnough.set_nodes, kEnough.joint_mdd_nodes, 0}, pair));
+    EXPECT_FALSE(finds_incompatible({kEnough.mdd_nodes, 0, kEnough.bytes}, pair));
+    EXPECT_FALSE(finds_incompatible({kEnough.mdd_nodes, kEnough.joint_mdd_nodes, 0}, pair));
   }
   EXPECT_GT(excluded, 10) << "no incompatible pair was tested";
 }

@@ -53,13 +53,13 @@ TEST(Multipliers, AreEqualInAReplicaThatReceivedAllUpdates) {
             static_cast<Multipliers::RowId>(random.below(static_cast<int>(multipliers.count()))),
             random.pick<int>({0, 1, 63, 64, 8191, 8192, 1 << 16}));
       if (random.percent(30)) continue;
-      replica.learn(multipliers.update_for(known));
+      replica.apply(multipliers.update_for(known));
       ASSERT_EQ(replica.count(), multipliers.count());
       ASSERT_EQ(replica.digest(), multipliers.digest());
       ASSERT_EQ(replica.sum(), multipliers.sum());
       for (Multipliers::RowId id = 0; id < multipliers.count(); ++id) {
         ASSERT_EQ(replica.row(id), multipliers.row(id));
-        ASSERT_EQ(replica.charge(id), multipliers.charge(id));
+        ASSERT_EQ(replica.multiplier(id), multipliers.multiplier(id));
       }
       for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
         const Path path(static_cast<std::size_t>(random.between(1, 9)),
@@ -93,7 +93,7 @@ TEST(Multipliers, RefusesInvalidUpdates) {
   const Instance instance = tiny_instance(2);
   const auto refuses = [&](MultiplierUpdate update) {
     Multipliers multipliers(instance.world(), instance.agent_count());
-    EXPECT_THROW(multipliers.learn(update), std::invalid_argument);
+    EXPECT_THROW(multipliers.apply(update), std::invalid_argument);
   };
   refuses({{{.kind = Kind::kPlace, .a = -1}}, ""});
   refuses({{{.kind = Kind::kPlace, .a = instance.world().place_count()}}, ""});

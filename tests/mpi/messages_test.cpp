@@ -92,21 +92,21 @@ TEST(Messages, LearnedBoundsRoundTrip) {
 
 message::RequestPricing some_question() {
   message::RequestPricing ask;
-  ask.share.round = 7;
-  ask.share.first = 2;
-  ask.share.known = {4096, kNoCost};
-  ask.share.news.rows = {{.kind = RelaxedRow::Kind::kEdge, .a = 3, .b = 4, .time = 9}};
-  ask.share.news.multipliers = std::string("\x00\x05", 2);
+  ask.request.round = 7;
+  ask.request.first = 2;
+  ask.request.known = {4096, kNoCost};
+  ask.request.update.rows = {{.kind = RelaxedRow::Kind::kEdge, .a = 3, .b = 4, .time = 9}};
+  ask.request.update.multipliers = std::string("\x00\x05", 2);
   return ask;
 }
 
 TEST(Messages, PricingRequestAndReplyRoundTrip) {
-  const auto share = returned(some_question()).share;
-  EXPECT_EQ(share.round, 7);
-  EXPECT_EQ(share.first, 2);
-  EXPECT_EQ(share.known, some_question().share.known);
-  EXPECT_EQ(share.news.rows, some_question().share.news.rows);
-  EXPECT_EQ(share.news.multipliers, some_question().share.news.charges);
+  const auto request = returned(some_question()).request;
+  EXPECT_EQ(request.round, 7);
+  EXPECT_EQ(request.first, 2);
+  EXPECT_EQ(request.known, some_question().request.known);
+  EXPECT_EQ(request.update.rows, some_question().request.update.rows);
+  EXPECT_EQ(request.update.multipliers, some_question().request.update.charges);
   message::PricingDone sent;
   sent.answer.round = 7;
   sent.answer.digest = 0xfedcba9876543210;
