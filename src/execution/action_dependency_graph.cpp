@@ -77,7 +77,7 @@ ActionDependencyGraph::ActionDependencyGraph(const Instance& instance, const Pla
   after_.assign(actions_.size(), kNoAction);
   find_waits(instance.world(), plan);
   order_steps();
-  leave_out_transitive();
+  remove_transitive();
 }
 
 // Work takes place while the path waits. Of work begun before the start only the rest counts.
@@ -162,7 +162,7 @@ void ActionDependencyGraph::order_steps() {
   }
 }
 
-void ActionDependencyGraph::leave_out_transitive() {
+void ActionDependencyGraph::remove_transitive() {
   std::vector<VectorClock> known(actions_.size());
   std::vector<bool> is_transitive(actions_.size());
   for (AgentIndex group = 0; group < agent_count(); group += kLanes) {
@@ -205,7 +205,7 @@ std::vector<Open> open_tasks(const Instance& instance) {
   return open;
 }
 
-void come_by(Place place, ActionIndex action, Open& open, std::vector<TaskVisit>& visits) {
+void visit_place(Place place, ActionIndex action, Open& open, std::vector<TaskVisit>& visits) {
   const auto [begin, end] = open.equal_range(place);
   for (auto task = begin; task != end; ++task) visits.push_back({task->second, action});
   open.erase(begin, end);
@@ -219,11 +219,11 @@ std::vector<std::vector<TaskVisit>> task_visits(const Instance& instance,
   std::vector<Open> open = open_tasks(instance);
   std::vector<std::vector<TaskVisit>> visits(instance.agent_count());
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
-    come_by(world.place(instance.agent(agent).start), kNoAction, open[agent], visits[agent]);
+    visit_place(world.place(instance.agent(agent).start), kNoAction, open[agent], visits[agent]);
     for (ActionIndex a = order.begin_of(agent); a < order.end_of(agent); ++a) {
       const Action& action = order.actions()[a];
       if (action.kind == Action::Kind::kWork) visits[agent].push_back({action.task, a});
-      come_by(world.place(action.to), a, open[agent], visits[agent]);
+      visit_place(world.place(action.to), a, open[agent], visits[agent]);
     }
   }
   return visits;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Action dependency graph (ADG; Hoenig et al. 2019, Ma et al. 2017): the actions of a plan, which of
-// them must be completed before which, and the tasks that they visit. Robots that keep to it never
-// collide, whatever their delays.
+// Action dependency graph (ADG; Hoenig et al. 2019, Ma et al. 2017): the actions of a plan, which
+// of them must be completed before which, and the tasks that they visit. Robots that keep to it
+// never collide, whatever their delays.
 #pragma once
 
 #include <cstdint>
@@ -71,7 +71,7 @@ class ActionDependencyGraph {
   void add_actions(const Instance& instance, AgentIndex agent, const AgentPlan& plan);
   void find_waits(const World& world, const Plan& plan);
   void order_steps();
-  void leave_out_transitive();
+  void remove_transitive();
 
   std::vector<Action> actions_;
   std::vector<ActionIndex> first_{0};  // by agent, and the end of the last one

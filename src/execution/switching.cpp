@@ -157,10 +157,10 @@ class Switching {
   }
 
   SwitchableTrace run() {
-    moments_.push(0);
-    while (!moments_.empty()) {
-      now_ = moments_.top();
-      while (!moments_.empty() && moments_.top() == now_) moments_.pop();
+    event_times_.push(0);
+    while (!event_times_.empty()) {
+      now_ = event_times_.top();
+      while (!event_times_.empty() && event_times_.top() == now_) event_times_.pop();
       begin_enabled();
       for (AgentIndex agent = 0; agent < order_.agent_count(); ++agent) consider(agent);
     }
@@ -215,7 +215,7 @@ class Switching {
       driven_.drive.begin[a] = now_;
       driven_.drive.end[a] = end;
     }
-    if (end < kNever) moments_.push(end);
+    if (end < kNever) event_times_.push(end);
   }
 
   // Tries a switch if the robot has waited too long for another one.
@@ -227,19 +227,19 @@ class Switching {
     Wait& wait = waits_[agent];
     if (wait.action != a) {
       wait = {a, patience_, now_ + patience_};
-      moments_.push(wait.until);
+      event_times_.push(wait.until);
       return;
     }
     if (now_ < wait.until) return;
-    if (go_first(a, order_.actions()[other].agent)) {
-      moments_.push(now_);  // the action may begin at once
+    if (try_switch(a, order_.actions()[other].agent)) {
+      event_times_.push(now_);  // the action may begin at once
       wait = {};
       return;
     }
     if (wait.patience >= kMaxPatienceFactor * patience_ && !has_action_in_progress()) return;
     wait.patience *= 2;
     wait.until = now_ + wait.patience;
-    moments_.push(wait.until);
+    event_times_.push(wait.until);
   }
 
   // The robot that this action waits for; the robot itself if the action has begun.
@@ -261,7 +261,7 @@ class Switching {
     return false;
   }
 
-  bool go_first(ActionIndex entering, AgentIndex other) {
+  bool try_switch(ActionIndex entering, AgentIndex other) {
     const auto group = rows_.group(entering, other);
     for (const auto& [theirs, mine] : group) {
       const Visit& visit = rows_.visit(theirs);
@@ -355,7 +355,7 @@ class Switching {
   std::vector<std::int32_t> step_of_;  // by action
   std::vector<Wait> waits_;            // by agent
   std::vector<ActionIndex> next_;      // by agent: its first incomplete action
-  std::priority_queue<Time, std::vector<Time>, std::greater<>> moments_;
+  std::priority_queue<Time, std::vector<Time>, std::greater<>> event_times_;
   Time now_ = 0;
   SwitchableTrace driven_;
 
