@@ -33,7 +33,7 @@ void at_full_width(Archive& archive, std::int64_t& number) {
 
 template <class Archive>
 void serialize(Archive& archive, MemoryUse& m) {
-  for (std::int64_t* bytes : {&m.process, &m.nodes, &m.prices, &m.path_sets, &m.groups})
+  for (std::int64_t* bytes : {&m.process, &m.nodes, &m.reply, &m.path_sets, &m.groups})
     at_full_width(archive, *bytes);
 }
 
@@ -79,7 +79,7 @@ void serialize(Archive& archive, PricingRequest& request) {
 
 template <class Archive>
 void serialize(Archive& archive, PricingReply& answer) {
-  archive(answer.round, answer.digest, answer.first, answer.prices, answer.paths, answer.work);
+  archive(answer.round, answer.digest, answer.first, answer.values, answer.paths, answer.work);
 }
 
 namespace message {
@@ -90,8 +90,8 @@ void serialize(Archive& archive, RequestPricing& ask) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, PricingDone& prices) {
-  archive(prices.answer);
+void serialize(Archive& archive, PricingDone& reply) {
+  archive(reply.answer);
 }
 
 template <class Archive>

@@ -72,11 +72,11 @@ void Rank::handle(int from, message::Message&& message) {
                  },
                  [&](message::RequestPricing& ask) {
                    ++received_messages_;
-                   search_.lagrangian().help(problem_.instance, std::move(ask.share));
+                   search_.lagrangian().help(problem_.instance, std::move(ask.request));
                  },
-                 [&](message::PricingDone& prices) {
+                 [&](message::PricingDone& reply) {
                    ++received_messages_;
-                   shared_bounds_.prove(search_.lagrangian().accept(from, std::move(prices.answer)),
+                   shared_bounds_.prove(search_.lagrangian().accept(from, std::move(reply.answer)),
                                         BoundSource::kLagrangian);
                  },
                  [&](message::LearnedBounds& facts) {
@@ -276,8 +276,8 @@ void Rank::send_updates(double now) {
 }
 
 void Rank::send_pricing_messages() {
-  for (auto& [rank, share] : search_.lagrangian().dispatch_pricing())
-    send(rank, message::RequestPricing{std::move(share)});
+  for (auto& [rank, request] : search_.lagrangian().dispatch_pricing())
+    send(rank, message::RequestPricing{std::move(request)});
   if (auto answer = search_.lagrangian().take_answer())
     send(0, message::PricingDone{std::move(*answer)});
 }

@@ -120,14 +120,14 @@ Cost LagrangianScheduler::update_from_bound() {
 // Helper h is rank h + 1: rank 0 is no helper. Requested work counts as done from the request on:
 // while other ranks do it, rank 0 has time for other work.
 std::vector<std::pair<int, PricingRequest>> LagrangianScheduler::dispatch_pricing() {
-  std::vector<std::pair<int, PricingRequest>> shares;
+  std::vector<std::pair<int, PricingRequest>> requests;
   LagrangianBound* const bound = is_over_ ? nullptr : this->bound();
-  if (bound == nullptr) return shares;
-  for (auto& [helper, work, share] : bound->dispatch_pricing()) {
+  if (bound == nullptr) return requests;
+  for (auto& [helper, work, request] : bound->dispatch_pricing()) {
     own_ += asked_of_[static_cast<std::size_t>(helper + 1)] = work;
-    shares.emplace_back(helper + 1, std::move(share));
+    requests.emplace_back(helper + 1, std::move(request));
   }
-  return shares;
+  return requests;
 }
 
 Cost LagrangianScheduler::accept(int rank, PricingReply answer) {
@@ -139,10 +139,10 @@ Cost LagrangianScheduler::accept(int rank, PricingReply answer) {
   return update_from_bound();
 }
 
-void LagrangianScheduler::help(const Instance& instance, PricingRequest share) {
+void LagrangianScheduler::help(const Instance& instance, PricingRequest request) {
   const std::lock_guard lock(making_);
   if (!help_) help_ = std::make_unique<RemotePricing>(instance);
-  help_->accept(std::move(share));
+  help_->accept(std::move(request));
   helps_ = true;
 }
 

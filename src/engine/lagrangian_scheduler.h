@@ -64,7 +64,7 @@ class LagrangianScheduler {
 
   // Call on a rank other than 0: takes a pricing request, which precedes all other work. Throws as
   // RemotePricing::accept().
-  void help(const Instance& instance, PricingRequest share);
+  void help(const Instance& instance, PricingRequest request);
   std::optional<PricingReply> take_answer();
 
  private:

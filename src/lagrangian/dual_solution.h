@@ -16,11 +16,11 @@ namespace grove::detail {
 struct DualSolution {
   // Proven: no plan costs less.
   ScaledCost bound() const {
-    return std::accumulate(prices.begin(), prices.end(), -multipliers.sum());
+    return std::accumulate(values.begin(), values.end(), -multipliers.sum());
   }
 
   Multipliers multipliers;
-  std::vector<ScaledCost> prices;  // subproblem values, by agent
+  std::vector<ScaledCost> values;  // subproblem values, by agent
   std::vector<Path> paths;         // of these values; empty: no path is known
 };
 

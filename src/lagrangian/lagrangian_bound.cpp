@@ -154,7 +154,7 @@ void LagrangianBound::commit(Job job) {
   for (AgentIndex agent = job.first; agent < job.end; ++agent) {
     const auto at = static_cast<std::size_t>(agent - job.first);
     labels_[agent] = job.work * kLabelsPerWork / (job.end - job.first);
-    store_value(agent, job.prices[at], std::move(job.paths[at]));
+    store_value(agent, job.values[at], std::move(job.paths[at]));
   }
   end_pricing_if_done();
 }
@@ -247,14 +247,14 @@ int LagrangianBound::accept(int helper, PricingReply answer) {
   if (phase_ != Phase::kPricing || answer.round != rounds_ ||
       answer.digest != multipliers().digest())
     return 0;
-  const auto agents = static_cast<AgentIndex>(answer.prices.size());
-  if (agents == 0 || answer.paths.size() != answer.prices.size() || answer.first < asked_ ||
+  const auto agents = static_cast<AgentIndex>(answer.values.size());
+  if (agents == 0 || answer.paths.size() != answer.values.size() || answer.first < asked_ ||
       answer.first > instance_.agent_count() - agents)
     throw std::invalid_argument("pricing result: was not requested");
   int counted = 0;
   for (AgentIndex i = 0; i < agents; ++i) {
     labels_[answer.first + i] = answer.work * kLabelsPerWork / agents;
-    counted += store_value(answer.first + i, answer.prices[static_cast<std::size_t>(i)],
+    counted += store_value(answer.first + i, answer.values[static_cast<std::size_t>(i)],
                            std::move(answer.paths[static_cast<std::size_t>(i)]));
   }
   end_pricing_if_done();

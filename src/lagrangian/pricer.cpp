@@ -18,7 +18,7 @@ void Pricer::perform(PricingJob& job, const Limits& limits) {
     const ScaledCost known = job.known[static_cast<std::size_t>(agent - job.first)];
     const std::int64_t labels = search_.labels();
     Path path;
-    job.prices.push_back(known == kNoCost ? first_value(agent, limits, path)
+    job.values.push_back(known == kNoCost ? first_value(agent, limits, path)
                                           : price_below(known, agent, limits, path));
     job.paths.push_back(std::move(path));
     job.work += (search_.labels() - labels) / kLabelsPerWork + 1;

@@ -22,7 +22,7 @@ struct PricingJob {
   AgentIndex first = 0;
   AgentIndex end = 0;
   std::vector<ScaledCost> known;  // cost of a known path; kNoCost: none
-  std::vector<ScaledCost> prices;
+  std::vector<ScaledCost> values;
   std::vector<Path> paths;  // empty: no path cheaper than `known` was found
   std::int64_t work = 0;    // in the unit of search/work.h
   bool failed = false;      // memory was refused: no result counts
@@ -41,7 +41,7 @@ struct PricingReply {
   std::int64_t round = 0;    // of the request
   std::uint64_t digest = 0;  // of the multipliers under which all values were computed
   std::int32_t first = 0;
-  std::vector<ScaledCost> prices;
+  std::vector<ScaledCost> values;
   std::vector<Path> paths;  // empty: no path cheaper than the known one was found
   std::int64_t work = 0;
 };

@@ -14,20 +14,21 @@ namespace grove::detail {
 RemotePricing::RemotePricing(const Instance& instance)
     : instance_(instance), multipliers_(instance.world(), instance.agent_count()) {}
 
-void RemotePricing::accept(PricingRequest share) {
+void RemotePricing::accept(PricingRequest request) {
   const std::lock_guard lock(mutex_);
-  const auto agents = static_cast<std::int64_t>(share.known.size());
-  if (share_ || agents == 0 || share.first < 0 || share.first + agents > instance_.agent_count())
+  const auto agents = static_cast<std::int64_t>(request.known.size());
+  if (share_ || agents == 0 || request.first < 0 ||
+      request.first + agents > instance_.agent_count())
     throw std::invalid_argument("prices are asked for that cannot be wanted");
-  multipliers_.apply(share.update);
-  answer_.round = share.round;
+  multipliers_.apply(request.update);
+  answer_.round = request.round;
   answer_.digest = multipliers_.digest();
-  answer_.first = share.first;
-  answer_.prices.assign(share.known.size(), 0);
-  answer_.paths.assign(share.known.size(), {});
+  answer_.first = request.first;
+  answer_.values.assign(request.known.size(), 0);
+  answer_.paths.assign(request.known.size(), {});
   answer_.work = 0;
   next_ = done_ = 0;
-  share_ = std::move(share);
+  share_ = std::move(request);
 }
 
 std::optional<PricingJob> RemotePricing::next() {
@@ -48,10 +49,10 @@ bool RemotePricing::has_jobs() const {
 void RemotePricing::commit(PricingJob job) {
   const std::lock_guard lock(mutex_);
   const auto at = static_cast<std::size_t>(job.first - answer_.first);
-  std::ranges::copy(job.prices, answer_.prices.begin() + static_cast<std::ptrdiff_t>(at));
+  std::ranges::copy(job.values, answer_.values.begin() + static_cast<std::ptrdiff_t>(at));
   std::ranges::move(job.paths, answer_.paths.begin() + static_cast<std::ptrdiff_t>(at));
   answer_.work += job.work;
-  done_ += job.prices.size();
+  done_ += job.values.size();
 }
 
 std::optional<PricingReply> RemotePricing::take_answer() {

@@ -20,7 +20,7 @@ class RemotePricing {
 
   // Accepts the next request; the last one must have been answered. Throws std::invalid_argument if
   // the request is invalid.
-  void accept(PricingRequest share);
+  void accept(PricingRequest request);
   // The next job. Returns nullopt if there is none. The caller must perform and commit() it.
   std::optional<PricingJob> next();
   bool has_jobs() const;

@@ -86,7 +86,7 @@ void LargeNeighborhoodSearch::step(const Limits& limits) {
 LargeNeighborhoodSearch::RepairOperator& LargeNeighborhoodSearch::choose_repair() {
   const std::span<RepairOperator> repairs(
       repair_operators_.data(),
-      repair_operators_.size() - (low_level_.prices() == nullptr ? 1 : 0));
+      repair_operators_.size() - (low_level_.dual_solution() == nullptr ? 1 : 0));
   if (random_.below(kRepairExplorationPeriod) == 0) return repairs[random_.below(repairs.size())];
   return *std::ranges::max_element(
       repairs, {}, [](const RepairOperator& repair) { return (repair.gain + 1) / repair.work; });

@@ -131,7 +131,7 @@ void Neighborhoods::add_by_reduced_cost() {
 }
 
 void Neighborhoods::update_reduced_costs() {
-  const DualSolution& list = *low_level_.prices();
+  const DualSolution& dual_solution = *low_level_.dual_solution();
   const auto agents = paths_.paths().size();
   if (seen_prices_ != low_level_.price_changes()) {
     seen_prices_ = low_level_.price_changes();
@@ -141,8 +141,9 @@ void Neighborhoods::update_reduced_costs() {
   for (AgentIndex agent = 0; agent < std::ssize(paths_.paths()); ++agent) {
     if (seen_editions_[agent] == paths_.edition(agent)) continue;
     seen_editions_[agent] = paths_.edition(agent);
-    reduced_cost_[agent] = std::max<ScaledCost>(
-        0, list.multipliers.price(agent, paths_.path(agent)) - list.prices[agent]);
+    reduced_cost_[agent] =
+        std::max<ScaledCost>(0, dual_solution.multipliers.price(agent, paths_.path(agent)) -
+                                    dual_solution.values[agent]);
   }
 }
 
@@ -156,7 +157,7 @@ AgentIndex Neighborhoods::agent_by_reduced_cost() {
 }
 
 const Path& Neighborhoods::wanted_path(AgentIndex agent) const {
-  const Path& path = low_level_.prices()->paths[agent];
+  const Path& path = low_level_.dual_solution()->paths[agent];
   return path.empty() ? low_level_.individual_path(agent) : path;
 }
 

@@ -40,7 +40,7 @@ class Neighborhoods {
   void add(AgentIndex agent);
   bool full() const { return std::ssize(chosen_) >= wanted_; }
   // Number of operators that can be used: kReducedCost needs a dual solution.
-  int kinds() const { return low_level_.prices() == nullptr ? kReducedCost : kKinds; }
+  int kinds() const { return low_level_.dual_solution() == nullptr ? kReducedCost : kKinds; }
   void add_anyone();
   void add_delayed();
   AgentIndex some_delayed_agent();

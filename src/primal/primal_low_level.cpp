@@ -62,16 +62,16 @@ PathOutcome PrimalLowLevel::find(AgentIndex agent, const PathQuery& query, const
   return low_level_.find(goals(agent), query, limits, path);
 }
 
-void PrimalLowLevel::use(std::shared_ptr<const DualSolution> prices) {
+void PrimalLowLevel::use(std::shared_ptr<const DualSolution> dual_solution) {
   if (priced_) labels_before_ += priced_->labels();
-  prices_ = std::move(prices);
+  dual_solution_ = std::move(dual_solution);
   ++price_changes_;
-  priced_.emplace(prices_->multipliers.penalties());
+  priced_.emplace(dual_solution_->multipliers.penalties());
 }
 
 void PrimalLowLevel::improve(AgentIndex agent, const ReservationTable& others, Time latest,
                              const Limits& limits, Path& path) {
-  const Multipliers& multipliers = prices_->multipliers;
+  const Multipliers& multipliers = dual_solution_->multipliers;
   priced_->improve(goals(agent), multipliers.on_finish(agent), others, latest,
                    multipliers.price(agent, path), kMaxPricedLabels, limits, path);
 }

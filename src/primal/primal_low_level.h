@@ -32,9 +32,9 @@ class PrimalLowLevel {
   PathOutcome find(AgentIndex agent, const PathQuery& query, const Limits& limits, Path& path);
 
   // Sets the dual solution; not nullptr.
-  void use(std::shared_ptr<const DualSolution> prices);
+  void use(std::shared_ptr<const DualSolution> dual_solution);
   // The dual solution; nullptr: none yet.
-  const DualSolution* prices() const { return prices_.get(); }
+  const DualSolution* dual_solution() const { return dual_solution_.get(); }
   // Number of calls of use().
   int price_changes() const { return price_changes_; }
   // Replaces `path`, a path around `others`, by the path of least penalised cost that also goes
@@ -77,9 +77,9 @@ class PrimalLowLevel {
   std::vector<std::unique_ptr<SequenceStages>> goals_;
   std::vector<Path> own_paths_;  // individual paths, by AgentIndex
   std::int64_t calls_ = 0;
-  std::shared_ptr<const DualSolution> prices_;
+  std::shared_ptr<const DualSolution> dual_solution_;
   int price_changes_ = 0;
-  std::optional<PenalizedSearch> priced_;  // search with the penalties of prices_
+  std::optional<PenalizedSearch> priced_;  // search with the penalties of dual_solution_
   std::int64_t labels_before_ = 0;         // labels of the searches with earlier dual solutions
 };
 

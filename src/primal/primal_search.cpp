@@ -108,9 +108,10 @@ class PrimalSearch::Impl {
 
   std::optional<Plan> step(const Limits& limits);
   void adopt(const Plan& plan);
-  void use(std::shared_ptr<const DualSolution> prices) {
-    if (prices && prices.get() != low_level_.prices() && is_near(prices->bound()))
-      low_level_.use(std::move(prices));
+  void use(std::shared_ptr<const DualSolution> dual_solution) {
+    if (dual_solution && dual_solution.get() != low_level_.dual_solution() &&
+        is_near(dual_solution->bound()))
+      low_level_.use(std::move(dual_solution));
   }
 
   PlanSource source() const { return source_; }
@@ -447,8 +448,8 @@ PlanSource PrimalSearch::source() const {
 void PrimalSearch::adopt(const Plan& plan) {
   impl_->adopt(plan);
 }
-void PrimalSearch::use(std::shared_ptr<const DualSolution> prices) {
-  impl_->use(std::move(prices));
+void PrimalSearch::use(std::shared_ptr<const DualSolution> dual_solution) {
+  impl_->use(std::move(dual_solution));
 }
 std::optional<Cost> PrimalSearch::best_cost() const {
   return impl_->best_cost();

@@ -53,7 +53,7 @@ class PrimalSearch {
   // Sets the dual solution that guides large neighbourhood search. Ignored if it is null, if it is
   // the current one, or if the best plan costs more than 1 + lagrangian_lns_max_gap times its
   // bound.
-  void use(std::shared_ptr<const DualSolution> prices);
+  void use(std::shared_ptr<const DualSolution> dual_solution);
 
   // Cost of the cheapest plan that was returned or adopted or is about to be returned. Returns
   // nullopt if there is none.

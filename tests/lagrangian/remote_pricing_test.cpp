@@ -67,7 +67,7 @@ class Ascent {
     HelpingProcess& process = processes[static_cast<std::size_t>(helper)];
     if (random_.percent(30)) {
       for (auto& asked : bound->dispatch_pricing())
-        processes[static_cast<std::size_t>(asked.helper)].help.accept(std::move(asked.share));
+        processes[static_cast<std::size_t>(asked.helper)].help.accept(std::move(asked.request));
     } else if (random_.percent(50)) {
       process.work();
     } else if (!process.answers.empty() && random_.percent(60)) {
@@ -130,7 +130,7 @@ class OneHelper : public ::testing::Test {
   std::optional<PricingRequest> ask() {
     for (int i = 0; i < 100; ++i) {
       auto asked = bound->dispatch_pricing();
-      if (!asked.empty()) return std::move(asked.front().share);
+      if (!asked.empty()) return std::move(asked.front().request);
       auto job = bound->next();
       if (!job) break;
       bound->perform(*job, pricer, 20, 0, {});
@@ -138,8 +138,8 @@ class OneHelper : public ::testing::Test {
     }
     return std::nullopt;
   }
-  PricingReply answer_to(PricingRequest share) {
-    process.help.accept(std::move(share));
+  PricingReply answer_to(PricingRequest request) {
+    process.help.accept(std::move(request));
     while (process.work()) {
     }
     PricingReply answer = std::move(process.answers.back());
@@ -159,49 +159,49 @@ class OneHelper : public ::testing::Test {
 };
 
 TEST_F(OneHelper, ReplyCountsInItsRound) {
-  auto share = ask();
-  ASSERT_TRUE(share);
-  const auto agents = static_cast<int>(share->known.size());
-  EXPECT_EQ(bound->accept(0, answer_to(std::move(*share))), agents);
+  auto request = ask();
+  ASSERT_TRUE(request);
+  const auto agents = static_cast<int>(request->known.size());
+  EXPECT_EQ(bound->accept(0, answer_to(std::move(*request))), agents);
 }
 
 TEST_F(OneHelper, ReplyOfAnotherRoundDoesNotCount) {
   work_alone_until_round(5);
-  auto share = ask();
-  ASSERT_TRUE(share);
-  PricingReply late = answer_to(std::move(*share));
+  auto request = ask();
+  ASSERT_TRUE(request);
+  PricingReply late = answer_to(std::move(*request));
   const auto round = bound->rounds();
   work_alone_until_round(round + 1);  // the bound does not wait for the reply
   EXPECT_FALSE(ask()) << "a reply is outstanding";
   EXPECT_EQ(bound->accept(0, late), 0);
-  share = ask();
-  ASSERT_TRUE(share) << "no reply is outstanding";
-  late.round = share->round;
-  late.first = share->first;
-  late.prices.resize(share->known.size(), 1000 * Penalties::kUnit);
-  late.paths.resize(share->known.size());
+  request = ask();
+  ASSERT_TRUE(request) << "no reply is outstanding";
+  late.round = request->round;
+  late.first = request->first;
+  late.prices.resize(request->known.size(), 1000 * Penalties::kUnit);
+  late.paths.resize(request->known.size());
   EXPECT_EQ(bound->accept(0, late), 0) << "prices under other multipliers";
 }
 
 TEST_F(OneHelper, ReplyDoesNotCountAfterTheBoundDidItsPart) {
-  auto share = ask();
-  ASSERT_TRUE(share);
-  PricingReply late = answer_to(std::move(*share));
+  auto request = ask();
+  ASSERT_TRUE(request);
+  PricingReply late = answer_to(std::move(*request));
   work_alone_until_round(1);
   EXPECT_EQ(bound->accept(0, std::move(late)), 0);
 }
 
 TEST_F(OneHelper, RefusesInvalidRequests) {
-  auto share = ask();
-  ASSERT_TRUE(share);
-  PricingRequest other = *share;
+  auto request = ask();
+  ASSERT_TRUE(request);
+  PricingRequest other = *request;
   other.first = 2;
   EXPECT_THROW(process.help.accept(other), std::invalid_argument);
   other.first = 0;
   other.known.clear();
   EXPECT_THROW(process.help.accept(other), std::invalid_argument);
-  process.help.accept(*share);
-  EXPECT_THROW(process.help.accept(*share), std::invalid_argument) << "one at a time";
+  process.help.accept(*request);
+  EXPECT_THROW(process.help.accept(*request), std::invalid_argument) << "one at a time";
 }
 
 }  // namespace

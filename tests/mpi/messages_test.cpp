@@ -111,14 +111,14 @@ TEST(Messages, PricingRequestAndReplyRoundTrip) {
   sent.answer.round = 7;
   sent.answer.digest = 0xfedcba9876543210;
   sent.answer.first = 2;
-  sent.answer.prices = {4095, 0};
+  sent.answer.values = {4095, 0};
   sent.answer.paths = {{1, 2, 3}, {}};
   sent.answer.work = 11;
   const auto answer = returned(sent).answer;
   EXPECT_EQ(answer.round, 7);
   EXPECT_EQ(answer.digest, 0xfedcba9876543210);
   EXPECT_EQ(answer.first, 2);
-  EXPECT_EQ(answer.prices, sent.answer.prices);
+  EXPECT_EQ(answer.values, sent.answer.values);
   EXPECT_EQ(answer.paths, sent.answer.paths);
   EXPECT_EQ(answer.work, 11);
 }
