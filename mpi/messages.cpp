@@ -33,7 +33,7 @@ void at_full_width(Archive& archive, std::int64_t& number) {
 
 template <class Archive>
 void serialize(Archive& archive, MemoryUse& m) {
-  for (std::int64_t* bytes : {&m.process, &m.nodes, &m.reply, &m.path_sets, &m.groups})
+  for (std::int64_t* bytes : {&m.process, &m.nodes, &m.prices, &m.path_sets, &m.groups})
     at_full_width(archive, *bytes);
 }
 

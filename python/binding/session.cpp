@@ -45,7 +45,8 @@ void advance(Session& session, const py::object& steps, const py::dict& late) {
 
 OwnSolution replan(Session& session, int commit, const py::dict& arguments) {
   Call call(session.instance(), arguments);
-  Solution solution = run_aside(call, [&] { return session.replan(call.options, commit); });
+  Solution solution =
+      run_on_search_thread(call, [&] { return session.replan(call.options, commit); });
   return OwnSolution::of(session.instance(), std::move(solution));
 }
 

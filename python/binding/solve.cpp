@@ -45,9 +45,9 @@ void set_callbacks(Options& options, const Instance& instance, const py::dict& a
 }
 
 // A search on another thread.
-class Aside {
+class SearchThread {
  public:
-  explicit Aside(const std::function<Solution()>& solve)
+  explicit SearchThread(const std::function<Solution()>& solve)
       : thread_([this, &solve] {
           try {
             solution_ = solve();
@@ -101,12 +101,12 @@ Call::Call(const Instance& instance, const py::dict& arguments) : stop(arguments
   set_callbacks(options, instance, arguments);
 }
 
-Solution run_aside(Call& call, const std::function<Solution()>& solve) {
+Solution run_on_search_thread(Call& call, const std::function<Solution()>& solve) {
   std::exception_ptr interrupt;
-  std::unique_ptr<Aside> search;
+  std::unique_ptr<SearchThread> search;
   const auto ended = [&] {
     const py::gil_scoped_release release;
-    if (!search) search = std::make_unique<Aside>(solve);
+    if (!search) search = std::make_unique<SearchThread>(solve);
     return search->wait();
   };
   while (!ended()) {
@@ -149,8 +149,8 @@ void add_solve(py::module_& module) {
              "system, in bytes.");
   module.def("_solve", [](const Instance& instance, const py::dict& arguments) {
     Call call(instance, arguments);
-    return OwnSolution::of(instance,
-                           run_aside(call, [&] { return solve(instance, call.options); }));
+    return OwnSolution::of(
+        instance, run_on_search_thread(call, [&] { return solve(instance, call.options); }));
   });
 }
 

@@ -18,6 +18,6 @@ struct Call {
 };
 
 // Runs `solve` on another thread, so that this one can handle signals; returns its result.
-Solution run_aside(Call& call, const std::function<Solution()>& solve);
+Solution run_on_search_thread(Call& call, const std::function<Solution()>& solve);
 
 }  // namespace grove::python

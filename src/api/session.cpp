@@ -55,15 +55,15 @@ void Session::advance(int steps, const std::vector<Delay>& late) {
   if (!session.plan()) throw InvalidArgument("", "there is no plan; expected one to advance along");
   if (steps < 0)
     throw InvalidArgument("/steps", fmt::format("found {}; expected at least 0", steps));
-  std::vector<detail::Delay> those;
+  std::vector<detail::Delay> delays;
   for (std::size_t i = 0; i < late.size(); ++i) {
     const std::string field = fmt::format("/late/{}", i);
-    those.push_back({agent_of(session.instance(), late[i].agent, field), late[i].steps});
+    delays.push_back({agent_of(session.instance(), late[i].agent, field), late[i].steps});
     if (late[i].steps < 0) throw InvalidArgument(field, "expected at least 0 steps");
   }
   translated([&] {
     try {
-      session.advance(steps, those);
+      session.advance(steps, delays);
     } catch (const detail::InfeasibleDelay& error) {
       throw InvalidArgument("/late", error.what());
     }

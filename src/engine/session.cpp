@@ -212,12 +212,12 @@ class Session::Impl {
     GROVE_ASSERT(plan_, "advance() needs a plan");
     const bool is_anyone_late =
         std::ranges::any_of(late, [](const Delay& l) { return l.steps != 0; });
-    const Plan driven =
+    const Plan executed =
         is_anyone_late
             ? delayed_plan(instance_, *plan_, ActionDependencyGraph(instance_, *plan_), steps, late)
             : *plan_;
     Remainder rest =
-        grove::detail::advance(instance_, driven, steps, Rests::kAnywhere, ends_with_plan_);
+        grove::detail::advance(instance_, executed, steps, Rests::kAnywhere, ends_with_plan_);
     require_valid_plan_of(rest.instance, rest.plan);
     instance_ = std::move(rest.instance);
     plan_ = old_ = std::move(rest.plan);

@@ -105,25 +105,25 @@ Plan delayed_plan(const Instance& instance, const Plan& plan, const ActionDepend
                   Time time, std::span<const Delay> late) {
   require_possible(instance, time, late);
   const EarliestTimes wishes(order, time, late);
-  ExecutionTrace drive{std::vector<Time>(order.actions().size()),
+  ExecutionTrace trace{std::vector<Time>(order.actions().size()),
                        std::vector<Time>(order.actions().size())};
   for (std::int32_t number = 0; number < order.step_count(); ++number) {
     Time begin = 0;
     for (const ActionIndex a : order.step(number)) {
       begin = std::max(begin, wishes.begin(a));
-      if (order.before(a) != kNoAction) begin = std::max(begin, drive.end[order.before(a)]);
+      if (order.before(a) != kNoAction) begin = std::max(begin, trace.end[order.before(a)]);
       if (const ActionIndex other = order.after(a); other != kNoAction)
-        begin = std::max(begin, instance.may_follow() ? drive.begin[other] : drive.end[other]);
+        begin = std::max(begin, instance.may_follow() ? trace.begin[other] : trace.end[other]);
     }
     for (const ActionIndex a : order.step(number)) {
       if (wishes.is_certain(a) && begin > wishes.begin(a)) refuse(instance, order, a, time);
-      drive.begin[a] = begin;
-      drive.end[a] = begin + order.actions()[a].steps;
+      trace.begin[a] = begin;
+      trace.end[a] = begin + order.actions()[a].steps;
     }
   }
-  Plan driven = executed_plan(instance, plan, order, drive);
-  delay_work_begun_before(instance, late, driven);
-  return driven;
+  Plan executed = executed_plan(instance, plan, order, trace);
+  delay_work_begun_before(instance, late, executed);
+  return executed;
 }
 
 }  // namespace grove::detail

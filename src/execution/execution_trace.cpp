@@ -7,19 +7,19 @@
 namespace grove::detail {
 namespace {
 
-Time end_of(const ExecutionTrace& drive, ActionIndex action) {
-  return action == kNoAction ? 0 : drive.end[action];
+Time end_of(const ExecutionTrace& trace, ActionIndex action) {
+  return action == kNoAction ? 0 : trace.end[action];
 }
 
-Time may_begin(const ActionDependencyGraph& order, const ExecutionTrace& drive,
+Time may_begin(const ActionDependencyGraph& order, const ExecutionTrace& trace,
                ActionIndex action) {
-  return std::max(end_of(drive, order.before(action)), end_of(drive, order.after(action)));
+  return std::max(end_of(trace, order.before(action)), end_of(trace, order.after(action)));
 }
 
 // Appends an action that is completed at `end` to the path of a robot. The robot waits before it.
 void add_action(const Instance& instance, const AgentPlan& planned, const Action& action, Time end,
-                AgentPlan& driven) {
-  Path& path = driven.path;
+                AgentPlan& executed) {
+  Path& path = executed.path;
   const Time begin = end - action.steps;
   path.resize(static_cast<std::size_t>(begin) + 1, path.back());
   if (action.kind == Action::Kind::kWork) {
@@ -27,9 +27,9 @@ void add_action(const Instance& instance, const AgentPlan& planned, const Action
     // Work in progress at the start continues at once, because every plan of the instance has it
     // so. A delay follows it.
     const bool is_begun =
-        driven.work.empty() && instance.world().is_working(instance.agent(action.agent).start);
+        executed.work.empty() && instance.world().is_working(instance.agent(action.agent).start);
     const Time done = is_begun ? action.steps : end;
-    driven.work.push_back({action.task, done - duration, done});
+    executed.work.push_back({action.task, done - duration, done});
     path.resize(static_cast<std::size_t>(done) + 1, path.back());
   } else if (action.kind == Action::Kind::kMove) {
     path.push_back(action.to);
@@ -42,14 +42,14 @@ void add_action(const Instance& instance, const AgentPlan& planned, const Action
 }
 
 // All robots of a ring wait for the last one to arrive.
-AgentIndex waits_for(const ActionDependencyGraph& order, const ExecutionTrace& drive,
+AgentIndex waits_for(const ActionDependencyGraph& order, const ExecutionTrace& trace,
                      std::int32_t step) {
   for (const ActionIndex a : order.step(step)) {
     const AgentIndex self = order.actions()[a].agent;
-    if (drive.begin[a] < kNever && drive.end[a] == kNever) return self;
+    if (trace.begin[a] < kNever && trace.end[a] == kNever) return self;
     const ActionIndex other = order.after(a);
-    if (other != kNoAction && drive.end[other] == kNever) return order.actions()[other].agent;
-    if (end_of(drive, order.before(a)) == kNever) return self;
+    if (other != kNoAction && trace.end[other] == kNever) return order.actions()[other].agent;
+    if (end_of(trace, order.before(a)) == kNever) return self;
   }
   return -1;
 }
@@ -63,58 +63,59 @@ Time end_of_action(Time begin, Time duration) {
   return begin + duration;
 }
 
-ExecutionTrace drive(const ActionDependencyGraph& order, const Duration& duration) {
-  ExecutionTrace drive{std::vector<Time>(order.actions().size(), kNever),
+ExecutionTrace simulate(const ActionDependencyGraph& order, const Duration& duration) {
+  ExecutionTrace trace{std::vector<Time>(order.actions().size(), kNever),
                        std::vector<Time>(order.actions().size(), kNever)};
   for (std::int32_t number = 0; number < order.step_count(); ++number) {
     Time begin = 0;
     for (const ActionIndex a : order.step(number))
-      begin = std::max(begin, may_begin(order, drive, a));
+      begin = std::max(begin, may_begin(order, trace, a));
     if (begin == kNever) continue;
     Time end = begin;
     for (const ActionIndex a : order.step(number))
       end = std::max(end, end_of_action(begin, duration(a, begin)));
     for (const ActionIndex a : order.step(number)) {
-      drive.begin[a] = begin;
-      drive.end[a] = end;
+      trace.begin[a] = begin;
+      trace.end[a] = end;
     }
   }
-  return drive;
+  return trace;
 }
 
 ExecutionTrace simulate_nominal(const ActionDependencyGraph& order) {
-  return drive(order, [&](ActionIndex a, Time) { return order.actions()[a].steps; });
+  return simulate(order, [&](ActionIndex a, Time) { return order.actions()[a].steps; });
 }
 
 Plan executed_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
-                   const ExecutionTrace& drive) {
-  Plan driven;
+                   const ExecutionTrace& trace) {
+  Plan executed;
   for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
     AgentPlan robot{.sequence = plan.agents[agent].sequence,
                     .path = {plan.agents[agent].path.front()}};
     for (ActionIndex a = order.begin_of(agent); a < order.end_of(agent); ++a) {
-      if (drive.end[a] == kNever) break;
-      add_action(instance, plan.agents[agent], order.actions()[a], drive.end[a], robot);
+      if (trace.end[a] == kNever) break;
+      add_action(instance, plan.agents[agent], order.actions()[a], trace.end[a], robot);
     }
     robot.cost = static_cast<Time>(robot.path.size()) - 1;
-    driven.cost += robot.cost;
-    driven.agents.push_back(std::move(robot));
+    executed.cost += robot.cost;
+    executed.agents.push_back(std::move(robot));
   }
-  return driven;
+  return executed;
 }
 
-std::vector<BlockedRobot> stuck(const ActionDependencyGraph& order, const ExecutionTrace& drive) {
-  std::vector<BlockedRobot> stuck;
+std::vector<BlockedRobot> blocked_robots(const ActionDependencyGraph& order,
+                                         const ExecutionTrace& trace) {
+  std::vector<BlockedRobot> blocked_robots;
   std::vector<bool> is_listed(static_cast<std::size_t>(order.agent_count()));
   for (std::int32_t number = 0; number < order.step_count(); ++number) {
     for (const ActionIndex a : order.step(number)) {
       const AgentIndex agent = order.actions()[a].agent;
-      if (drive.end[a] < kNever || is_listed[agent]) continue;
+      if (trace.end[a] < kNever || is_listed[agent]) continue;
       is_listed[agent] = true;
-      stuck.push_back({agent, waits_for(order, drive, number)});
+      blocked_robots.push_back({agent, waits_for(order, trace, number)});
     }
   }
-  return stuck;
+  return blocked_robots;
 }
 
 }  // namespace grove::detail

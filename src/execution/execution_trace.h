@@ -31,7 +31,7 @@ Time end_of_action(Time begin, Time duration);
 
 // Simulates the execution. The moves of a ring take as long as the slowest of them. O(actions).
 // Throws std::overflow_error if a time is too large for a plan.
-ExecutionTrace drive(const ActionDependencyGraph& order, const Duration& duration);
+ExecutionTrace simulate(const ActionDependencyGraph& order, const Duration& duration);
 // The same with the durations of the plan.
 ExecutionTrace simulate_nominal(const ActionDependencyGraph& order);
 
@@ -39,7 +39,7 @@ ExecutionTrace simulate_nominal(const ActionDependencyGraph& order);
 // difference is a wait before it. If all robots completed all actions, this is a valid plan of
 // `instance`, else the plan of the completed actions.
 Plan executed_plan(const Instance& instance, const Plan& plan, const ActionDependencyGraph& order,
-                   const ExecutionTrace& drive);
+                   const ExecutionTrace& trace);
 
 // A robot that waits for ever, and the robot that it waits for; itself if it does not move again.
 struct BlockedRobot {
@@ -47,6 +47,7 @@ struct BlockedRobot {
   AgentIndex waits_for = -1;
 };
 // All robots that did not complete all their actions.
-std::vector<BlockedRobot> stuck(const ActionDependencyGraph& order, const ExecutionTrace& drive);
+std::vector<BlockedRobot> blocked_robots(const ActionDependencyGraph& order,
+                                         const ExecutionTrace& trace);
 
 }  // namespace grove::detail

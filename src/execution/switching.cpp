@@ -148,8 +148,8 @@ class Switching {
         step_of_(order.actions().size()),
         waits_(static_cast<std::size_t>(order.agent_count())),
         next_(static_cast<std::size_t>(order.agent_count())) {
-    driven_.drive.begin.assign(order.actions().size(), kNever);
-    driven_.drive.end.assign(order.actions().size(), kNever);
+    result_.trace.begin.assign(order.actions().size(), kNever);
+    result_.trace.end.assign(order.actions().size(), kNever);
     for (std::int32_t step = 0; step < order.step_count(); ++step)
       for (const ActionIndex a : order.step(step)) step_of_[a] = step;
     for (AgentIndex agent = 0; agent < order.agent_count(); ++agent)
@@ -166,8 +166,8 @@ class Switching {
     }
     for (AgentIndex agent = 0; agent < order_.agent_count(); ++agent)
       if (next_[agent] < order_.end_of(agent))
-        driven_.stuck.push_back({agent, waits_for(next_[agent])});
-    return std::move(driven_);
+        result_.blocked_robots.push_back({agent, waits_for(next_[agent])});
+    return std::move(result_);
   }
 
  private:
@@ -178,8 +178,8 @@ class Switching {
     Time until = 0;
   };
 
-  bool is_done(ActionIndex a) const { return driven_.drive.end[a] <= now_; }
-  bool is_begun(ActionIndex a) const { return driven_.drive.begin[a] <= now_; }
+  bool is_done(ActionIndex a) const { return result_.trace.end[a] <= now_; }
+  bool is_begun(ActionIndex a) const { return result_.trace.begin[a] <= now_; }
   bool is_in_ring(ActionIndex a) const { return order_.step(step_of_[a]).size() > 1; }
 
   // The action that `a` waits for; kNoAction if there is none, or if it belongs to the same ring.
@@ -212,8 +212,8 @@ class Switching {
       end = std::max(end, end_of_action(now_, duration_(a, now_)));
     }
     for (const ActionIndex a : step) {
-      driven_.drive.begin[a] = now_;
-      driven_.drive.end[a] = end;
+      result_.trace.begin[a] = now_;
+      result_.trace.end[a] = end;
     }
     if (end < kNever) event_times_.push(end);
   }
@@ -256,7 +256,7 @@ class Switching {
   bool has_action_in_progress() const {
     for (AgentIndex agent = 0; agent < order_.agent_count(); ++agent) {
       const ActionIndex a = next_[agent];
-      if (a < order_.end_of(agent) && is_begun(a) && driven_.drive.end[a] < kNever) return true;
+      if (a < order_.end_of(agent) && is_begun(a) && result_.trace.end[a] < kNever) return true;
     }
     return false;
   }
@@ -277,7 +277,7 @@ class Switching {
       rows_.move_behind(theirs, mine);
     }
     if (expected() < before) {
-      driven_.switches += std::ssize(group);
+      result_.switches += std::ssize(group);
       return true;
     }
     for (auto u = undo.rbegin(); u != undo.rend(); ++u) rows_.move(u->first, u->second);
@@ -301,7 +301,7 @@ class Switching {
     for (ActionIndex a = 0; a < static_cast<ActionIndex>(count); ++a) {
       const auto step = step_of_[a];
       if (is_done(a)) {
-        ends_[step] = driven_.drive.end[a];
+        ends_[step] = result_.trace.end[a];
         continue;
       }
       if (is_begun(a)) continue;
@@ -329,7 +329,7 @@ class Switching {
   void take(std::int32_t step) {
     Time begin = now_;
     for (const ActionIndex a : order_.step(step)) {
-      if (is_begun(a)) begin = driven_.drive.begin[a];
+      if (is_begun(a)) begin = result_.trace.begin[a];
       if (is_begun(a)) continue;
       if (const ActionIndex before = order_.before(a); before != kNoAction)
         begin = std::max(begin, ends_[step_of_[before]]);
@@ -357,7 +357,7 @@ class Switching {
   std::vector<ActionIndex> next_;      // by agent: its first incomplete action
   std::priority_queue<Time, std::vector<Time>, std::greater<>> event_times_;
   Time now_ = 0;
-  SwitchableTrace driven_;
+  SwitchableTrace result_;
 
   // Scratch of expected().
   std::vector<Time> ends_;          // by step

@@ -11,12 +11,12 @@
 namespace grove::detail {
 
 struct SwitchableTrace {
-  ExecutionTrace drive;
-  std::int64_t switches = 0;        // places at which the passing order of two robots was changed
-  std::vector<BlockedRobot> stuck;  // at the end: robots that wait, and for whom
+  ExecutionTrace trace;
+  std::int64_t switches = 0;  // places at which the passing order of two robots was changed
+  std::vector<BlockedRobot> blocked_robots;  // at the end: robots that wait, and for whom
 };
 
-// As drive(), but robots may switch their order. A robot that has waited for another one for
+// As trace(), but robots may switch their order. A robot that has waited for another one for
 // `patience` >= 1 steps tries to pass first, on the next common place and on all places that both
 // robots pass consecutively around it. If this fails, it waits twice as long before the next
 // attempt. It passes first if this reduces the expected sum of finish times. The expectation

@@ -170,8 +170,8 @@ ExpansionCounts Expander::counts() const {
   counts.path_steps = view_.steps() + dependencies_.steps();
   std::ranges::copy(brancher_.splits(), counts.splits.begin());
   counts.bypasses = brancher_.bypasses();
-  counts.branching_cost_queries = brancher_.prices().asked();
-  counts.branching_cost_hits = brancher_.prices().known();
+  counts.branching_cost_queries = brancher_.child_costs().asked();
+  counts.branching_cost_hits = brancher_.child_costs().known();
   counts.mdd_queries = memory_.mdd_queries();
   counts.mdd_hits = memory_.mdd_hits();
   return counts;

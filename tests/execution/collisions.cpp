@@ -20,7 +20,7 @@ struct Stay {
 };
 
 std::map<Place, std::vector<Stay>> stays_of(const World& world, const ActionDependencyGraph& order,
-                                            const ExecutionTrace& drive,
+                                            const ExecutionTrace& trace,
                                             const std::vector<State>& starts) {
   std::map<Place, std::vector<Stay>> stays;
   for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
@@ -28,12 +28,12 @@ std::map<Place, std::vector<Stay>> stays_of(const World& world, const ActionDepe
     Place at = world.place(starts[agent]);
     for (ActionIndex a = order.begin_of(agent); a < order.end_of(agent); ++a) {
       const Action& action = order.actions()[a];
-      if (action.kind != Action::Kind::kMove || drive.begin[a] == kNever) continue;
-      stay.leaves_begin = drive.begin[a];
-      stay.leaves_end = drive.end[a];
+      if (action.kind != Action::Kind::kMove || trace.begin[a] == kNever) continue;
+      stay.leaves_begin = trace.begin[a];
+      stay.leaves_end = trace.end[a];
       stay.goes_to = world.place(action.to);
       stays[at].push_back(stay);
-      stay = {agent, drive.begin[a], drive.end[a]};
+      stay = {agent, trace.begin[a], trace.end[a]};
       stay.came_from = std::exchange(at, world.place(action.to));
     }
     stays[at].push_back(stay);
@@ -49,8 +49,8 @@ bool follows(const Stay& first, const Stay& next) {
 }  // namespace
 
 std::string collision(const World& world, const ActionDependencyGraph& order,
-                      const ExecutionTrace& drive, const std::vector<State>& starts) {
-  for (auto& [place, row] : stays_of(world, order, drive, starts)) {
+                      const ExecutionTrace& trace, const std::vector<State>& starts) {
+  for (auto& [place, row] : stays_of(world, order, trace, starts)) {
     std::ranges::sort(row, {}, &Stay::enters_begin);
     for (std::size_t i = 1; i < row.size(); ++i) {
       if (row[i].enters_begin >= row[i - 1].leaves_end || follows(row[i - 1], row[i])) continue;

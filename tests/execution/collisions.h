@@ -16,6 +16,6 @@ namespace grove::detail::testing {
 // both moves begin and end together, as in one step of a plan, and the two do not swap. Actions
 // that are never begun are ignored.
 std::string collision(const World& world, const ActionDependencyGraph& order,
-                      const ExecutionTrace& drive, const std::vector<State>& starts);
+                      const ExecutionTrace& trace, const std::vector<State>& starts);
 
 }  // namespace grove::detail::testing

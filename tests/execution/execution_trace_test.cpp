@@ -39,11 +39,11 @@ TEST(ExecutionTrace, AllRobotsArriveWithoutCollisions) {
     if (!plan) continue;
     const ActionDependencyGraph order(instance, *plan);
     for (std::uint64_t schedule = 0; schedule < 50; ++schedule, ++drives) {
-      const ExecutionTrace driven = drive(order, Delays(order, schedule));
-      ASSERT_EQ(collision(instance.world(), order, driven, starts_of(instance)), "") << seed;
-      ASSERT_TRUE(stuck(order, driven).empty()) << seed << ", " << schedule;
+      const ExecutionTrace executed = simulate(order, Delays(order, schedule));
+      ASSERT_EQ(collision(instance.world(), order, executed, starts_of(instance)), "") << seed;
+      ASSERT_TRUE(blocked_robots(order, executed).empty()) << seed << ", " << schedule;
       Solution solution;
-      solution.plan = executed_plan(instance, *plan, order, driven);
+      solution.plan = executed_plan(instance, *plan, order, executed);
       solution.status = status_of(solution.plan->cost, 0, solution.omega);
       const auto wrong = check(instance, solution);
       ASSERT_TRUE(wrong.empty()) << seed << ", " << schedule << ": " << wrong[0].json_pointer << " "
@@ -62,9 +62,9 @@ TEST(ExecutionTrace, OnlyRobotsBehindFailedOnesAreBlocked) {
     const ActionDependencyGraph order(instance, *plan);
     for (std::uint64_t schedule = 0; schedule < 20; ++schedule) {
       Delays delays(order, schedule, true);
-      const ExecutionTrace driven = drive(order, std::ref(delays));
-      ASSERT_EQ(collision(instance.world(), order, driven, starts_of(instance)), "") << seed;
-      const std::vector<BlockedRobot> all = stuck(order, driven);
+      const ExecutionTrace executed = simulate(order, std::ref(delays));
+      ASSERT_EQ(collision(instance.world(), order, executed, starts_of(instance)), "") << seed;
+      const std::vector<BlockedRobot> all = blocked_robots(order, executed);
       EXPECT_LE(delays.any_robot_fails() ? 0 : all.size(), 0u);
       bool has_failed = all.empty();
       for (const BlockedRobot& s : all) {
@@ -89,14 +89,14 @@ TEST(ExecutionTrace, NominalTakesNoLongerThanPlanWithoutFollowing) {
     const auto plan = plan_of(instance);
     if (!plan) continue;
     const ActionDependencyGraph order(instance, *plan);
-    const ExecutionTrace driven = simulate_nominal(order);
+    const ExecutionTrace executed = simulate_nominal(order);
     bool follows = order.rings() > 0;
     bool is_longer = false;
     for (ActionIndex a = 0; a < static_cast<ActionIndex>(order.actions().size()); ++a) {
       const Action& action = order.actions()[a];
       const ActionIndex other = order.after(a);
       follows |= other != kNoAction && order.actions()[other].begin == action.begin;
-      is_longer |= driven.begin[a] > action.begin;
+      is_longer |= executed.begin[a] > action.begin;
     }
     without_following += follows ? 0 : 1;
     longer += is_longer ? 1 : 0;

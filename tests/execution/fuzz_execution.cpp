@@ -85,25 +85,25 @@ Instance roundabouts(std::uint64_t seed) {
 // Execution in which each robot ignores the others, but begins no action before its time in the
 // plan.
 ExecutionTrace by_clock(const ActionDependencyGraph& order, Delays delays) {
-  ExecutionTrace drive{std::vector<Time>(order.actions().size()),
+  ExecutionTrace trace{std::vector<Time>(order.actions().size()),
                        std::vector<Time>(order.actions().size())};
   for (std::int32_t number = 0; number < order.step_count(); ++number)
     for (const ActionIndex a : order.step(number)) {
-      const Time ready = order.before(a) == kNoAction ? 0 : drive.end[order.before(a)];
-      drive.begin[a] = std::max(ready, order.actions()[a].begin);
-      drive.end[a] = drive.begin[a] + delays(a, drive.begin[a]);
+      const Time ready = order.before(a) == kNoAction ? 0 : trace.end[order.before(a)];
+      trace.begin[a] = std::max(ready, order.actions()[a].begin);
+      trace.end[a] = trace.begin[a] + delays(a, trace.begin[a]);
     }
-  return drive;
+  return trace;
 }
 
 // Makespan and sum of costs.
 std::pair<double, double> makespan_and_cost(const ActionDependencyGraph& order,
-                                            const ExecutionTrace& drive) {
+                                            const ExecutionTrace& trace) {
   Time makespan = 0;
   Cost cost = 0;
   for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
-    makespan = std::max(makespan, drive.finish(order, agent));
-    cost += drive.finish(order, agent);
+    makespan = std::max(makespan, trace.finish(order, agent));
+    cost += trace.finish(order, agent);
   }
   return {makespan, static_cast<double>(cost)};
 }
@@ -119,21 +119,21 @@ void drive_all(const Instance& instance, const Plan& plan, std::int64_t drives, 
   ++counts.plans;
   counts.rings += static_cast<int>(order.rings());
   counts.undisturbed += makespan_and_cost(order, simulate_nominal(order)).first / planned;
-  const auto count_failures = [&](const ExecutionTrace& driven) {
-    counts.collisions += collision(world, order, driven, starts).empty() ? 0 : 1;
-    counts.deadlocks += stuck(order, driven).empty() ? 0 : 1;
+  const auto count_failures = [&](const ExecutionTrace& executed) {
+    counts.collisions += collision(world, order, executed, starts).empty() ? 0 : 1;
+    counts.deadlocks += blocked_robots(order, executed).empty() ? 0 : 1;
   };
   for (std::int64_t i = 0; i < drives; ++i, ++counts.drives) {
     const Delays delays(order, seed + static_cast<std::uint64_t>(i));
-    const ExecutionTrace driven = drive(order, delays);
-    count_failures(driven);
+    const ExecutionTrace executed = simulate(order, delays);
+    count_failures(executed);
     const SwitchableTrace switched = simulate_switchable(world, plan, order, delays);
-    count_failures(switched.drive);
+    count_failures(switched.trace);
     counts.switches += switched.switches;
     counts.collisions_by_clock +=
         collision(world, order, by_clock(order, delays), starts).empty() ? 0 : 1;
-    const auto [makespan, sum] = makespan_and_cost(order, driven);
-    const auto [makespan_switching, sum_switching] = makespan_and_cost(order, switched.drive);
+    const auto [makespan, sum] = makespan_and_cost(order, executed);
+    const auto [makespan_switching, sum_switching] = makespan_and_cost(order, switched.trace);
     counts.makespans += makespan / planned;
     counts.makespans_switching += makespan_switching / planned;
     counts.costs += sum / cost;

@@ -59,10 +59,10 @@ std::string first_violation(const Instance& instance, const Plan& plan) {
   return wrong.empty() ? "" : wrong.front().json_pointer + ": " + wrong.front().message;
 }
 
-Cost cost_of(const ActionDependencyGraph& order, const ExecutionTrace& drive) {
+Cost cost_of(const ActionDependencyGraph& order, const ExecutionTrace& trace) {
   Cost cost = 0;
   for (AgentIndex agent = 0; agent < order.agent_count(); ++agent)
-    cost += drive.finish(order, agent);
+    cost += trace.finish(order, agent);
   return cost;
 }
 
@@ -88,9 +88,9 @@ TEST(Switching, RobotThatWaitsForADelayedOneGoesFirst) {
   const Duration stops = [&](ActionIndex a, Time) { return a == 0 ? 50 : 1; };
   const SwitchableTrace switched = simulate_switchable(instance.world(), plan, order, stops);
   EXPECT_EQ(switched.switches, 1);
-  EXPECT_EQ(drive(order, stops).finish(order, 1), 56);
-  EXPECT_LT(switched.drive.finish(order, 1), 15);
-  EXPECT_EQ(switched.drive.finish(order, 0), 55);
+  EXPECT_EQ(simulate(order, stops).finish(order, 1), 56);
+  EXPECT_LT(switched.trace.finish(order, 1), 15);
+  EXPECT_EQ(switched.trace.finish(order, 0), 55);
 }
 
 // In a corridor that two robots must pass, their order cannot be switched once one of them is in
@@ -111,14 +111,14 @@ TEST(Switching, CausesNoDeadlock) {
       const Delays delays(order, schedule);
       const SwitchableTrace switched = simulate_switchable(instance.world(), *plan, order, delays,
                                                            1 + static_cast<Time>(seed % 5));
-      ASSERT_EQ(collision(instance.world(), order, switched.drive, starts), "") << seed;
-      ASSERT_TRUE(switched.stuck.empty()) << seed << ", " << schedule;
-      ASSERT_EQ(first_violation(instance, executed_plan(instance, *plan, order, switched.drive)),
+      ASSERT_EQ(collision(instance.world(), order, switched.trace, starts), "") << seed;
+      ASSERT_TRUE(switched.blocked_robots.empty()) << seed << ", " << schedule;
+      ASSERT_EQ(first_violation(instance, executed_plan(instance, *plan, order, switched.trace)),
                 "")
           << seed;
       switches += switched.switches;
-      switching += cost_of(order, switched.drive);
-      fixed += cost_of(order, drive(order, delays));
+      switching += cost_of(order, switched.trace);
+      fixed += cost_of(order, simulate(order, delays));
     }
   }
   EXPECT_GT(switches, 300);
@@ -136,16 +136,16 @@ TEST(Switching, OnlyRobotsBehindFailedOnesAreBlocked) {
     for (std::uint64_t schedule = 0; schedule < 10; ++schedule) {
       const Delays delays(order, schedule, true);
       const SwitchableTrace switched = simulate_switchable(instance.world(), *plan, order, delays);
-      const std::vector<BlockedRobot> fixed = stuck(order, drive(order, delays));
-      bool has_failed = switched.stuck.empty();
-      for (const BlockedRobot& s : switched.stuck) {
+      const std::vector<BlockedRobot> fixed = blocked_robots(order, simulate(order, delays));
+      bool has_failed = switched.blocked_robots.empty();
+      for (const BlockedRobot& s : switched.blocked_robots) {
         has_failed |= s.waits_for == s.agent;
-        EXPECT_TRUE(std::ranges::find(switched.stuck, s.waits_for, &BlockedRobot::agent) !=
-                    switched.stuck.end());
+        EXPECT_TRUE(std::ranges::find(switched.blocked_robots, s.waits_for, &BlockedRobot::agent) !=
+                    switched.blocked_robots.end());
       }
       EXPECT_TRUE(has_failed) << seed << ", " << schedule;
       stuck_fixed += std::ssize(fixed);
-      stuck_switching += std::ssize(switched.stuck);
+      stuck_switching += std::ssize(switched.blocked_robots);
     }
   }
   EXPECT_GT(stuck_fixed, 200);

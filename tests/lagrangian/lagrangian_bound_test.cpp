@@ -104,9 +104,9 @@ TEST_F(LagrangianBoundTest, HasTheDualSolutionOfItsBestRounds) {
     EXPECT_GE(bound->rounds(), 3);
     ScaledCost sum = -solution->multipliers.sum();
     for (AgentIndex agent = 0; agent < known.instance.agent_count(); ++agent) {
-      sum += solution->prices[agent];
+      sum += solution->values[agent];
       EXPECT_EQ(solution->multipliers.price(agent, solution->paths[agent]),
-                solution->prices[agent]);
+                solution->values[agent]);
     }
     EXPECT_EQ((sum + Penalties::kUnit - 1) / Penalties::kUnit, proven);
   }

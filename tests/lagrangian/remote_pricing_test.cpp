@@ -178,7 +178,7 @@ TEST_F(OneHelper, ReplyOfAnotherRoundDoesNotCount) {
   ASSERT_TRUE(request) << "no reply is outstanding";
   late.round = request->round;
   late.first = request->first;
-  late.prices.resize(request->known.size(), 1000 * Penalties::kUnit);
+  late.values.resize(request->known.size(), 1000 * Penalties::kUnit);
   late.paths.resize(request->known.size());
   EXPECT_EQ(bound->accept(0, late), 0) << "prices under other multipliers";
 }

@@ -96,10 +96,10 @@ TEST(Neighborhoods, PreferAgentsOfHighReducedCost) {
   const int before = times_chosen();
   DualSolution dual{Multipliers(instance.world(), instance.agent_count()), {}, {}};
   for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {
-    dual.prices.push_back(dual.multipliers.price(agent, planned.paths.path(agent)));
+    dual.values.push_back(dual.multipliers.price(agent, planned.paths.path(agent)));
     dual.paths.push_back(planned.low_level.individual_path(agent));
   }
-  dual.prices[kHighReducedCost] -= 10 * Penalties::kUnit;
+  dual.values[kHighReducedCost] -= 10 * Penalties::kUnit;
   planned.low_level.use(std::make_shared<const DualSolution>(std::move(dual)));
   EXPECT_GT(times_chosen(), before + 80);
 }

@@ -71,13 +71,13 @@ TEST(Brancher, PrunesBranchesThatReachTheCutoff) {
   ASSERT_EQ(s.branch(s.root->cost() + 2), Brancher::Outcome::kBranched);
   EXPECT_EQ(s.children.size(), 2u);
   for (const NodePtr& child : s.children) EXPECT_EQ(child->cost(), s.root->cost() + 1);
-  const ChildCosts& prices = s.brancher.prices();
-  const std::int64_t asked = prices.asked();
-  EXPECT_GT(asked, prices.known());
+  const ChildCosts& child_costs = s.brancher.child_costs();
+  const std::int64_t asked = child_costs.asked();
+  EXPECT_GT(asked, child_costs.known());
   s.view.enter(s.root, s.all);
   ASSERT_EQ(s.branch(s.root->cost() + 2), Brancher::Outcome::kBranched);
-  EXPECT_EQ(prices.asked(), 2 * asked);
-  EXPECT_GE(prices.known(), asked);  // every query of the second call
+  EXPECT_EQ(child_costs.asked(), 2 * asked);
+  EXPECT_GE(child_costs.known(), asked);  // every query of the second call
   for (const Cost cutoff : {s.root->cost() + 1, s.root->cost()}) {
     s.view.enter(s.root, s.all);
     ASSERT_EQ(s.branch(cutoff), Brancher::Outcome::kBranched);

@@ -77,11 +77,11 @@ struct Totals {
   std::vector<Cost> makespans;
   std::vector<Cost> costs;
 
-  void add(const ActionDependencyGraph& order, const ExecutionTrace& drive) {
+  void add(const ActionDependencyGraph& order, const ExecutionTrace& trace) {
     Cost makespan = 0;
     Cost cost = 0;
     for (AgentIndex agent = 0; agent < order.agent_count(); ++agent) {
-      const Cost finish = drive.finish(order, agent);
+      const Cost finish = trace.finish(order, agent);
       makespan = std::max(makespan, finish);
       cost += finish;
     }
@@ -106,7 +106,7 @@ class Execution {
       write(a_.order,
             passing_order_text(loaded_.instance, order_, a_.frame.frame(loaded_.instance)));
     const Disturbances troubles(a_.troubles, loaded_.instance);
-    for (std::int64_t run = 0; run < a_.runs; ++run) drive_once(troubles, a_.seed + run);
+    for (std::int64_t run = 0; run < a_.runs; ++run) simulate_once(troubles, a_.seed + run);
     print();
     if (a_.switches) fmt::print("switched: {} places\n", switches_);
     if (unfinished_ > 0) report_blocked_robots();
@@ -118,31 +118,31 @@ class Execution {
     fmt::print("wrote {}\n", file);
   }
 
-  void drive_once(const Disturbances& troubles, std::int64_t seed) {
+  void simulate_once(const Disturbances& troubles, std::int64_t seed) {
     const auto durations = [&] {
       return troubles.durations(order_, static_cast<std::uint64_t>(seed));
     };
-    ExecutionTrace drive = grove::detail::drive(order_, durations());
-    std::vector<BlockedRobot> stuck = grove::detail::stuck(order_, drive);
-    if (stuck.empty()) fixed_.add(order_, drive);
+    ExecutionTrace trace = grove::detail::simulate(order_, durations());
+    std::vector<BlockedRobot> blocked_robots = grove::detail::blocked_robots(order_, trace);
+    if (blocked_robots.empty()) fixed_.add(order_, trace);
     if (a_.switches) {
       SwitchableTrace switched = simulate_switchable(loaded_.instance.world(),
                                                      *claimed_.solution.plan, order_, durations());
-      drive = std::move(switched.drive);
-      stuck = std::move(switched.stuck);
+      trace = std::move(switched.trace);
+      blocked_robots = std::move(switched.blocked_robots);
       switches_ += switched.switches;
-      if (stuck.empty()) switching_.add(order_, drive);
+      if (blocked_robots.empty()) switching_.add(order_, trace);
     }
-    if (seed == a_.seed) show(drive, stuck);
-    if (stuck.empty()) return require_valid(drive);
+    if (seed == a_.seed) show(trace, blocked_robots);
+    if (blocked_robots.empty()) return require_valid(trace);
     if (unfinished_++ > 0) return;
-    first_stuck_ = std::move(stuck);
+    first_stuck_ = std::move(blocked_robots);
     first_stuck_seed_ = seed;
   }
 
-  Solution solution_of(const ExecutionTrace& drive) const {
+  Solution solution_of(const ExecutionTrace& trace) const {
     Solution solution;
-    solution.plan = executed_plan(loaded_.instance, *claimed_.solution.plan, order_, drive);
+    solution.plan = executed_plan(loaded_.instance, *claimed_.solution.plan, order_, trace);
     solution.lower_bound = 0;
     solution.may_follow = claimed_.solution.may_follow;  // an execution adds no following
     solution.status = status_of(solution.plan->cost, 0, solution.omega);
@@ -151,10 +151,10 @@ class Execution {
     return solution;
   }
 
-  void show(const ExecutionTrace& drive, const std::vector<BlockedRobot>& stuck) const {
-    const Solution driven = solution_of(drive);
-    if (!a_.output.empty() && stuck.empty())
-      write(a_.output, solution_text(loaded_.instance, driven));
+  void show(const ExecutionTrace& trace, const std::vector<BlockedRobot>& blocked_robots) const {
+    const Solution executed = solution_of(trace);
+    if (!a_.output.empty() && blocked_robots.empty())
+      write(a_.output, solution_text(loaded_.instance, executed));
     else if (!a_.output.empty())
       print_warnings(
           {fmt::format("{} is not written: not all robots reach their end, so the execution "
@@ -162,18 +162,18 @@ class Execution {
                        a_.output)});
     if (a_.view.empty()) return;
     const std::string name_of_drive =
-        stuck.empty() ? "driven"
-                      : fmt::format("driven, {} of {} robots do not reach their end", stuck.size(),
-                                    order_.agent_count());
+        blocked_robots.empty() ? "driven"
+                               : fmt::format("driven, {} of {} robots do not reach their end",
+                                             blocked_robots.size(), order_.agent_count());
     const std::vector<NamedPlan> plans{
-        {"planned", claimed_}, {name_of_drive, {driven, {"lower bound", "order of tasks"}}}};
+        {"planned", claimed_}, {name_of_drive, {executed, {"lower bound", "order of tasks"}}}};
     const std::string name = std::filesystem::path(a_.instance.name()).filename().string();
     write(a_.view, plan_page(name, page_data(name, loaded_.instance, plans)));
   }
 
   // Uses the independent checker: an execution with a collision is an error in Grove.
-  void require_valid(const ExecutionTrace& drive) const {
-    require_valid_plan(loaded_.instance, solution_of(drive));
+  void require_valid(const ExecutionTrace& trace) const {
+    require_valid_plan(loaded_.instance, solution_of(trace));
   }
 
   void report_blocked_robots() const {

@@ -102,16 +102,16 @@ void RequestedChange::block_on_roadmap(const std::string& text, const Roadmap& r
 void RequestedChange::refuse(const InstanceError& error) const {
   const Field field(error.field());
   if (field.part == "new_tasks") {
-    const Source& said = new_tasks_[field.number];
-    throw InputError(said.where, said.what + field.rest, error.what());
+    const Source& source = new_tasks_[field.number];
+    throw InputError(source.where, source.what + field.rest, error.what());
   }
   const auto& all = field.part == "dropped_tasks" ? dropped_
                     : field.part == "blocked"     ? blocked_
                                                   : closed_roads_;
   if (field.number >= all.size()) throw error;
-  const Source& said = all[field.number];
-  throw CLI::ValidationError(said.where,
-                             fmt::format("'{}': {}", one_line(said.what), error.what()));
+  const Source& source = all[field.number];
+  throw CLI::ValidationError(source.where,
+                             fmt::format("'{}': {}", one_line(source.what), error.what()));
 }
 
 }  // namespace grove::detail
