@@ -16,7 +16,7 @@ struct SwitchableTrace {
   std::vector<BlockedRobot> blocked_robots;  // at the end: robots that wait, and for whom
 };
 
-// As trace(), but robots may switch their order. A robot that has waited for another one for
+// As simulate(), but robots may switch their order. A robot that has waited for another one for
 // `patience` >= 1 steps tries to pass first, on the next common place and on all places that both
 // robots pass consecutively around it. If this fails, it waits twice as long before the next
 // attempt. It passes first if this reduces the expected sum of finish times. The expectation
