@@ -44,7 +44,7 @@ class Baselines : public ::testing::TestWithParam<LowLevel> {
 
 // An agent on the first task at time 2 cannot leave it in time: the earliest arrival leads to no
 // path.
-TEST_P(Baselines, ArriveLateIfAnEarlyArrivalIsATrap) {
+TEST_P(Baselines, ArriveLateIfEarlyArrivalLeadsNowhere) {
   const Instance instance = instance_of({"....."}, {{{0, 0}, std::nullopt, {{2, 0}, {4, 0}}}});
   EXPECT_EQ(cost(instance, {{1, kNoCell, 3, 4}, {2, kNoCell, 3, 4}, {3, kNoCell, 3, 9}}), 11);
 }
@@ -161,7 +161,7 @@ TEST_P(Baselines, AgreeWithTheDefinition) {
 }
 
 // Many goals on a larger map; each further constraint blocks the path just found.
-TEST_P(Baselines, AgreeWithGrovesOwn) {
+TEST_P(Baselines, AgreeWithGrovesLowLevel) {
   std::mt19937 random(7);
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   for (int round = 0; round < 12; ++round) {

@@ -82,7 +82,7 @@ TEST_F(Manifests, GiveIdsIndependentOfTheWorkingDirectory) {
 }
 
 // An id contains no path of the machine.
-TEST_F(Manifests, NameFilesElsewhereByTheirFolder) {
+TEST_F(Manifests, NameExternalFilesByTheirFolder) {
   add_file("far/away/set/b.cts.json");
   add_file("far/away/x.scen");
   add_file("far/away/m.map");
@@ -130,7 +130,7 @@ TEST_F(Manifests, RefuseAnInstanceThatOccursTwice) {
             "with distinct names");
 }
 
-TEST_F(Manifests, MayBeOneInstance) {
+TEST_F(Manifests, CanBeASingleInstance) {
   add_file("a.cts.json");
   EXPECT_EQ(ids(read_manifest(directory_ / "a.cts.json")), Ids{"a"});
   EXPECT_NE(refusal([&] { read_manifest(directory_ / "b.cts.json"); }), "accepted");

@@ -8,7 +8,7 @@
 namespace grove::detail::batch {
 namespace progress_test {
 
-TEST(Estimates, ExtrapolateThePresentPace) {
+TEST(Estimates, ExtrapolateTheCurrentPace) {
   const Workload work{.done = 41, .left = 94, .workers = 2, .done_s = 235, .under_way_s = 11};
   EXPECT_DOUBLE_EQ(*seconds_each(work), 6);
   EXPECT_DOUBLE_EQ(*seconds_left(work), 282);
@@ -65,7 +65,7 @@ TEST(Displays, RedrawTheLineOnATerminal) {
             "\r[------------] 0:00\033[K\r[------------] 0:05\033[K\r[#############] end\033[K\n");
 }
 
-TEST(Displays, PrintALineNowAndThenWithoutATerminal) {
+TEST(Displays, PrintLinesPeriodicallyWithoutATerminal) {
   EXPECT_EQ(shown(false, {0, 1, 10, 29, 31, 32, 60, 61.5}), "0:00\n0:31\n1:02\nend\n");
 }
 

@@ -114,7 +114,7 @@ TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreeSearchCounts) {
 }
 
 // With a plan it proves that no plan is better.
-TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreeSearchMayCloseTheGap) {
+TEST_F(CentralBoundsTest, BoundProvenOutsideTheTreesCanCloseTheGap) {
   bounds_.post(plan(), PlanSource::kStart);
   bounds_.prove(kInfiniteCost, BoundSource::kJointSearch);
   EXPECT_TRUE(bounds_.over());

@@ -73,7 +73,7 @@ class CentralTreesTest : public ::testing::Test {
   std::optional<CentralTrees> trees_;
 };
 
-TEST_F(CentralTreesTest, NextTreeIsDueWhenTheBestNodeCostsMoreThanTheLastTree) {
+TEST_F(CentralTreesTest, NextTreeIsDueAboveTheCostOfTheLastTree) {
   begin({8, 10, 12});
   EXPECT_EQ(trees_->count(), 1);
   trees_->instantiate_due_tree();
@@ -104,7 +104,7 @@ TEST_F(CentralTreesTest, NoTreeIsDueWithinOmegaOfTheLastTree) {
 }
 
 // Otherwise a plan would for a moment be in no node and no tree that the bound covers.
-TEST_F(CentralTreesTest, RootIsPushedBeforeTheBoundOfLaterTreesIsRaised) {
+TEST_F(CentralTreesTest, RootIsPushedBeforeTheNextBoundRises) {
   std::vector<Cost> bounds_at_push;
   nodes_.when_pushed = [&] { bounds_at_push.push_back(bounds_->trees_from()); };
   begin({8, 10});
@@ -136,7 +136,7 @@ TEST_F(CentralTreesTest, KeepsTheNextTreeAtALimit) {
   EXPECT_FALSE(bounds_->over());
 }
 
-TEST_F(CentralTreesTest, PreparedTreeIsNotInstantiatedAndBoundsLaterTrees) {
+TEST_F(CentralTreesTest, PreparedTreeBoundsLaterTrees) {
   options_.policy = Policy::kFixed;
   begin({8, 10, 12});
   ASSERT_TRUE(trees_->claim_preparation());
@@ -160,7 +160,7 @@ TEST_F(CentralTreesTest, PreparesTreesOnlyForTheFixedPolicy) {
   EXPECT_FALSE(trees_->claim_preparation());
 }
 
-TEST_F(CentralTreesTest, RestartsAfterEvictionWhileThatRaisesTheBound) {
+TEST_F(CentralTreesTest, RestartsWhileThatRaisesTheEvictedBound) {
   begin({8});
   settle_best();
   nodes_.frontier.push(search_.child(9));
@@ -180,7 +180,7 @@ TEST_F(CentralTreesTest, RestartsAfterEvictionWhileThatRaisesTheBound) {
   EXPECT_EQ(bounds_->lower_bound(), 9);
 }
 
-TEST_F(CentralTreesTest, InstantiatesTreesBelowTheEvictedBoundBeforeARestart) {
+TEST_F(CentralTreesTest, InstantiatesCheaperTreesBeforeARestart) {
   begin({8, 9});
   settle_best();
   nodes_.frontier.push(search_.child(11));

@@ -125,7 +125,7 @@ TEST(Multicore, DeterministicRunExpandsTheSameLabelsForAnyThreads) {
 }
 
 // The primal search receives Lagrangian multipliers while it runs.
-TEST(Multicore, DeterministicRunWithLagrangianLnsIsTheSameToo) {
+TEST(Multicore, DeterministicRunWithLagrangianLnsIsRepeatable) {
   int with_effect = 0;
   std::vector<Instance> some = instances();
   some.erase(some.begin() + 5, some.end());

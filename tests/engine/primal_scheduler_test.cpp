@@ -73,7 +73,7 @@ TEST(PrimalScheduler, CapGrowsFromAQuarterWithTheTreeWork) {
   EXPECT_FALSE(may_do(scheduler, s.primal, kLong / 2, 2 * kLong + 1));
 }
 
-TEST(PrimalScheduler, RatioWithoutAPlanIsEightUntilManyAttemptsFailed) {
+TEST(PrimalScheduler, RatioWithoutAPlanFallsAfterManyFailures) {
   // The agents cannot pass each other, which the primal search does not detect.
   Setting s(testing::instance_of({"......"}, {{{0, 0}, Position{5, 0}}, {{5, 0}, Position{0, 0}}}));
   expect_ratio(memory_returned(s.primal, 2), s.primal, 8);
@@ -100,7 +100,7 @@ TEST(PrimalScheduler, RatioWithAPlanFollowsItsSuccess) {
   EXPECT_EQ(max_x, 1);
 }
 
-TEST(PrimalScheduler, RatioIsAtLeastOneWhileTheTreeBoundIsDominated) {
+TEST(PrimalScheduler, RatioIsAtLeastOneWhileTreesAreDominated) {
   // The agents cannot pass each other, which the primal search does not detect: it fails often.
   Setting s(testing::instance_of({"......"}, {{{0, 0}, Position{5, 0}}, {{5, 0}, Position{0, 0}}}));
   for (int i = 0; i < 10'000 && s.primal.counts().attempts <= 4; ++i) s.primal.step(s.limits);

@@ -132,7 +132,7 @@ void expect_every_bit_flip_detected(const T& value) {
   EXPECT_GT(refused, 40);
 }
 
-TEST(Bytes, GiveAnotherValueOrAreRefusedIfABitIsFlipped) {
+TEST(Bytes, DifferOrAreRefusedIfABitIsFlipped) {
   expect_every_bit_flip_detected(a_node());
   expect_every_bit_flip_detected(a_tree());
   expect_every_bit_flip_detected(a_plan());

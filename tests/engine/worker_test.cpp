@@ -148,7 +148,7 @@ TEST(Worker, PrimalSearchFindsOnlyPlansBelowTheIncumbent) {
   for (const Plan& plan : found_by(with_incumbent, 0, 40)) EXPECT_LT(plan.cost, plans.front().cost);
 }
 
-TEST(Worker, HelpsToBoundANodeTakenByAnotherUntilNothingIsLeft) {
+TEST(Worker, HelpsToBoundANodeOfAnotherWorker) {
   Search s({Technique::kWdg, Technique::kStrongBranching});
   Expansion unfinished;
   unfinished.unfinished = true;

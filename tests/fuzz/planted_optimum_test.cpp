@@ -45,7 +45,7 @@ class PlantedInABay : public ::testing::Test {
   }
 };
 
-TEST_F(PlantedInABay, IsKeptByTheExpander) {
+TEST_F(PlantedInABay, ExpanderKeepsThePlan) {
   planted_.on_root(root_);
   const Expansion expansion = expander_.expand(root_, kInfiniteCost, limits_);
   planted_.on_expanded(root_, expansion, 0);
@@ -54,7 +54,7 @@ TEST_F(PlantedInABay, IsKeptByTheExpander) {
   EXPECT_TRUE(holder(expansion));
 }
 
-TEST_F(PlantedInABay, LossIsReportedWhenItsChildIsDropped) {
+TEST_F(PlantedInABay, ReportsLossIfTheHoldingChildIsDropped) {
   planted_.on_root(root_);
   Expansion expansion = expander_.expand(root_, kInfiniteCost, limits_);
   std::erase_if(expansion.children, [&](const NodePtr& c) { return planted_.held_by(*c); });
@@ -62,7 +62,7 @@ TEST_F(PlantedInABay, LossIsReportedWhenItsChildIsDropped) {
   EXPECT_THAT(planted_.complaints(), Contains(HasSubstr("lost it")));
 }
 
-TEST_F(PlantedInABay, LossIsReportedWhenAConstraintForbidsIt) {
+TEST_F(PlantedInABay, ReportsLossIfConstraintsForbidThePlan) {
   planted_.on_root(root_);
   Expansion expansion = expander_.expand(root_, kInfiniteCost, limits_);
   for (NodePtr& child : expansion.children) {

@@ -104,7 +104,7 @@ TEST_F(PlanExport, LibmrpSchedulesHaveNoKeysTooLongForYaml) {
   EXPECT_THROW(write(1025), NotRepresentable);
 }
 
-TEST_F(PlanExport, VisualizerTextIsPaddedAndEndsEveryPositionWithAComma) {
+TEST_F(PlanExport, VisualizerTextIsPaddedWithTrailingCommas) {
   EXPECT_EQ(written([&](const std::string& path) {
               write_visualizer_text(path, instance_, solution_, "m.map");
             }),

@@ -66,7 +66,7 @@ TEST(LoadBalancer, OneDonorServesSeveralRanks) {
   EXPECT_EQ(nodes, 5);
 }
 
-TEST(LoadBalancer, RankFarAboveTheBoundReceivesOnlyFromALargeSurplus) {
+TEST(LoadBalancer, RankAboveTheBoundReceivesOnlyLargeSurplus) {
   LoadBalancer balancer(single_ranks(2));
   balancer.heard(1, with(1, 15, 25));
   balancer.heard(0, with(0, 10, 2));

@@ -333,7 +333,7 @@ TEST(IsolatedSubCoordinator, ReportsTheLeastBoundOfItsRanks) {
   EXPECT_TRUE(all.live);
 }
 
-TEST(IsolatedSubCoordinator, CoversAssignedNodesUntilAChildReportsThem) {
+TEST(IsolatedSubCoordinator, CoversAssignedNodesUntilReported) {
   Setting setting;
   SubCoordinatorOfThree s;
   const NodePtr root = setting.new_root();
@@ -349,7 +349,7 @@ TEST(IsolatedSubCoordinator, CoversAssignedNodesUntilAChildReportsThem) {
   EXPECT_EQ(status.bound, root->bound() + 1);
 }
 
-TEST(IsolatedSubCoordinator, ReleasesBatchesBetweenItsRanksAndForwardsTheRest) {
+TEST(IsolatedSubCoordinator, ReleasesOnlyBatchesBetweenItsRanks) {
   SubCoordinatorOfThree s;
   message::Status took = SubCoordinatorOfThree::with(20, 0);
   took.taken = {{4, 5, 3}, {4, 8, 1}};
@@ -363,7 +363,7 @@ TEST(IsolatedSubCoordinator, ReleasesBatchesBetweenItsRanksAndForwardsTheRest) {
   EXPECT_TRUE(s.status_after(5, SubCoordinatorOfThree::with(30, 0)).taken.empty()) << "once";
 }
 
-TEST(IsolatedSubCoordinator, KeepsItsEpochUntilAllItsRanksHaveRestarted) {
+TEST(IsolatedSubCoordinator, KeepsItsEpochUntilAllRanksRestarted) {
   SubCoordinatorOfThree s;
   EXPECT_EQ(s.status_after(0, message::Restart{7}).epoch, 0);
   message::Status restarted;
@@ -394,7 +394,7 @@ TEST(IsolatedSubCoordinator, ForwardsSendNodesEvenIfNoRankHasNodes) {
   EXPECT_EQ(s.transport.sent<message::SendNodes>(3).size(), 1) << "the receiver waits for a batch";
 }
 
-TEST(IsolatedSubCoordinator, DropsOnlyPlansThatDoNotImproveTheIncumbent) {
+TEST(IsolatedSubCoordinator, ForwardsOnlyImprovingPlans) {
   SubCoordinatorOfThree s;
   Plan plan;
   plan.cost = 50;

@@ -374,7 +374,7 @@ TEST(FreeOrderSipp, StopBarredTooSoonIsInfeasibleWithoutSearch) {
 
 // The door closes before an agent that has visited the stop behind it can return; all of the many
 // orders are infeasible.
-TEST(FreeOrderSipp, ClosingDoorIsInfeasibleWithoutEnumeratingOrders) {
+TEST(FreeOrderSipp, ClosingDoorIsInfeasibleWithFewLabels) {
   const Grid grid = grid_of({"........@.", "..........", "........@.", "........@."});
   for (const int n : {12, 20}) {
     FreeProblem problem = corridor(grid, {39}, 20);
@@ -388,7 +388,7 @@ TEST(FreeOrderSipp, ClosingDoorIsInfeasibleWithoutEnumeratingOrders) {
 }
 
 // The same door, closed for long: every path costs far more than the cutoff.
-TEST(FreeOrderSipp, LongClosedDoorIsAboveCutoffWithoutEnumeratingOrders) {
+TEST(FreeOrderSipp, LongClosedDoorIsAboveCutoffWithFewLabels) {
   const Grid grid = grid_of({"........@.", "..........", "........@.", "........@."});
   FreeProblem problem = corridor(grid, {39}, 20);
   for (Cell cell = 1; problem.stops.size() < 20; ++cell)

@@ -117,7 +117,7 @@ TEST_F(SafeIntervalsTest, FirstAndLastMovesSkipEdgeConstraints) {
   }
 }
 
-TEST_F(SafeIntervalsTest, NoRestByTheLatestTimeSplitsTheLastIntervalByArrival) {
+TEST_F(SafeIntervalsTest, NoRestBySplitsTheLastIntervalByArrival) {
   intervals_.assign(
       std::vector<Constraint>{{1, kNoCell, 2, 3}, no_rest(1, 7), no_rest(1, 5), no_rest(0, -1)});
   EXPECT_EQ(of(1), (Intervals{{0, 1}, {4, kNever}, {8, kNever}}));

@@ -97,7 +97,7 @@ TEST(LacamWithRestarts, AgentLeavesADeadEndInWhichAnotherHasATask) {
                           {{{9, 1}, Position{0, 1}, {{1, 3}}}, {{1, 0}, Position{1, 3}}}));
 }
 
-TEST(LacamWithRestarts, AgentsWithoutADestinationEndOnDifferentStops) {
+TEST(LacamWithRestarts, AgentsEndOnDifferentStops) {
   solved_cost(
       instance_of({".....", "....."}, {{{0, 0}, {}, {{3, 0}, {4, 0}}}, {{1, 0}, {}, {{4, 0}}}}));
 }

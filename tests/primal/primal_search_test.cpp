@@ -292,7 +292,7 @@ TEST(PrimalSearch, TakesNoJointStepsWithoutLacam) {
   EXPECT_GT(search.primal.counts().attempts, 1);
 }
 
-TEST(PrimalSearch, FirstPrioritisedPlanningAttemptRunsUninterrupted) {
+TEST(PrimalSearch, FirstAttemptOfPlanningIsNotInterrupted) {
   const Instance instance = instance_of(
       {"....", "....", "...."},
       {{{0, 0}, Position{3, 2}, {{1, 0}}}, {{3, 0}, Position{0, 2}}, {{0, 1}, Position{3, 1}}});

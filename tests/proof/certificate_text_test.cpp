@@ -186,7 +186,7 @@ TEST_F(CertificateTexts, AreReadOrRefusedWithAnyByteChanged) {
 }
 
 // A proof as deep as it is long.
-TEST_F(CertificateTexts, MayBeDeep) {
+TEST_F(CertificateTexts, CanBeDeeplyNested) {
   std::string proof;
   for (int i = 0; i < 100'000; ++i) proof += "split 0 bar 0 1 1 | 1 bar 0 1 1\nleaf\n";
   EXPECT_EQ(read(head() + "theorem 4\n" + proof + "leaf\nend\n", 100'000).bound, 4);

@@ -103,7 +103,7 @@ TEST(Expander, StopsWithoutChildrenAtALimit) {
 }
 
 // The root of a dense instance whose pairs take more work than one call of expand() may do.
-TEST(Expander, BoundsAHardNodeAlikeInOneOrSeveralCalls) {
+TEST(Expander, BoundDoesNotDependOnTheNumberOfCalls) {
   const Instance instance =
       testing::random_crowd({.size = 20, .obstacles = 30, .agents = 60, .tasks = 120}, 3);
   const Limits limits;

@@ -158,7 +158,7 @@ TEST(LearnedBound, RefusesInvalidBounds) {
   refuses({{{4, 0, {}}}, {-3, true}, {}});
 }
 
-TEST(LearnedBound, UtilityRisesWithEffortAndExcessFallsWithConstraints) {
+TEST(LearnedBound, UtilityDependsOnEffortExcessAndConstraints) {
   const PackedConstraints constraints(std::vector<Constraint>{{3, kNoCell, 1, 2}});
   const LearnedBound expensive{{{0, 0, {}}, {0, 1, {}}}, {}, {1, true, 9}};
   const LearnedBound cheap{{{0, 0, {}}, {0, 1, {}}}, {}, {1, true, 2}};

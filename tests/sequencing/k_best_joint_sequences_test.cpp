@@ -124,7 +124,7 @@ TEST(KBestJointSequences, IsEmptyWhenOneAgentHasNoSequence) {
   EXPECT_EQ(joint.lower_bound(), kInfiniteCost);
 }
 
-TEST(KBestJointSequences, CountsItsRtsps) {
+TEST(KBestJointSequences, CountsSolvedRtsps) {
   Random random(27);
   Agents agents;
   for (int n : {3, 4}) agents.matrices.push_back(metric_matrix(n, Variant::kCts, random));

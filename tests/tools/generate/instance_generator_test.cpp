@@ -25,7 +25,7 @@ Instance generate(const InstanceRequest& request) {
   return generate_instance(grid(), scenario(), request);
 }
 
-TEST(GenerateInstance, TakesAgentsFromTheFirstRowsAndTasksFromRow21On) {
+TEST(GenerateInstance, TakesTasksFromRow21On) {
   const Instance instance = generate({.agents = 5, .tasks = 10, .seed = 1});
   const auto rows = scenario().rows;
   ASSERT_EQ(instance.agent_count(), 5);

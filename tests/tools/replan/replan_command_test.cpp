@@ -150,7 +150,7 @@ TEST_F(ReplanCommand, AddsAndDropsTasks) {
 }
 
 // The plan file records it; --no-following need not be given again.
-TEST_F(ReplanCommand, PlanWithoutFollowingStaysSo) {
+TEST_F(ReplanCommand, PlanWithoutFollowingForbidsFollowingLater) {
   std::filesystem::remove(plan_);
   ASSERT_EQ(run_grove({"solve", instance_, "--quiet", "--omega", "inf", "--no-following",
                        "--output", plan_})

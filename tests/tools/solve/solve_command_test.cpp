@@ -293,7 +293,7 @@ std::string timeless(const std::string& log) {
       "");
 }
 
-TEST_F(SolveCommand, DeterministicRunDoesNotDependOnTheNumberOfThreads) {
+TEST_F(SolveCommand, DeterministicRunIsTheSameForAnyThreads) {
   for (const std::string policy : {"fixed", "free"}) {
     std::vector<std::string> logs;
     std::vector<json> agents;
