@@ -21,9 +21,9 @@
 namespace grove::detail {
 namespace multicore_test {
 
+using testing::ClockReadingLimit;
 using testing::Crowd;
-using testing::LimitOfHangs;
-using testing::LimitOfLooks;
+using testing::HangLimit;
 using testing::random_crowd;
 
 // Not solved at the root, but easy: plain CBS expands some hundred nodes.
@@ -58,10 +58,10 @@ class Recorder : public RunObserver {
 TEST(Multicore, FindsTheOptimumOfOneThread) {
   std::int64_t nodes = 0;
   for (const Instance& instance : instances()) {
-    const Solution single = solve(instance, plain(1), LimitOfHangs());
+    const Solution single = solve(instance, plain(1), HangLimit());
     ASSERT_EQ(single.status, Status::kOptimal);
     for (const int threads : {2, 3, 8}) {
-      const Solution parallel = solve(instance, plain(threads), LimitOfHangs());
+      const Solution parallel = solve(instance, plain(threads), HangLimit());
       ASSERT_EQ(parallel.status, Status::kOptimal);
       EXPECT_EQ(parallel.lower_bound, single.lower_bound);
       EXPECT_TRUE(check(instance, parallel).empty());
@@ -81,7 +81,7 @@ TEST(Multicore, DeterministicRunIsTheSameForAnyNumberOfThreads) {
       SolveOptions options = plain(threads);
       options.deterministic = true;
       Recorder recorder;
-      const Solution solution = solve(instance, options, LimitOfHangs(), &recorder);
+      const Solution solution = solve(instance, options, HangLimit(), &recorder);
       ASSERT_EQ(solution.status, Status::kOptimal);
       std::vector<Path> found;
       for (const AgentPlan& agent : solution.plan->agents) found.push_back(agent.path);
@@ -118,7 +118,7 @@ TEST(Multicore, DeterministicRunExpandsTheSameLabelsForAnyThreads) {
       Techniques{Technique::kJointSearch, Technique::kJointGroups, Technique::kLagrangian});
   const auto labels = [&](int threads) {
     options.threads = threads;
-    return solve(instance, options, LimitOfHangs()).stats.counts.at("low_level_expanded");
+    return solve(instance, options, HangLimit()).stats.counts.at("low_level_expanded");
   };
   const std::int64_t single = labels(1);
   for (const int threads : {2, 3, 4}) EXPECT_EQ(labels(threads), single) << threads << " threads";
@@ -142,7 +142,7 @@ TEST(Multicore, DeterministicRunWithLagrangianLnsIsRepeatable) {
     const auto counts = [&](int threads, Techniques techniques) {
       options.threads = threads;
       options.techniques = techniques;
-      Solution solution = solve(instance, options, LimitOfHangs());
+      Solution solution = solve(instance, options, HangLimit());
       EXPECT_EQ(solution.status, Status::kOptimal);
       auto& all = solution.stats.counts;
       return Counts{all["lagrangian_rounds"], all["primal_low_level_expanded"]};
@@ -183,7 +183,7 @@ TEST(Multicore, EventsAreSerializedAndTheBoundNeverFalls) {
   };
   for (const Instance& instance : instances()) {
     Watcher watcher;
-    solve(instance, plain(4), LimitOfHangs(), &watcher);
+    solve(instance, plain(4), HangLimit(), &watcher);
     EXPECT_TRUE(watcher.ended());
   }
 }
@@ -194,7 +194,7 @@ TEST(Multicore, LimitsEndEveryThread) {
   for (const bool deterministic : {false, true}) {
     SolveOptions options = plain(4);
     options.deterministic = deterministic;
-    const testing::LimitOfLooks limits(20'000);
+    const testing::ClockReadingLimit limits(20'000);
     const Solution solution = solve(hard, options, limits);
     EXPECT_EQ(limits.reason(), StopReason::kTime);
     EXPECT_EQ(solution.stats.texts.at("stopped_by"), "time limit");
@@ -214,7 +214,7 @@ TEST(Multicore, ExceptionOfAnObserverPropagates) {
     SolveOptions options = plain(3);
     options.deterministic = deterministic;
     Thrower thrower;
-    EXPECT_THROW(solve(instances()[0], options, LimitOfHangs(), &thrower), std::runtime_error);
+    EXPECT_THROW(solve(instances()[0], options, HangLimit(), &thrower), std::runtime_error);
   }
 }
 

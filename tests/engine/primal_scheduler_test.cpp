@@ -33,7 +33,7 @@ Instance dense_instance() {
 }
 
 // Scheduler of a long tree, after the primal search has used up its credit.
-PrimalScheduler memory_returned(const PrimalSearch& primal, int agents) {
+PrimalScheduler after_credit_is_spent(const PrimalSearch& primal, int agents) {
   PrimalScheduler scheduler(agents, Tuning());
   scheduler.add_tree_work(kLong);
   scheduler.add_primal_work(primal, 8 * kLong);
@@ -41,8 +41,8 @@ PrimalScheduler memory_returned(const PrimalSearch& primal, int agents) {
 }
 
 // Is the primal search still due after `tree` tree work and then `work` primal work?
-bool may_do(PrimalScheduler scheduler, const PrimalSearch& primal, std::int64_t tree,
-            std::int64_t work) {
+bool is_due_after(PrimalScheduler scheduler, const PrimalSearch& primal, std::int64_t tree,
+                  std::int64_t work) {
   scheduler.add_tree_work(tree);
   scheduler.add_primal_work(primal, work);
   return scheduler.due(primal);
@@ -50,8 +50,8 @@ bool may_do(PrimalScheduler scheduler, const PrimalSearch& primal, std::int64_t 
 
 void expect_ratio(const PrimalScheduler& scheduler, const PrimalSearch& primal, double ratio) {
   const auto max_work = static_cast<std::int64_t>(std::llround(1e6 * ratio));
-  EXPECT_TRUE(may_do(scheduler, primal, 1'000'000, max_work - 1)) << ratio;
-  EXPECT_FALSE(may_do(scheduler, primal, 1'000'000, max_work + 1)) << ratio;
+  EXPECT_TRUE(is_due_after(scheduler, primal, 1'000'000, max_work - 1)) << ratio;
+  EXPECT_FALSE(is_due_after(scheduler, primal, 1'000'000, max_work + 1)) << ratio;
 }
 
 TEST(PrimalScheduler, StartsThePrimalSearchAfterSomeTreeWork) {
@@ -65,21 +65,21 @@ TEST(PrimalScheduler, StartsThePrimalSearchAfterSomeTreeWork) {
 TEST(PrimalScheduler, CapGrowsFromAQuarterWithTheTreeWork) {
   const Setting s(dense_instance());
   const PrimalScheduler scheduler(12, Tuning());
-  EXPECT_TRUE(may_do(scheduler, s.primal, 2000, 500));
-  EXPECT_FALSE(may_do(scheduler, s.primal, 2000, 501));
-  EXPECT_TRUE(may_do(scheduler, s.primal, kLong / 32, kLong / 128));
-  EXPECT_FALSE(may_do(scheduler, s.primal, kLong / 32, kLong / 128 + 1));
-  EXPECT_TRUE(may_do(scheduler, s.primal, kLong / 2, 2 * kLong));
-  EXPECT_FALSE(may_do(scheduler, s.primal, kLong / 2, 2 * kLong + 1));
+  EXPECT_TRUE(is_due_after(scheduler, s.primal, 2000, 500));
+  EXPECT_FALSE(is_due_after(scheduler, s.primal, 2000, 501));
+  EXPECT_TRUE(is_due_after(scheduler, s.primal, kLong / 32, kLong / 128));
+  EXPECT_FALSE(is_due_after(scheduler, s.primal, kLong / 32, kLong / 128 + 1));
+  EXPECT_TRUE(is_due_after(scheduler, s.primal, kLong / 2, 2 * kLong));
+  EXPECT_FALSE(is_due_after(scheduler, s.primal, kLong / 2, 2 * kLong + 1));
 }
 
 TEST(PrimalScheduler, RatioWithoutAPlanFallsAfterManyFailures) {
   // The agents cannot pass each other, which the primal search does not detect.
   Setting s(testing::instance_of({"......"}, {{{0, 0}, Position{5, 0}}, {{5, 0}, Position{0, 0}}}));
-  expect_ratio(memory_returned(s.primal, 2), s.primal, 8);
+  expect_ratio(after_credit_is_spent(s.primal, 2), s.primal, 8);
   for (int i = 0; i < 10'000 && s.primal.counts().attempts <= 4; ++i) s.primal.step(s.limits);
   ASSERT_GT(s.primal.counts().attempts, 4);
-  expect_ratio(memory_returned(s.primal, 2), s.primal, 1);
+  expect_ratio(after_credit_is_spent(s.primal, 2), s.primal, 1);
 }
 
 TEST(PrimalScheduler, RatioWithAPlanFollowsItsSuccess) {
@@ -94,7 +94,8 @@ TEST(PrimalScheduler, RatioWithAPlanFollowsItsSuccess) {
         static_cast<double>(s.primal.work_at_last_plan()) / static_cast<double>(s.primal.work());
     min_x = std::min(min_x, x);
     max_x = std::max(max_x, x);
-    expect_ratio(memory_returned(s.primal, 12), s.primal, std::clamp(8 * x * x * x, 1.0 / 32, 8.0));
+    expect_ratio(after_credit_is_spent(s.primal, 12), s.primal,
+                 std::clamp(8 * x * x * x, 1.0 / 32, 8.0));
   }
   EXPECT_LT(min_x, 0.2) << "too successful to be a test";
   EXPECT_EQ(max_x, 1);
@@ -138,7 +139,7 @@ TEST(PrimalScheduler, RatioIsAtLeastOneWhileTheGapIsLarge) {
   while (s.primal.work() < 4 * s.primal.work_at_last_plan() && !s.primal.optimal())
     s.primal.step(s.limits);
   ASSERT_FALSE(s.primal.optimal());
-  PrimalScheduler scheduler = memory_returned(s.primal, 12);
+  PrimalScheduler scheduler = after_credit_is_spent(s.primal, 12);
   PrimalScheduler large_gap = scheduler;
   scheduler.add_tree_work(1'000'000);
   large_gap.add_tree_work(1'000'000, {.gap_is_large = true});
@@ -151,7 +152,7 @@ TEST(PrimalScheduler, SearchThatExpectsAPlanIsDueAndNotCharged) {
   const Setting s(dense_instance());
   const Setting expecting(dense_instance(), Techniques::defaults());
   ASSERT_TRUE(expecting.primal.expects_plan());
-  PrimalScheduler scheduler = memory_returned(s.primal, 12);
+  PrimalScheduler scheduler = after_credit_is_spent(s.primal, 12);
   scheduler.add_primal_work(expecting.primal, kLong);
   EXPECT_TRUE(scheduler.due(s.primal)) << "nothing was charged";
   scheduler.add_primal_work(s.primal, 1);

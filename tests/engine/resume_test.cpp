@@ -51,7 +51,7 @@ class Interrupter : public RunObserver {
 
 Solution solve_for(const Instance& instance, const SolveOptions& options,
                    Interrupter& interrupter) {
-  testing::LimitOfHangs limits;
+  testing::HangLimit limits;
   limits.watch_interrupt(&interrupter.interrupted);
   return solve(instance, options, limits, &interrupter);
 }

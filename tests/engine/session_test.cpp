@@ -32,7 +32,8 @@ SolveOptions with_omega(Omega omega) {
 }
 
 Solution solved(Session& session, Omega omega, Time commit = 0) {
-  return session.solve(with_omega(omega), testing::LimitOfLooks(kLimitChecks), nullptr, commit);
+  return session.solve(with_omega(omega), testing::ClockReadingLimit(kLimitChecks), nullptr,
+                       commit);
 }
 
 std::string first_violation(const Instance& instance, const Solution& solution) {

@@ -36,7 +36,7 @@ Solution solve_to(const Instance& instance, const char* omega, const Limits& lim
 }
 
 Solution solve_to(const Instance& instance, const char* omega, Policy policy = Policy::kFixed) {
-  return solve_to(instance, omega, testing::LimitOfHangs(), policy);
+  return solve_to(instance, omega, testing::HangLimit(), policy);
 }
 
 void expect_optimal(const Instance& instance, Cost cost) {
@@ -122,7 +122,7 @@ TEST(Solve, DetectsThatAgentsLackRoomToPass) {
 
 TEST(Solve, ExpiredDeadlineStillGivesALowerBound) {
   const Instance instance = instance_of({"....."}, {{{0, 0}, Position{4, 0}, {{2, 0}}}});
-  const Solution solution = solve_to(instance, "0", testing::LimitOfLooks(0));
+  const Solution solution = solve_to(instance, "0", testing::ClockReadingLimit(0));
   EXPECT_EQ(solution.status, Status::kUnknown);
   EXPECT_LE(solution.lower_bound, 4);
 }
@@ -182,7 +182,7 @@ TEST(Solve, ReportedBoundNeverFalls) {
       instance_of({".....", "@@.@@", "....."}, {{{0, 0}, Position{4, 2}, {{4, 0}, {0, 2}}},
                                                 {{4, 0}, Position{0, 2}, {{0, 0}}},
                                                 {{0, 2}, Position{4, 0}, {{4, 2}}}});
-  const Solution solution = solve(instance, SolveOptions(), testing::LimitOfHangs(), &watcher);
+  const Solution solution = solve(instance, SolveOptions(), testing::HangLimit(), &watcher);
   EXPECT_NE(solution.status, Status::kInfeasible);
 }
 
@@ -225,7 +225,7 @@ class IncumbentWatcher : public RunObserver {
 // Solves until `incumbents` incumbents were found.
 Solution solve_until(const Instance& instance, const SolveOptions& options,
                      IncumbentWatcher& watcher, int incumbents) {
-  testing::LimitOfHangs limits;
+  testing::HangLimit limits;
   limits.watch_interrupt(&watcher.flag);
   watcher.stop_after = incumbents;
   return solve(instance, options, limits, &watcher);
@@ -279,7 +279,7 @@ TEST(Solve, PrimalSearchIsOffIfDisabledAndForTheFixedPolicy) {
   SolveOptions fixed;
   fixed.policy = Policy::kFixed;
   for (const SolveOptions& options : {without, fixed}) {
-    const testing::LimitOfLooks limits(10'000);
+    const testing::ClockReadingLimit limits(10'000);
     const Solution solution = solve(instance, options, limits);
     EXPECT_GT(solution.stats.counts.at("nodes_expanded"), 0);
     EXPECT_EQ(solution.stats.counts.at("primal_steps"), 0);
@@ -291,7 +291,7 @@ TEST(Solve, LacamCanBeDisabledSeparately) {
   for (const bool with : {true, false}) {
     SolveOptions options;
     if (!with) options.techniques = options.techniques.without(Technique::kLacam);
-    const testing::LimitOfLooks limits(20'000);
+    const testing::ClockReadingLimit limits(20'000);
     const Solution solution = solve(instance, options, limits);
     EXPECT_GT(solution.stats.counts.at("primal_attempts"), 1);
     EXPECT_EQ(solution.stats.counts.at("primal_lacam_steps") > 0, with);

@@ -174,7 +174,7 @@ TEST(ActionDependencyGraph, EqualsTheDefinitionWithoutRedundancy) {
     const Instance instance = fuzz::random_world(seed).build();
     SolveOptions options;
     options.omega = Omega::infinite();
-    const testing::LimitOfLooks limits(10'000);
+    const testing::ClockReadingLimit limits(10'000);
     const Solution solution = solve(instance, options, limits);
     if (!solution.plan) continue;
     ++plans;

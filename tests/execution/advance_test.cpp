@@ -44,7 +44,7 @@ TEST(Advance, RemainingPlanSolvesTheRemainingInstance) {
     const Instance instance = fuzz::random_world(seed).build();
     SolveOptions options;
     options.omega = Omega::infinite();
-    const testing::LimitOfLooks limits(10'000);
+    const testing::ClockReadingLimit limits(10'000);
     const auto plan = solve(instance, options, limits).plan;
     if (!plan) continue;
     const Time end = std::ranges::max(plan->agents, {}, &AgentPlan::cost).cost;

@@ -21,7 +21,7 @@ using testing::Delays;
 std::optional<Plan> plan_of(const Instance& instance) {
   SolveOptions options;
   options.omega = Omega::infinite();
-  const testing::LimitOfLooks limits(10'000);
+  const testing::ClockReadingLimit limits(10'000);
   return solve(instance, options, limits).plan;
 }
 

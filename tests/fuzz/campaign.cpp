@@ -72,7 +72,7 @@ void Tally::add(const FuzzCase& fuzz_case, const CaseResult& result) {
   }
   ++(result.complaints.empty() ? passed : failed);
   infeasible += !result.solvable;
-  if (result.solvable && fuzz_case.strike == Strike::kNothing) {
+  if (result.solvable && fuzz_case.strike == ImposedLimit::kNothing) {
     ++unstopped;
     unsolved += result.stopped;
   }

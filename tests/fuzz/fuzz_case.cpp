@@ -29,11 +29,11 @@ constexpr Names<LowLevel, 4> kLowLevels{{{LowLevel::kOwn, "own"},
                                          {LowLevel::kVisitedSets, "visited-sets"},
                                          {LowLevel::kSingleLegs, "single-legs"},
                                          {LowLevel::kTimeIntervalForest, "forest"}}};
-constexpr Names<Strike, 5> kStrikes{{{Strike::kNothing, "nothing"},
-                                     {Strike::kExpired, "expired"},
-                                     {Strike::kSoon, "soon"},
-                                     {Strike::kMemory, "memory"},
-                                     {Strike::kInterrupt, "interrupt"}}};
+constexpr Names<ImposedLimit, 5> kStrikes{{{ImposedLimit::kNothing, "nothing"},
+                                           {ImposedLimit::kExpired, "expired"},
+                                           {ImposedLimit::kSoon, "soon"},
+                                           {ImposedLimit::kMemory, "memory"},
+                                           {ImposedLimit::kInterrupt, "interrupt"}}};
 
 template <typename T, std::size_t N>
 std::string_view name_of(const Names<T, N>& names, T value) {
@@ -162,13 +162,13 @@ Tuning random_tuning(Random& random) {
   return tuning;
 }
 
-Strike random_strike(Random& random) {
+ImposedLimit random_strike(Random& random) {
   const int dice = random.below(100);
-  return dice < 84   ? Strike::kNothing
-         : dice < 88 ? Strike::kExpired
-         : dice < 92 ? Strike::kSoon
-         : dice < 96 ? Strike::kMemory
-                     : Strike::kInterrupt;
+  return dice < 84   ? ImposedLimit::kNothing
+         : dice < 88 ? ImposedLimit::kExpired
+         : dice < 92 ? ImposedLimit::kSoon
+         : dice < 96 ? ImposedLimit::kMemory
+                     : ImposedLimit::kInterrupt;
 }
 
 }  // namespace

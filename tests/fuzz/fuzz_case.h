@@ -12,7 +12,7 @@
 namespace grove::detail::fuzz {
 
 // Limit that a run is subject to.
-enum class Strike : std::uint8_t {
+enum class ImposedLimit : std::uint8_t {
   kNothing,    // only a long deadline
   kExpired,    // the deadline has passed when the run begins
   kSoon,       // the deadline comes within a millisecond
@@ -39,7 +39,7 @@ struct FuzzCase {
 
   TinyInstance instance;
   SolveOptions options;
-  Strike strike = Strike::kNothing;
+  ImposedLimit strike = ImposedLimit::kNothing;
 
   std::string to_text() const;
   // Throws std::invalid_argument.

@@ -35,7 +35,7 @@ class TinyInstances {
   void test_seed(std::uint64_t seed) {
     crowd_ = tiny_crowd(seed);
     const Instance instance = crowd_.build();
-    const std::set<Places> all = oracle::arrangements_from_starts(instance, kMaxStates);
+    const std::set<Places> all = oracle::reachable_configurations(instance, kMaxStates);
     if (all.empty()) return;
     ++crowds_;
     seed_ = seed;

@@ -43,7 +43,7 @@ struct Ended {
 Ended run(Method method, const Instance& instance, SolveOptions options, bool anytime = false,
           RunObserver* observer = nullptr) {
   options = options_of(method, options);
-  const testing::LimitOfLooks limits(100'000);
+  const testing::ClockReadingLimit limits(100'000);
   Ended ended{solve_by(method, anytime, instance, options, limits, observer)};
   ended.stopped = ended.solution.stats.texts.count("stopped_by") > 0;
   return ended;
@@ -276,7 +276,7 @@ TEST(AdaptationC, ReportsStopReasonOfAIfBFindsNoPlan) {
   options.techniques =
       options.techniques.without(Technique::kJointSearch);  // it would prove infeasibility
   for (const bool anytime : {false, true}) {
-    const testing::LimitOfLooks limits(5'000);
+    const testing::ClockReadingLimit limits(5'000);
     const Solution solution =
         solve_by(Method::kCtsCbsC, anytime, instance, options, limits, nullptr);
     EXPECT_EQ(solution.status, Status::kUnknown);
@@ -360,7 +360,7 @@ TEST(AdaptationC, ReturnsBestOfBothSearches) {
     SolveOptions options;
     options.omega = Omega::parse("0");
     options.policy = seed % 4 < 2 ? Policy::kFixed : Policy::kFree;
-    const testing::LimitOfLooks limits(1'000 + 300 * (seed % 4));
+    const testing::ClockReadingLimit limits(1'000 + 300 * (seed % 4));
     RecordedEvents events;
     const Solution solution =
         solve_by(Method::kCtsCbsC, seed % 2 == 0, instance, options, limits, &events);

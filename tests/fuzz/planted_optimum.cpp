@@ -133,7 +133,7 @@ void PlantedOptimum::on_evicted(const NodePtr& node) {
 void PlantedOptimum::on_event(RunEvent, const Progress& progress) {
   claimed_ = progress.lower_bound;
   // A bound proven outside the trees does not depend on the evicted nodes.
-  if (std::exchange(raised_beside_, false))
+  if (std::exchange(raised_outside_trees_, false))
     evicted_bound_ = std::max(evicted_bound_, progress.lower_bound);
   found_ = progress.incumbent && *progress.incumbent <= optimum_.cost;
   if (found_) holding_.clear();

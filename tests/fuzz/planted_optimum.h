@@ -24,7 +24,7 @@ class PlantedOptimum : public RunObserver {
   PlantedOptimum(const Instance& instance, Plan optimum);
 
   void on_event(RunEvent event, const Progress& progress) override;
-  void on_bound_beside(BoundSource) override { raised_beside_ = true; }
+  void on_bound_beside(BoundSource) override { raised_outside_trees_ = true; }
   void on_infeasible(std::string_view reason) override;
   void on_root(const NodePtr& root) override;
   void on_expanded(const NodePtr& node, const Expansion& expansion, int worker) override;
@@ -48,7 +48,7 @@ class PlantedOptimum : public RunObserver {
   // once a plan of the same cost is found: from then on the search may prune them.
   std::unordered_set<const Node*> holding_;
   bool found_ = false;
-  bool raised_beside_ = false;          // the next rise of the bound comes from outside the tree
+  bool raised_outside_trees_ = false;   // the next rise of the bound comes from outside the tree
   Cost claimed_ = 0;                    // the search's lower bound
   Cost evicted_bound_ = kInfiniteCost;  // least bound of evicted nodes that held the plan
   std::size_t nodes_followed_ = 0;

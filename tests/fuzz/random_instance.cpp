@@ -34,7 +34,7 @@ class Maker {
     if (random_.percent(70))
       play();
     else
-      throw_goals();
+      draw_goals();
     make_mg();
     add_tasks();
     return instance_;
@@ -105,7 +105,7 @@ class Maker {
   }
 
   // Random destinations and tasks, rarely at unreachable cells, because presolve detects these.
-  void throw_goals() {
+  void draw_goals() {
     const bool everywhere = random_.percent(20);
     for (auto& agent : instance_.agents) agent.goal.reset();
     for (std::size_t a = 0; a < instance_.agents.size(); ++a) {

@@ -32,8 +32,8 @@ struct Run {
 };
 
 // True if the limit `strike` is reached whatever the solver does.
-bool excuses(Strike strike) {
-  return strike == Strike::kExpired || strike == Strike::kInterrupt;
+bool always_stops(ImposedLimit strike) {
+  return strike == ImposedLimit::kExpired || strike == ImposedLimit::kInterrupt;
 }
 
 Run run(const Instance& instance, const FuzzCase& fuzz_case, const oracle::Answer& truth,
@@ -42,28 +42,30 @@ Run run(const Instance& instance, const FuzzCase& fuzz_case, const oracle::Answe
   const std::atomic<bool> interrupt{true};
   const Clock::time_point begin = Clock::now();
   Clock::time_point deadline = begin + patience;
-  if (fuzz_case.strike == Strike::kExpired) deadline = begin - milliseconds(1);
-  if (fuzz_case.strike == Strike::kSoon) deadline = begin + kSoon;
-  if (fuzz_case.strike == Strike::kMemory)
+  if (fuzz_case.strike == ImposedLimit::kExpired) deadline = begin - milliseconds(1);
+  if (fuzz_case.strike == ImposedLimit::kSoon) deadline = begin + kSoon;
+  if (fuzz_case.strike == ImposedLimit::kMemory)
     limits.set_memory_limit(resident_bytes() + kScarceMemory);
-  if (fuzz_case.strike == Strike::kInterrupt) limits.watch_interrupt(&interrupt);
+  if (fuzz_case.strike == ImposedLimit::kInterrupt) limits.watch_interrupt(&interrupt);
   limits.set_deadline(deadline);
 
   const std::clock_t worked_before = std::clock();
   Run run{solver(instance, fuzz_case.options, limits, truth)};
   const Clock::time_point end = Clock::now();
-  const auto worked = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
-      static_cast<double>(std::clock() - worked_before) / CLOCKS_PER_SEC));
+  const auto after_task_step =
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
+          static_cast<double>(std::clock() - worked_before) / CLOCKS_PER_SEC));
   const auto& texts = run.solution.stats.texts;
   const auto stop = texts.find("stopped_by");
   const bool out_of_memory = (fuzz_case.options.node_memory != SolveOptions::kUnlimited ||
-                              fuzz_case.strike == Strike::kMemory) &&
+                              fuzz_case.strike == ImposedLimit::kMemory) &&
                              stop != texts.end() && stop->second == "memory limit";
-  run.stopped = limits.reason() != StopReason::kNone || excuses(fuzz_case.strike) || out_of_memory;
+  run.stopped =
+      limits.reason() != StopReason::kNone || always_stops(fuzz_case.strike) || out_of_memory;
   run.duration = end - begin;
   // A process that had to wait is not late: only its processor time beyond the deadline counts.
   const Clock::time_point due = std::max(begin, deadline);
-  run.overrun = std::min(end - due, worked - (due - begin));
+  run.overrun = std::min(end - due, after_task_step - (due - begin));
   return run;
 }
 

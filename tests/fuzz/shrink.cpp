@@ -204,7 +204,8 @@ class Steps {
   }
 
   void plainer_options() {
-    plainer<Strike>([](FuzzCase& c) -> Strike& { return c.strike; }, Strike::kNothing);
+    plainer<ImposedLimit>([](FuzzCase& c) -> ImposedLimit& { return c.strike; },
+                          ImposedLimit::kNothing);
     plainer<std::size_t>([](FuzzCase& c) -> std::size_t& { return c.options.node_memory; },
                          SolveOptions::kUnlimited);
     plainer<Tuning>([](FuzzCase& c) -> Tuning& { return c.options.tuning; }, {});

@@ -17,7 +17,7 @@
 namespace grove::detail {
 namespace time_expanded_graphs_test {
 
-using oracle::Way;
+using oracle::PlacePath;
 using Constraints = std::vector<Constraint>;
 constexpr std::size_t kMaxWays = 1500;
 constexpr std::size_t kPlenty = 30'000;
@@ -46,7 +46,7 @@ class Fuzzer {
   }
 
   // A constraint that `way` probably violates.
-  Constraint constraint(const Way& way) {
+  Constraint constraint(const PlacePath& way) {
     const auto cost = static_cast<Time>(way.size()) - 1;
     const Time t = below(cost + 2);
     const Place here = way[static_cast<std::size_t>(std::min(t, cost))];
@@ -92,14 +92,14 @@ struct Member {
   AgentIndex agent;
   Constraints constraints;
   Time max_cost = 0;
-  std::vector<Way> ways;
+  std::vector<PlacePath> ways;
 };
 
 std::optional<Member> member(Fuzzer& fuzzer, AgentIndex agent, Time delta_f) {
   Member m{.agent = agent, .constraints = {}, .max_cost = 0, .ways = {}};
   for (Time max_cost = 0; m.ways.empty(); ++max_cost) {
     const auto ways =
-        oracle::ways_within(fuzzer.instance(), agent, m.constraints, max_cost, kMaxWays);
+        oracle::paths_within(fuzzer.instance(), agent, m.constraints, max_cost, kMaxWays);
     if (!ways || max_cost > 12) return std::nullopt;
     m.ways = *ways;
   }
@@ -108,7 +108,7 @@ std::optional<Member> member(Fuzzer& fuzzer, AgentIndex agent, Time delta_f) {
         fuzzer.constraint(m.ways[fuzzer.below(static_cast<int>(m.ways.size()))]));
   m.max_cost = static_cast<Time>(m.ways.front().size()) - 1 + delta_f;
   const auto ways =
-      oracle::ways_within(fuzzer.instance(), agent, m.constraints, m.max_cost, kMaxWays);
+      oracle::paths_within(fuzzer.instance(), agent, m.constraints, m.max_cost, kMaxWays);
   if (!ways) return std::nullopt;
   m.ways = *ways;
   return m;
@@ -143,7 +143,7 @@ TEST(TimeExpandedGraphs, LetJointSearchFindOptimumUnderConstraints) {
        ++seed) {
     SCOPED_TRACE(seed);
     Fuzzer fuzzer(seed);
-    std::vector<std::vector<Way>> ways;
+    std::vector<std::vector<PlacePath>> ways;
     std::vector<AgentGraph> graphs;
     for (AgentIndex agent = 0; agent < std::min(fuzzer.instance().agent_count(), 3); ++agent) {
       const auto m = member(fuzzer, agent, 2 + fuzzer.below(2));
@@ -152,7 +152,7 @@ TEST(TimeExpandedGraphs, LetJointSearchFindOptimumUnderConstraints) {
       graphs.push_back(fuzzer.graph(agent, m->constraints, m->max_cost));
     }
     if (ways.size() < 2) continue;
-    const auto least = oracle::min_joint_cost(fuzzer.instance(), ways);
+    const auto least = oracle::least_joint_cost(fuzzer.instance(), ways);
     EpeaStar search(fuzzer.instance(), std::move(graphs), kMaxBytes);
     auto outcome = EpeaStar::Outcome::kWorking;
     while (outcome == EpeaStar::Outcome::kWorking) {

@@ -23,7 +23,7 @@
 namespace grove::detail {
 namespace shared_arrays_test {
 
-using testing::LimitOfLooks;
+using testing::ClockReadingLimit;
 
 // The shared memory of a host for its members. Only the bytes that must be zero are zero.
 class Memory {
@@ -140,7 +140,7 @@ TEST(SharedArrays, FailedArrayIsNullptrForAllMembers) {
       one.array(ArrayKind::kDistances, 1).make([](std::byte*) -> bool { throw std::bad_alloc(); }),
       std::bad_alloc);
   for (const std::size_t number : {0, 1}) {
-    const LimitOfLooks limits(testing::kNoEnd);
+    const ClockReadingLimit limits(testing::kUnlimitedLooks);
     EXPECT_EQ(other.array(ArrayKind::kDistances, number)
                   .get(limits,
                        [](std::byte*) {
@@ -166,11 +166,11 @@ TEST(SharedArrays, AwaitEndsWhenTheMakerIsUnresponsive) {
         return true;
       });
     while (!begun) std::this_thread::yield();
-    const LimitOfLooks limits(20'000);
+    const ClockReadingLimit limits(20'000);
     EXPECT_EQ(array.await(limits), nullptr);
     EXPECT_FALSE(limits.stop_requested());
     EXPECT_GT(limits.looks(), 100) << "waits for some time";
-    const LimitOfLooks stopped(testing::kNoEnd);
+    const ClockReadingLimit stopped(testing::kUnlimitedLooks);
     stopped.stop(StopReason::kInterrupt);
     EXPECT_EQ(array.await(stopped), nullptr);
     EXPECT_LE(stopped.looks(), 2);

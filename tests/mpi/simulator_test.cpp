@@ -40,7 +40,7 @@ const std::vector<Case>& cases() {
     std::vector<Case> found;
     for (std::uint64_t seed = 0; found.size() < 2; ++seed) {
       Instance instance = random_crowd({.size = 8, .obstacles = 20, .agents = 6, .tasks = 8}, seed);
-      const testing::LimitOfLooks limits(200'000);
+      const testing::ClockReadingLimit limits(200'000);
       SolveOptions options;
       options.omega = Omega();
       Solution truth = solve(instance, options, limits);

@@ -27,7 +27,7 @@
 namespace grove::detail {
 namespace threads_test {
 
-using testing::LimitOfHangs;
+using testing::HangLimit;
 using testing::random_crowd;
 
 // Messages between two ranks keep their order. A message is delayed by up to `latest` polls of its
@@ -136,7 +136,7 @@ void expect_optima(Policy policy, Techniques techniques) {
     const Instance instance =
         random_crowd({.size = 8, .obstacles = 20, .agents = 5, .tasks = 5}, seed);
     const Solution alone =
-        solve(instance, options_with(1, Policy::kFree, Techniques::defaults()), LimitOfHangs());
+        solve(instance, options_with(1, Policy::kFree, Techniques::defaults()), HangLimit());
     ASSERT_EQ(alone.status, Status::kOptimal);
     for (const int ranks : {2, 3})
       for (const int threads : {1, 2}) {
@@ -144,7 +144,7 @@ void expect_optima(Policy policy, Techniques techniques) {
         RunObserver silent;
         const Solution solution =
             solve_by_ranks(instance, options_with(threads, policy, techniques), ranks, network,
-                           LimitOfHangs(), silent);
+                           HangLimit(), silent);
         batches += solution.stats.counts.at("node_batches");
         EXPECT_EQ(solution.status, Status::kOptimal)
             << "seed " << seed << ", " << ranks << " ranks, " << threads << " threads";
@@ -191,7 +191,7 @@ TEST(Threads, PriceSubproblemsForEachOther) {
     options.tuning.lagrangian_min_remote_work = 1000;
     ThreadNetwork network(3, 5, 1);
     Interrupter interrupter(network);
-    LimitOfHangs limits;
+    HangLimit limits;
     limits.watch_interrupt(&interrupter.interrupted);
     const Solution solution = solve_by_ranks(instance, options, 3, network, limits, interrupter);
     ASSERT_TRUE(solution.plan);

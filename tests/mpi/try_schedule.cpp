@@ -32,7 +32,7 @@ using oracle::Verdict;
 // Optimum of a dense instance, which is too large for exhaustive search: a single-threaded run with
 // all techniques proves it.
 Answer truth_by_one_thread(const Instance& instance) {
-  const LimitOfLooks limits(20'000);
+  const ClockReadingLimit limits(20'000);
   SolveOptions options;
   options.omega = Omega();
   Solution solution = solve(instance, options, limits);
@@ -115,7 +115,7 @@ class CheckpointTester : public RunObserver {
   // Without the primal search, which would find the optimum even if its node is missing.
   void reopen() {
     ++reopened_;
-    const LimitOfLooks limits(1'000);
+    const ClockReadingLimit limits(1'000);
     SolveOptions options;
     options.omega = Omega();
     options.policy = options_.policy;

@@ -18,7 +18,7 @@ std::uint64_t bit(std::size_t task) {
 
 AgentStates::AgentStates(const Instance& instance, AgentIndex agent)
     : instance_(instance), agent_(instance.agent(agent)), steps_(steps_on(instance.map())) {
-  Standing start{.pose = instance.pose_of(agent_.start)};
+  AgentState start{.pose = instance.pose_of(agent_.start)};
   if (instance.world().is_working(agent_.start)) {
     const Work& work = instance.world().work(agent_.start);
     start.work =
@@ -31,7 +31,7 @@ AgentStates::AgentStates(const Instance& instance, AgentIndex agent)
   settle_costs();
 }
 
-AgentStates::State AgentStates::number(const Standing& standing) {
+AgentStates::State AgentStates::number(const AgentState& standing) {
   const auto [known, is_new] = numbers_.try_emplace(standing, count());
   if (is_new) {
     if (states_.size() == kMaxStates) throw TooMany();
@@ -42,14 +42,14 @@ AgentStates::State AgentStates::number(const Standing& standing) {
 }
 
 // A task that takes no time is visited by being on its place.
-void AgentStates::arrive(Standing& standing) const {
+void AgentStates::arrive(AgentState& standing) const {
   for (std::size_t k = 0; k < agent_.tasks.size(); ++k) {
     const Task& task = instance_.task(agent_.tasks[k]);
     if (task.duration == 0 && task.cell == standing.pose.place) standing.visited |= bit(k);
   }
 }
 
-bool AgentStates::may_rest(const Standing& standing) const {
+bool AgentStates::may_rest(const AgentState& standing) const {
   if (standing.work >= 0 || standing.visited != bit(agent_.tasks.size()) - 1) return false;
   const Pose& pose = standing.pose;
   if (agent_.goal)
@@ -61,10 +61,10 @@ bool AgentStates::may_rest(const Standing& standing) const {
 }
 
 // An agent that has begun a task continues it until it is completed; then it may move at once.
-std::vector<Standing> AgentStates::next(const Standing& standing) const {
-  std::vector<Standing> next;
+std::vector<AgentState> AgentStates::next(const AgentState& standing) const {
+  std::vector<AgentState> next;
   const auto work_on = [&](int work, Time done) {
-    Standing then = standing;
+    AgentState then = standing;
     const auto k = static_cast<std::size_t>(work);
     then.work = work;
     then.done = done;
@@ -94,18 +94,18 @@ std::vector<Standing> AgentStates::next(const Standing& standing) const {
 }
 
 void AgentStates::connect(State s) {
-  const Standing here = states_[s];
+  const AgentState here = states_[s];
   if (here.resting) {
     moves_[s].push_back({s, 0});
     return;
   }
   if (may_rest(here)) {
-    Standing resting = here;
+    AgentState resting = here;
     resting.resting = true;
     const State to = number(resting);
     moves_[s].push_back({to, 0});
   }
-  for (const Standing& then : next(here)) {
+  for (const AgentState& then : next(here)) {
     const State to = number(then);
     moves_[s].push_back({to, 1});
   }

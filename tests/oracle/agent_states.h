@@ -14,7 +14,7 @@ namespace grove::detail::oracle {
 
 // State of an agent: its pose, the task in execution and the visited tasks. Derived only from the
 // instance.
-struct Standing {
+struct AgentState {
   Pose pose;
   int work = -1;              // task in execution, as index in Agent::tasks; -1: none
   Time done = 0;              // steps of `work` done
@@ -24,7 +24,7 @@ struct Standing {
   auto key() const {
     return std::tuple(pose.place, pose.heading, pose.to, pose.steps, work, done, visited, resting);
   }
-  bool operator<(const Standing& other) const { return key() < other.key(); }
+  bool operator<(const AgentState& other) const { return key() < other.key(); }
 };
 
 // The reachable states of one agent, numbered from 0. In a state in which the agent may rest, it
@@ -46,7 +46,7 @@ class AgentStates {
   // State at time 0; a task on the start that takes no time is visited already.
   State start() const { return 0; }
   const std::vector<Move>& moves(State s) const { return moves_[s]; }
-  const Standing& standing(State s) const { return states_[s]; }
+  const AgentState& standing(State s) const { return states_[s]; }
   Place cell(State s) const { return states_[s].pose.place; }
   bool resting(State s) const { return states_[s].resting; }
   // Least cost until the agent can rest, without other agents. 0 if and only if it rests or may
@@ -54,18 +54,18 @@ class AgentStates {
   Time to_go(State s) const { return to_go_[s]; }
 
  private:
-  State number(const Standing& standing);
+  State number(const AgentState& standing);
   void connect(State s);
-  void arrive(Standing& standing) const;
-  bool may_rest(const Standing& standing) const;
-  std::vector<Standing> next(const Standing& standing) const;
+  void arrive(AgentState& standing) const;
+  bool may_rest(const AgentState& standing) const;
+  std::vector<AgentState> next(const AgentState& standing) const;
   void settle_costs();
 
   const Instance& instance_;
   const Agent& agent_;
   std::vector<std::vector<Place>> steps_;  // by place
-  std::map<Standing, State> numbers_;
-  std::vector<Standing> states_;
+  std::map<AgentState, State> numbers_;
+  std::vector<AgentState> states_;
   std::vector<std::vector<Move>> moves_;
   std::vector<Time> to_go_;
 };

@@ -48,7 +48,7 @@ class Walk {
 
 }  // namespace
 
-std::set<Places> arrangements_from_starts(const Instance& instance, std::size_t max_count) {
+std::set<Places> reachable_configurations(const Instance& instance, std::size_t max_count) {
   Places start;
   for (const Agent& agent : instance.agents()) start.push_back(instance.world().place(agent.start));
   const Walk walk(instance);

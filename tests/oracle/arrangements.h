@@ -15,6 +15,6 @@ using Places = std::vector<Place>;
 
 // The configurations that are reachable from the starts by steps without collisions. Agents that
 // turn are treated as if they turned freely. Empty if there are more than `max_count`.
-std::set<Places> arrangements_from_starts(const Instance& instance, std::size_t max_count);
+std::set<Places> reachable_configurations(const Instance& instance, std::size_t max_count);
 
 }  // namespace grove::detail::oracle

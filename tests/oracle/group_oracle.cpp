@@ -23,11 +23,11 @@ class Lister {
         most_(most),
         cap_(cap) {}
 
-  std::optional<std::vector<Way>> list() {
+  std::optional<std::vector<PlacePath>> list() {
     extend(states_.start());
     if (examined_ > kExaminedPerWay * cap_ || ways_.size() > cap_) return std::nullopt;
-    std::vector<Way> ways(ways_.begin(), ways_.end());
-    std::ranges::stable_sort(ways, {}, &Way::size);
+    std::vector<PlacePath> ways(ways_.begin(), ways_.end());
+    std::ranges::stable_sort(ways, {}, &PlacePath::size);
     return ways;
   }
 
@@ -64,15 +64,15 @@ class Lister {
   const Time most_;
   const std::size_t cap_;
   std::size_t examined_ = 0;
-  Way way_;
-  std::set<Way> ways_;
+  PlacePath way_;
+  std::set<PlacePath> ways_;
 };
 
-Place at(const Way& way, std::size_t time) {
+Place at(const PlacePath& way, std::size_t time) {
   return time < way.size() ? way[time] : way.back();
 }
 
-bool collide(const Way& a, const Way& b, bool may_follow) {
+bool collide(const PlacePath& a, const PlacePath& b, bool may_follow) {
   for (std::size_t t = 0; t < std::max(a.size(), b.size()); ++t) {
     if (at(a, t) == at(b, t)) return true;
     if (t == 0) continue;
@@ -85,7 +85,7 @@ bool collide(const Way& a, const Way& b, bool may_follow) {
 
 class CheapestCombination {
  public:
-  CheapestCombination(const Instance& instance, std::span<const std::vector<Way>> ways)
+  CheapestCombination(const Instance& instance, std::span<const std::vector<PlacePath>> ways)
       : may_follow_(instance.may_follow()), ways_(ways) {}
   std::optional<Cost> least() {
     choose(0);
@@ -98,11 +98,11 @@ class CheapestCombination {
       best_ = std::min(best_, cost);
       return;
     }
-    for (const Way& way : ways_[chosen_.size()]) {
+    for (const PlacePath& way : ways_[chosen_.size()]) {
       const Cost more = cost + static_cast<Cost>(way.size()) - 1;
       if (more + others_at_least() >= best_) return;  // the remaining paths cost no less
-      if (std::ranges::any_of(chosen_,
-                              [&](const Way* other) { return collide(*other, way, may_follow_); }))
+      if (std::ranges::any_of(
+              chosen_, [&](const PlacePath* other) { return collide(*other, way, may_follow_); }))
         continue;
       chosen_.push_back(&way);
       choose(more);
@@ -117,23 +117,23 @@ class CheapestCombination {
   }
 
   const bool may_follow_;
-  const std::span<const std::vector<Way>> ways_;
-  std::vector<const Way*> chosen_;
+  const std::span<const std::vector<PlacePath>> ways_;
+  std::vector<const PlacePath*> chosen_;
   Cost best_ = kInfiniteCost;
 };
 
 }  // namespace
 
-std::optional<std::vector<Way>> ways_within(const Instance& instance, AgentIndex agent,
-                                            std::span<const Constraint> constraints, Time most,
-                                            std::size_t cap) try {
+std::optional<std::vector<PlacePath>> paths_within(const Instance& instance, AgentIndex agent,
+                                                   std::span<const Constraint> constraints,
+                                                   Time most, std::size_t cap) try {
   return Lister(instance, agent, constraints, most, cap).list();
 } catch (const AgentStates::TooMany&) {
   return std::nullopt;
 }
 
-std::optional<Cost> min_joint_cost(const Instance& instance,
-                                   std::span<const std::vector<Way>> ways) {
+std::optional<Cost> least_joint_cost(const Instance& instance,
+                                     std::span<const std::vector<PlacePath>> ways) {
   return CheapestCombination(instance, ways).least();
 }
 

@@ -14,18 +14,18 @@ namespace grove::detail::oracle {
 
 // Path of an agent as places at times 0, 1, ... until it comes to rest. Its cost is its size
 // less 1.
-using Way = std::vector<Place>;
+using PlacePath = std::vector<Place>;
 
 // The paths of an agent that satisfy `constraints` and cost `most` or less, in ascending order of
 // cost. Returns nullopt if there are more than `cap` paths, or more than 40 * `cap` states to
 // examine.
-std::optional<std::vector<Way>> ways_within(const Instance& instance, AgentIndex agent,
-                                            std::span<const Constraint> constraints, Time most,
-                                            std::size_t cap);
+std::optional<std::vector<PlacePath>> paths_within(const Instance& instance, AgentIndex agent,
+                                                   std::span<const Constraint> constraints,
+                                                   Time most, std::size_t cap);
 
 // The least total cost of one path per agent without collisions. `ways`: the paths of each agent.
 // Returns nullopt if all combinations collide.
-std::optional<Cost> min_joint_cost(const Instance& instance,
-                                   std::span<const std::vector<Way>> ways);
+std::optional<Cost> least_joint_cost(const Instance& instance,
+                                     std::span<const std::vector<PlacePath>> ways);
 
 }  // namespace grove::detail::oracle

@@ -224,7 +224,7 @@ AgentPlan JointAStar::agent_plan(std::size_t agent, const std::vector<Key>& keys
   AgentPlan result;
   std::uint64_t before = 0;
   for (const Key key : keys) {
-    const Standing& here = states.standing(state(key, agent));
+    const AgentState& here = states.standing(state(key, agent));
     if (here.resting) break;  // it has rested since the step before
     const auto now = static_cast<Time>(result.path.size());
     result.path.push_back(instance_.state_of(index, here.pose));

@@ -54,7 +54,7 @@ bool is_home(const Instance& instance, AgentIndex agent, const Walker& walker) {
 using Steps = std::vector<std::vector<Place>>;
 
 // The state after one step of `task`.
-Walker worked(const Walker& walker, TaskIndex task) {
+Walker after_task_step(const Walker& walker, TaskIndex task) {
   Walker then = walker;
   Time& left = then.left.at(task);
   --left;
@@ -91,10 +91,10 @@ std::vector<Walker> steps(const Instance& instance, const Steps& map, AgentIndex
                           const Walker& walker) {
   const bool turns = instance.agent(agent).motion.turn_steps > 0;
   std::vector<Walker> next;
-  if (walker.at_work >= 0) return {worked(walker, walker.at_work)};
+  if (walker.at_work >= 0) return {after_task_step(walker, walker.at_work)};
   for (const auto& [task, left] : walker.left)
     if (instance.task(task).duration > 0 && instance.task(task).cell == walker.cell)
-      next.push_back(worked(walker, task));
+      next.push_back(after_task_step(walker, task));
   next.push_back(walker);
   if (walker.turned > 0) {
     next.push_back(turned(instance, agent, walker, walker.turning_to));
@@ -127,8 +127,8 @@ Walker at_start(const Instance& instance, AgentIndex agent) {
 }
 
 // Steps until `walker` may rest, with `wall` blocked for ever. Returns nullopt if it never can.
-std::optional<Cost> way_home(const Instance& instance, const Steps& map, AgentIndex agent,
-                             const Walker& walker, Place wall) {
+std::optional<Cost> steps_to_rest(const Instance& instance, const Steps& map, AgentIndex agent,
+                                  const Walker& walker, Place wall) {
   std::set<Walker> seen{walker};
   std::vector<Walker> layer{walker};
   for (Cost time = 0; !layer.empty(); ++time) {
@@ -156,7 +156,7 @@ std::optional<Cost> cost_after_first_rest(const Instance& instance, const Steps&
   std::optional<Cost> best;
   const auto consider = [&](AgentIndex rests, const Walker& resting, const Walker& moving) {
     if (!is_home(instance, rests, resting)) return;
-    const auto cost = way_home(instance, map, 1 - rests, moving, resting.cell);
+    const auto cost = steps_to_rest(instance, map, 1 - rests, moving, resting.cell);
     if (cost && (!best || *cost < *best)) best = cost;
   };
   consider(0, pair.first, pair.second);

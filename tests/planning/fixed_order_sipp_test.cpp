@@ -261,7 +261,7 @@ TEST(FixedOrderSipp, StopsDuringLongInfeasibilityProof) {
   const std::int64_t whole = search.expanded();
   EXPECT_GT(whole, 5'000);
 
-  const testing::LimitOfLooks limits(2);
+  const testing::ClockReadingLimit limits(2);
   EXPECT_EQ(search.find(agent.goals, {constraints}, limits, path), Outcome::kStopped);
   EXPECT_GT(search.expanded(), whole);
   EXPECT_LT(search.expanded() - whole, whole);

@@ -240,7 +240,7 @@ TEST(LacamWithRestarts, StopsBeforeTheMemoryLimitIsReached) {
 TEST(LacamWithRestarts, StopsAtADeadline) {
   const Instance instance = infeasible_instance();
   Trial run(instance);
-  const testing::LimitOfLooks limits(5);
+  const testing::ClockReadingLimit limits(5);
   EXPECT_EQ(run.search.run(limits, kWithoutEnd), Outcome::kStopped);
   EXPECT_EQ(limits.reason(), StopReason::kTime);
 }

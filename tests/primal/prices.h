@@ -11,8 +11,9 @@ namespace grove::detail::testing {
 
 // Dual solution of a Lagrangian bound after at most `rounds` rounds. Returns nullptr if there is
 // none.
-inline std::shared_ptr<const DualSolution> prices_of(const Instance& instance,
-                                                     const AgentStopsCache& stops, int rounds) {
+inline std::shared_ptr<const DualSolution> dual_solution_of(const Instance& instance,
+                                                            const AgentStopsCache& stops,
+                                                            int rounds) {
   constexpr Cost kAnyCost = 1'000'000;
   const Tuning tuning;
   const auto bound = LagrangianBound::make(instance, stops, tuning);

@@ -98,7 +98,7 @@ TEST(PrimalSearch, ResumesAfterAnyLimit) {
     if (!searchable(instance)) continue;
     Search search(instance, seed);
     for (int round = 0; round < 5; ++round) {
-      const testing::LimitOfLooks limits(random() % 20);
+      const testing::ClockReadingLimit limits(random() % 20);
       for (int step = 0; step < 3; ++step)
         if (const auto plan = search.primal.step(limits)) {
           EXPECT_EQ(first_violation(instance, *plan), "");
@@ -196,7 +196,7 @@ TEST(PrimalSearch, UsesDualSolutionsRepeatably) {
   for (auto& counts : work) {
     Search search(instance, 1, Techniques::defaults(), tuning);
     for (const int rounds : {0, 15, 60}) {
-      const auto prices = testing::prices_of(instance, search.stops, rounds);
+      const auto prices = testing::dual_solution_of(instance, search.stops, rounds);
       EXPECT_EQ(prices == nullptr, rounds == 0);
       search.primal.use(prices);
       for (const Plan& plan : search.plans(100)) counts.push_back(plan.cost);
@@ -210,7 +210,7 @@ TEST(PrimalSearch, UsesDualSolutionsRepeatably) {
 
   tuning.lagrangian_lns_max_gap = 0;  // no gap is that small
   Search too_far(instance, 1, Techniques::defaults(), tuning);
-  too_far.primal.use(testing::prices_of(instance, too_far.stops, 60));
+  too_far.primal.use(testing::dual_solution_of(instance, too_far.stops, 60));
   too_far.plans(300);
   EXPECT_EQ(too_far.primal.work(), without.primal.work());
 }
@@ -224,7 +224,7 @@ TEST(PrimalSearch, EveryPlanWithDualSolutionsIsValid) {
     const Instance instance = fuzz::random_instance(seed).build();
     if (!searchable(instance)) continue;
     Search search(instance, seed, Techniques::defaults(), tuning);
-    const auto prices = testing::prices_of(instance, search.stops, 12);
+    const auto prices = testing::dual_solution_of(instance, search.stops, 12);
     with_dual += prices != nullptr;
     search.plans(2);
     search.primal.use(prices);
@@ -327,7 +327,7 @@ TEST(PrimalSearch, FirstPlanSearchResumesAfterAnyLimit) {
     Search search(instance, seed);
     std::optional<Cost> best;
     for (int round = 0; round < 60; ++round) {
-      const testing::LimitOfLooks limits(random() % 100);
+      const testing::ClockReadingLimit limits(random() % 100);
       while (limits.reason() == StopReason::kNone)
         if (const auto plan = search.primal.step(limits)) {
           EXPECT_EQ(first_violation(instance, *plan), "");

@@ -18,8 +18,8 @@ namespace group_bounds_test {
 constexpr Cost kSlack = 20;
 
 // A search of which one expander has expanded the first nodes.
-struct Begun {
-  explicit Begun(std::uint64_t seed)
+struct PartialSearch {
+  explicit PartialSearch(std::uint64_t seed)
       : instance(testing::random_crowd(
             {.size = 10, .obstacles = 25, .agents = 12, .tasks = 14, .no_destination = 10}, seed)),
         problem(instance, limits),
@@ -71,7 +71,7 @@ TEST(GroupBound, ReceiverExpandsTheSameWithLessWork) {
   std::int64_t pair_expansions_informed = 0;
   std::int64_t pair_expansions_uninformed = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
-    Begun s(seed);
+    PartialSearch s(seed);
     const auto group_bounds = group_bounds_of(s.nodes, *s.expander.memory());
     received += static_cast<int>(group_bounds.size());
     for (const NodePtr& node : s.nodes) {
@@ -92,7 +92,7 @@ TEST(GroupBound, ReceiverExpandsTheSameWithLessWork) {
 
 TEST(GroupBound, HoldsExactlyTheEntriesOfTheCache) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    const Begun s(seed);
+    const PartialSearch s(seed);
     const auto group_bounds = group_bounds_of(s.nodes, *s.expander.memory());
     SharedCache other;
     merge(group_bounds, s.nodes, other);
@@ -112,7 +112,7 @@ TEST(GroupBound, HoldsExactlyTheEntriesOfTheCache) {
 }
 
 TEST(GroupBound, IsIgnoredForNodesThatWereNotTransferred) {
-  const Begun s(1);
+  const PartialSearch s(1);
   std::vector<NodePtr> nodes = s.nodes;
   const auto group_bounds = group_bounds_of(s.nodes, *s.expander.memory());
   ASSERT_FALSE(group_bounds.empty());
@@ -123,7 +123,7 @@ TEST(GroupBound, IsIgnoredForNodesThatWereNotTransferred) {
 }
 
 TEST(GroupBound, RefusesInvalidBounds) {
-  const Begun s(1);
+  const PartialSearch s(1);
   const auto refuses = [&](const GroupBound& group_bound) {
     SharedCache memory;
     EXPECT_THROW(merge(std::vector{group_bound}, s.nodes, memory), std::invalid_argument);

@@ -26,8 +26,8 @@ SearchOptions options_of(std::uint64_t seed) {
 }
 
 // A node up to five splits below the root of a tiny instance of any kind.
-struct Below : testing::RootFixture {
-  Below(const fuzz::TinyInstance& tiny, std::uint64_t seed)
+struct NodeBelowRoot : testing::RootFixture {
+  NodeBelowRoot(const fuzz::TinyInstance& tiny, std::uint64_t seed)
       : RootFixture(seed % 5 == 0 ? tiny.build().without_following() : tiny.build(),
                     options_of(seed)),
         random(seed) {
@@ -46,18 +46,19 @@ struct Below : testing::RootFixture {
 
 // Excess of the group if it is at most `max_excess`, else `max_excess` + 1. Returns nullopt if
 // there are too many combinations of paths.
-std::optional<Cost> true_excess(Below& s, const std::vector<AgentIndex>& group, Time max_excess) {
-  std::vector<std::vector<oracle::Way>> paths;
+std::optional<Cost> true_excess(NodeBelowRoot& s, const std::vector<AgentIndex>& group,
+                                Time max_excess) {
+  std::vector<std::vector<oracle::PlacePath>> paths;
   Cost apart = 0;
   for (const AgentIndex agent : group) {
     const auto constraints = s.view.constraints(agent);
-    auto all = oracle::ways_within(s.instance, agent, constraints,
-                                   s.view.cost_of(agent) + max_excess, kMaxPaths);
+    auto all = oracle::paths_within(s.instance, agent, constraints,
+                                    s.view.cost_of(agent) + max_excess, kMaxPaths);
     if (!all) return std::nullopt;
     apart += s.view.cost_of(agent);
     paths.push_back(std::move(*all));
   }
-  const auto least = oracle::min_joint_cost(s.instance, paths);
+  const auto least = oracle::least_joint_cost(s.instance, paths);
   return least ? std::min<Cost>(*least - apart, max_excess + 1) : max_excess + 1;
 }
 
@@ -74,7 +75,7 @@ TEST(JointGroups, ExcessEqualsThatOfAnExhaustiveSearch) {
     Limits limits;
     const Problem problem(instance, limits);
     if (presolve_infeasibility(problem)) continue;
-    Below s(tiny, seed);
+    NodeBelowRoot s(tiny, seed);
     std::vector<AgentIndex> group(s.all.begin(), s.all.end());
     std::shuffle(group.begin(), group.end(), s.random);
     group.resize(std::min<std::size_t>(group.size(), 2 + s.random() % 2));

@@ -15,7 +15,7 @@
 namespace grove::detail::testing {
 namespace limits_in_sequencing_test {
 
-using testing::LimitOfLooks;
+using testing::ClockReadingLimit;
 
 class LimitsInSequencing : public ::testing::TestWithParam<RtspBackend> {
  protected:
@@ -72,7 +72,7 @@ CostMatrix points_in_the_plane(int n, Random& random) {
 TEST_P(LimitsInSequencing, StopsInTime) {
   Random random(54);
   const CostMatrix matrix = points_in_the_plane(64, random);
-  LimitOfLooks limits(20);
+  ClockReadingLimit limits(20);
   limits.set_memory_limit(resident_bytes() + (std::size_t{1} << 30));
   const auto solver = make_rtsp_solver(GetParam(), matrix, limits);
   const RtspAnswer answer = solver->best({}, kNever);
@@ -129,10 +129,10 @@ RtspAnswer::Kind answer_of_held_karp(const CostMatrix& matrix, const Limits& lim
 TEST(HeldKarp, StopsInTheMiddleOfTheTable) {
   Random random(58);
   const CostMatrix matrix = points_in_the_plane(20, random);
-  const LimitOfLooks whole(kNoEnd);
+  const ClockReadingLimit whole(kUnlimitedLooks);
   EXPECT_EQ(answer_of_held_karp(matrix, whole), RtspAnswer::Kind::kExact);
   ASSERT_GT(whole.looks(), 20);
-  const LimitOfLooks limits(whole.looks() / 10);
+  const ClockReadingLimit limits(whole.looks() / 10);
   EXPECT_EQ(answer_of_held_karp(matrix, limits), RtspAnswer::Kind::kStopped);
   EXPECT_LT(limits.looks(), whole.looks() / 5);
 }

@@ -28,9 +28,9 @@ class ManualClock {
 
 // Limits whose deadline passes after `looks` readings of their clock. Each reading advances the
 // clock by one millisecond, so a single-threaded run stops at the same point on every machine.
-class LimitOfLooks : public Limits {
+class ClockReadingLimit : public Limits {
  public:
-  explicit LimitOfLooks(std::int64_t looks) {
+  explicit ClockReadingLimit(std::int64_t looks) {
     set_clock([this] { return at(++looks_); });
     set_deadline(at(looks + 1));
   }
@@ -45,13 +45,13 @@ class LimitOfLooks : public Limits {
   mutable std::atomic<std::int64_t> looks_{0};
 };
 
-// Number of looks that no run reaches: LimitOfLooks then only counts readings.
-inline constexpr std::int64_t kNoEnd = std::int64_t{1} << 40;
+// Number of looks that no run reaches: ClockReadingLimit then only counts readings.
+inline constexpr std::int64_t kUnlimitedLooks = std::int64_t{1} << 40;
 
 // Limits that end a run only if it hangs.
-class LimitOfHangs : public Limits {
+class HangLimit : public Limits {
  public:
-  LimitOfHangs() { set_deadline(Clock::now() + std::chrono::minutes(5)); }
+  HangLimit() { set_deadline(Clock::now() + std::chrono::minutes(5)); }
 };
 
 }  // namespace grove::detail::testing

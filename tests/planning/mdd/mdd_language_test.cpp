@@ -531,12 +531,12 @@ TEST(MddLanguage, IsCompleteOrEmptyWhenALimitIsReached) {
     if (outcome == MddBuilder::Outcome::kStopped) return graph.empty();
     return outcome == MddBuilder::Outcome::kBuilt && graph.node_count() == whole.node_count();
   };
-  const testing::LimitOfLooks whole_run(testing::kNoEnd);
+  const testing::ClockReadingLimit whole_run(testing::kUnlimitedLooks);
   EXPECT_TRUE(is_sound(whole_run));
   ASSERT_GT(whole_run.looks(), 3);
   const std::int64_t stride = 1 + whole_run.looks() / 60;
   for (std::int64_t looks = 0; looks < whole_run.looks(); looks += stride) {
-    const testing::LimitOfLooks limits(looks);
+    const testing::ClockReadingLimit limits(looks);
     EXPECT_TRUE(is_sound(limits)) << looks << " looks";
     EXPECT_EQ(limits.reason(), StopReason::kTime) << looks << " looks";
   }
