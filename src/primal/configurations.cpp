@@ -8,9 +8,9 @@
 namespace grove::detail {
 namespace {
 
-std::uint64_t hash_of(std::span<const Standing> places) {
+std::uint64_t hash_of(std::span<const AgentState> places) {
   std::uint64_t hash = 0;
-  for (const Standing& p : places)
+  for (const AgentState& p : places)
     hash = scramble(
         hash ^ (static_cast<std::uint64_t>(p.stage) << 32 | static_cast<std::uint32_t>(p.state)));
   return hash;
@@ -21,7 +21,7 @@ std::uint64_t hash_of(std::span<const Standing> places) {
 Configurations::Configurations(int agents)
     : places_(static_cast<std::size_t>(agents)), slots_(1024, kNone) {}
 
-Configurations::Id Configurations::insert(std::span<const Standing> places) {
+Configurations::Id Configurations::insert(std::span<const AgentState> places) {
   const std::uint64_t hash = hash_of(places);
   std::size_t slot = slot_of(places, hash);
   if (slots_[slot] != kNone) return slots_[slot];
@@ -40,7 +40,7 @@ std::size_t Configurations::growth() const {
 }
 
 // The slot of `places`, or the free slot where it would be inserted.
-std::size_t Configurations::slot_of(std::span<const Standing> places, std::uint64_t hash) {
+std::size_t Configurations::slot_of(std::span<const AgentState> places, std::uint64_t hash) {
   std::size_t slot = hash & (slots_.size() - 1);
   while (slots_[slot] != kNone &&
          (hashes_[slots_[slot]] != hash || !std::ranges::equal((*this)[slots_[slot]], places)))

@@ -13,10 +13,10 @@
 namespace grove::detail {
 
 // State of one agent in a configuration: where it is, and the stage that stores its stops left.
-struct Standing {
+struct AgentState {
   State state;
   VisitStages::Stage stage;
-  friend bool operator==(const Standing&, const Standing&) = default;
+  friend bool operator==(const AgentState&, const AgentState&) = default;
 };
 
 // Numbered rows of equal length, stored in blocks that never move.
@@ -57,21 +57,21 @@ class Configurations {
 
   explicit Configurations(int agents);
 
-  std::span<const Standing> operator[](Id id) { return places_[id]; }
+  std::span<const AgentState> operator[](Id id) { return places_[id]; }
   Id count() const { return places_.count(); }
 
   // Inserts `places` and returns its number, which is count() - 1 if it is new.
-  Id insert(std::span<const Standing> places);
+  Id insert(std::span<const AgentState> places);
   // Bytes that the next insert() may allocate.
   std::size_t growth() const;
 
  private:
   static constexpr Id kNone = -1;
 
-  std::size_t slot_of(std::span<const Standing> places, std::uint64_t hash);
+  std::size_t slot_of(std::span<const AgentState> places, std::uint64_t hash);
   void rehash();
 
-  RowBlocks<Standing> places_;
+  RowBlocks<AgentState> places_;
   std::vector<std::uint64_t> hashes_;  // by Id
   std::vector<Id> slots_;              // open addressing, at most half full
 };

@@ -157,7 +157,7 @@ void Lacam::branch(Id id, ConstraintId constraint) {
   const std::int32_t depth = constraints_[constraint].depth;
   if (depth == static_cast<std::int32_t>(agents())) return;
   const AgentIndex agent = ranking_[depth];
-  const Standing from = configurations_[id][agent];
+  const AgentState from = configurations_[id][agent];
   next_.assign(1, from.state);
   for (const State state : instance_.world().moves(from.state))
     if (agents_[agent].may_enter(from.stage, state)) next_.push_back(state);
@@ -202,7 +202,7 @@ void Lacam::add_node(Id id, Id parent) {
   if (is_end(id)) plan_ = make_plan(id);
 }
 
-Lacam::Age Lacam::age_of(std::size_t agent, Id parent, Standing place) {
+Lacam::Age Lacam::age_of(std::size_t agent, Id parent, AgentState place) {
   if (at_rest(agent, place)) return kArrived;
   return parent < 0 ? 1 : std::min<Age>(kOldest - 1, ages_[parent][agent]) + 1;
 }

@@ -66,8 +66,8 @@ class Lacam {
   void arrive(Id from, std::span<const State> states);
   void add_node(Id id, Id parent);
   void leave_guide();
-  Age age_of(std::size_t agent, Id parent, Standing place);
-  bool at_rest(std::size_t agent, Standing place) const {
+  Age age_of(std::size_t agent, Id parent, AgentState place);
+  bool at_rest(std::size_t agent, AgentState place) const {
     return agents_[agent].may_rest(place.stage, place.state);
   }
   bool is_end(Id id);
@@ -90,7 +90,7 @@ class Lacam {
   std::vector<AgentIndex> ranking_;  // agents by priority
   std::vector<AgentIndex> by_way_;  // agents by distance from the start, longest first: breaks ties
   std::vector<LacamConstraint> orders_;
-  std::vector<Standing> places_;
+  std::vector<AgentState> places_;
   std::vector<State> next_;
 };
 

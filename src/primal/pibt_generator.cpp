@@ -25,7 +25,7 @@ PibtGenerator::PibtGenerator(const World& world, std::vector<VisitStages>& agent
       to_(agents.size(), kNoState),
       swaps_(world, agents, now_, to_) {}
 
-std::span<const State> PibtGenerator::step(std::span<const Standing> from,
+std::span<const State> PibtGenerator::step(std::span<const AgentState> from,
                                            std::span<const AgentIndex> priority,
                                            std::span<const LacamConstraint> orders,
                                            SplitMix64& dice) {
@@ -85,7 +85,7 @@ void PibtGenerator::pull(AgentIndex agent, State state) {
 
 // Appends the agent's candidates to candidates_, best first.
 void PibtGenerator::rank_candidates(AgentIndex agent) {
-  const Standing from = from_[agent];
+  const AgentState from = from_[agent];
   VisitStages& visits = agents_[agent];
   const auto first = static_cast<std::ptrdiff_t>(candidates_.size());
   const auto add = [&](State state, bool taken) {
@@ -117,7 +117,7 @@ void PibtGenerator::move(AgentIndex agent, State state) {
 }
 
 void PibtGenerator::clear() {
-  for (const Standing& from : from_) now_[world_.place(from.state)] = kNoAgent;
+  for (const AgentState& from : from_) now_[world_.place(from.state)] = kNoAgent;
   for (State state : to_)
     if (state != kNoState) later_[world_.place(state)] = kNoAgent;
 }

@@ -27,7 +27,8 @@ class PibtGenerator {
   // `priority`: the agents, highest priority first. Returns the states by agent, valid until the
   // next call. Returns an empty span if no step was found; only if every agent has a constraint is
   // it certain that none exists.
-  std::span<const State> step(std::span<const Standing> from, std::span<const AgentIndex> priority,
+  std::span<const State> step(std::span<const AgentState> from,
+                              std::span<const AgentIndex> priority,
                               std::span<const LacamConstraint> orders, SplitMix64& dice);
 
  private:
@@ -54,7 +55,7 @@ class PibtGenerator {
   std::vector<State> to_;              // by agent; kNoState: not decided
   std::vector<Candidate> candidates_;  // stack: of all agents that are choosing
   Swaps swaps_;
-  std::span<const Standing> from_;
+  std::span<const AgentState> from_;
   SplitMix64* dice_ = nullptr;
 };
 

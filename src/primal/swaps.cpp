@@ -28,7 +28,7 @@
 
 namespace grove::detail {
 
-AgentIndex Swaps::partner(AgentIndex agent, State wish, std::span<const Standing> from) const {
+AgentIndex Swaps::partner(AgentIndex agent, State wish, std::span<const AgentState> from) const {
   const State here = from[agent].state;
   if (!world_.is_plain() || wish == here || !is_possible({wish, here}, from)) return kNoAgent;
   const AgentIndex ahead = now_[wish];
@@ -45,13 +45,13 @@ AgentIndex Swaps::partner(AgentIndex agent, State wish, std::span<const Standing
   return kNoAgent;
 }
 
-bool Swaps::nearer(AgentIndex agent, std::span<const Standing> from, State a, State b) const {
+bool Swaps::nearer(AgentIndex agent, std::span<const AgentState> from, State a, State b) const {
   const VisitStages& visits = agents_[agent];
   return visits.distance(from[agent].stage, a) < visits.distance(from[agent].stage, b);
 }
 
 Swaps::Need Swaps::need(AgentIndex pusher, AgentIndex pushed, Pair pair,
-                        std::span<const Standing> from) const {
+                        std::span<const AgentState> from) const {
   while (nearer(pusher, from, pair.front, pair.back)) {
     State way = kNoState;
     const int ways = ways_on(pair, from, way);
@@ -64,7 +64,7 @@ Swaps::Need Swaps::need(AgentIndex pusher, AgentIndex pushed, Pair pair,
   return meet ? Need::kToPass : Need::kNone;
 }
 
-bool Swaps::is_possible(Pair pair, std::span<const Standing> from) const {
+bool Swaps::is_possible(Pair pair, std::span<const AgentState> from) const {
   const State begin = pair.back;
   while (pair.front != begin) {
     State way = kNoState;
@@ -76,14 +76,14 @@ bool Swaps::is_possible(Pair pair, std::span<const Standing> from) const {
 }
 
 // Is this a dead end of one cell where an agent rests?
-bool Swaps::is_plugged(State cell, std::span<const Standing> from) const {
+bool Swaps::is_plugged(State cell, std::span<const AgentState> from) const {
   const AgentIndex there = now_[cell];
   return world_.neighbors(cell).size() == 1 && there != kNoAgent &&
          agents_[there].may_rest(from[there].stage, cell);
 }
 
 // The number of ways on from the front; `way` becomes one of them.
-int Swaps::ways_on(Pair pair, std::span<const Standing> from, State& way) const {
+int Swaps::ways_on(Pair pair, std::span<const AgentState> from, State& way) const {
   int ways = 0;
   for (State cell : world_.neighbors(pair.front)) {
     if (cell == pair.back || is_plugged(cell, from)) continue;

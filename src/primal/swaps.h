@@ -24,7 +24,7 @@ class Swaps {
   // The agent that `agent`, which prefers to move to `wish`, should pull along backwards instead,
   // so that the two can swap at a junction behind `agent`. Returns kNoAgent if there is none. A
   // partner whose next state is decided cannot be pulled; then `agent` only backs off.
-  AgentIndex partner(AgentIndex agent, State wish, std::span<const Standing> from) const;
+  AgentIndex partner(AgentIndex agent, State wish, std::span<const AgentState> from) const;
 
  private:
   enum class Need : std::uint8_t {
@@ -39,11 +39,12 @@ class Swaps {
     State front;
   };
 
-  bool nearer(AgentIndex agent, std::span<const Standing> from, State a, State b) const;
-  Need need(AgentIndex pusher, AgentIndex pushed, Pair pair, std::span<const Standing> from) const;
-  bool is_possible(Pair pair, std::span<const Standing> from) const;
-  bool is_plugged(State cell, std::span<const Standing> from) const;
-  int ways_on(Pair pair, std::span<const Standing> from, State& way) const;
+  bool nearer(AgentIndex agent, std::span<const AgentState> from, State a, State b) const;
+  Need need(AgentIndex pusher, AgentIndex pushed, Pair pair,
+            std::span<const AgentState> from) const;
+  bool is_possible(Pair pair, std::span<const AgentState> from) const;
+  bool is_plugged(State cell, std::span<const AgentState> from) const;
+  int ways_on(Pair pair, std::span<const AgentState> from, State& way) const;
 
   const World& world_;
   const std::vector<VisitStages>& agents_;

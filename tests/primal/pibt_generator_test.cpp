@@ -29,11 +29,11 @@ struct Agents {
   const Instance& instance;
   Problem problem;
   std::vector<VisitStages> states;
-  std::vector<Standing> places;
+  std::vector<AgentState> places;
   std::vector<AgentIndex> priority;
 };
 
-void expect_step(const Grid& grid, std::span<const Standing> from, std::span<const State> to) {
+void expect_step(const Grid& grid, std::span<const AgentState> from, std::span<const State> to) {
   ASSERT_EQ(from.size(), to.size());
   for (std::size_t i = 0; i < to.size(); ++i) {
     const auto near = grid.neighbors(from[i].state);

@@ -63,9 +63,9 @@ TEST(Configurations, AreFoundByTheirPlaces) {
   constexpr int kAgents = 5;
   Configurations configurations(kAgents);
   fuzz::Random random(1);
-  std::vector<std::vector<Standing>> all;
+  std::vector<std::vector<AgentState>> all;
   for (int i = 0; i < 20'000; ++i) {
-    std::vector<Standing> places;
+    std::vector<AgentState> places;
     for (int a = 0; a < kAgents; ++a) places.push_back({random.below(4), random.below(4)});
     const auto known = std::ranges::find(all, places) - all.begin();
     if (i % 10 != 0 && known == std::ssize(all)) continue;
