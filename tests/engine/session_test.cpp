@@ -313,7 +313,7 @@ void expect_safe(const Kept& kept, const Instance& now, const Plan& plan, std::u
   }
   testing::Delays delays(before, seed);
   const auto is_committed = [&](ActionIndex a) { return before.actions()[a].begin < kept.steps; };
-  const ExecutionTrace executed = drive(before, [&](ActionIndex a, Time begin) {
+  const ExecutionTrace executed = simulate(before, [&](ActionIndex a, Time begin) {
     return is_committed(a) ? delays(a, begin) : kNever;
   });
   for (Time moment = 0; moment < 50; moment += 1 + moment / 4) {

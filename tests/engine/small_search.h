@@ -93,7 +93,7 @@ struct CountingObserver : WorkObserver {
   void evicted(std::span<const NodePtr> nodes) override {
     for (const NodePtr& node : nodes) evicted_bounds.push_back(node->bound());
   }
-  void after_task_step() override { ++work_items; }
+  void worked() override { ++work_items; }
 
   int expansions = 0;
   int work_items = 0;

@@ -52,9 +52,8 @@ Run run(const Instance& instance, const FuzzCase& fuzz_case, const oracle::Answe
   const std::clock_t worked_before = std::clock();
   Run run{solver(instance, fuzz_case.options, limits, truth)};
   const Clock::time_point end = Clock::now();
-  const auto after_task_step =
-      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
-          static_cast<double>(std::clock() - worked_before) / CLOCKS_PER_SEC));
+  const auto worked = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
+      static_cast<double>(std::clock() - worked_before) / CLOCKS_PER_SEC));
   const auto& texts = run.solution.stats.texts;
   const auto stop = texts.find("stopped_by");
   const bool out_of_memory = (fuzz_case.options.node_memory != SolveOptions::kUnlimited ||
@@ -65,7 +64,7 @@ Run run(const Instance& instance, const FuzzCase& fuzz_case, const oracle::Answe
   run.duration = end - begin;
   // A process that had to wait is not late: only its processor time beyond the deadline counts.
   const Clock::time_point due = std::max(begin, deadline);
-  run.overrun = std::min(end - due, after_task_step - (due - begin));
+  run.overrun = std::min(end - due, worked - (due - begin));
   return run;
 }
 

@@ -78,7 +78,7 @@ struct Process {
 
   struct Done {
     bool received = false;
-    bool after_task_step = false;
+    bool worked = false;
   };
 
   // Does one of the things that this process can do next.
@@ -174,9 +174,9 @@ Solution solve_in_random_order(const Instance& instance, const SolveOptions& opt
       process.limits.stop(chance(random, 50) ? StopReason::kTime : StopReason::kInterrupt);
       counts.limit_reached = true;
     }
-    turns += done.after_task_step;
+    turns += done.worked;
     if (look(coordinator.lower_bound())) break;
-    quiet = done.received || done.after_task_step || in_transit() || any_frozen() ? 0 : quiet + 1;
+    quiet = done.received || done.worked || in_transit() || any_frozen() ? 0 : quiet + 1;
     counts.stuck = quiet > kLongQuiet * schedule.ranks;
   }
   counts.ended = all_left();

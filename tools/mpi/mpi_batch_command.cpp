@@ -218,7 +218,7 @@ class BatchRun {
   void solve(const batch::Entry& entry, batch::Row& row, const Poll& poll) {
     const Clock::time_point start = Clock::now();
     const LoadedInstance loaded = load(entry, poll);
-    row.facts = learned_bounds_of(entry, loaded);
+    row.facts = metadata_of(entry, loaded);
     if (const std::string why = unsupported_reason(loaded.instance); !why.empty()) {
       row.outcome = {.status = batch::kUnsupported, .error = why};
       return;
