@@ -106,7 +106,7 @@ TEST(Messages, PricingRequestAndReplyRoundTrip) {
   EXPECT_EQ(request.first, 2);
   EXPECT_EQ(request.known, some_question().request.known);
   EXPECT_EQ(request.update.rows, some_question().request.update.rows);
-  EXPECT_EQ(request.update.multipliers, some_question().request.update.charges);
+  EXPECT_EQ(request.update.multipliers, some_question().request.update.multipliers);
   message::PricingDone sent;
   sent.answer.round = 7;
   sent.answer.digest = 0xfedcba9876543210;
