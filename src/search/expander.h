@@ -44,7 +44,7 @@ struct ExpansionCounts {
   std::int64_t group_states = 0;        // states examined by joint search of pairs and groups
   std::int64_t group_work = 0;          // effort of joint search, in the unit of work.h
   std::int64_t subproblems = 0;         // look-ups of subproblems
-  std::int64_t groups = 0;              // groups looked up
+  std::int64_t groups = 0;              // groups compared in full or looked up
   std::int64_t path_steps = 0;          // path steps searched for conflicts
   // Branching: splits by the kind of their second constraint (Brancher::splits()); bypasses; cost
   // queries of strong branching, and those that the cache answered. sets_asked and sets_known: MDD

@@ -106,7 +106,7 @@ class WorkerCache {
     ++asked_;
     return common_->subproblems.id(agent, order, constraints);
   }
-  // Number of subproblem queries so far, and of groups compared in full to answer group queries.
+  // Number of subproblem queries so far, and of groups compared in full or looked up.
   std::int64_t asked() const { return asked_; }
   std::int64_t groups_asked() const { return groups_asked_; }
   // Number of MDD queries so far, and of those that the cache answered.
