@@ -7,9 +7,10 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kMostEntries = std::size_t{1}
-                                     << 18;         // entries of a database made before the search
-constexpr std::int64_t kMostTableWork = 4'000'000;  // of these together; see search/work.h
+// Entries of one database made before the search, and effort of all of these (search/work.h).
+constexpr std::size_t kMostEntries = std::size_t{1} << 18;
+constexpr std::int64_t kMostTableWork = 4'000'000;
+// Entries of one late database; number of agents with which late databases are made.
 constexpr std::size_t kMostLateEntries = std::size_t{1} << 21;
 constexpr std::size_t kMostGroupedLate = 6;
 
@@ -70,7 +71,8 @@ void DatabaseGroups::group() {
   add_groupings(0, 0, none, 0);
 }
 
-// Adds all maximal groupings that extend `so_far` by databases from `first` on with free agents.
+// Adds all maximal groupings that extend `so_far` by databases with numbers >= `first` whose
+// members are not in `taken`.
 void DatabaseGroups::add_groupings(std::size_t first, unsigned taken, Grouping so_far,
                                    std::size_t count) {
   bool ends = true;
