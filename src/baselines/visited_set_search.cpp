@@ -8,10 +8,10 @@
 // - *Heuristic.* If tasks are left, h is the distance to the nearest task left plus the weight of
 //   the minimum spanning tree of all tasks left and the destination. It is a lower bound, because
 //   the agent first goes to some task left and from there takes a path through all these goals. It
-//   is consistent. A step changes the distance by at most one. A visit of task i, where the
-//   distance is 0, replaces the tree by the tree without i; with an edge from i to the nearest task
-//   left, the new tree spans i again. If no task is left, h is the distance to the destination or,
-//   if there is none, to the nearest own task.
+//   is consistent for two reasons. A step changes the distance by at most one. A visit of task i,
+//   where the distance is 0, replaces the tree by the tree without i; with an edge from i to the
+//   nearest task left, the new tree spans i again. If no task is left, h is the distance to the
+//   destination or, if there is none, to the nearest own task.
 // - *End.* The agent finishes on its destination or, if it has none, on any own task, if no
 //   constraint forbids it to stay there for ever.
 // - *Finitely many states.* From the time on at which the constraints are constant, all times are

@@ -10,7 +10,7 @@ namespace {
 // Entries of one database made before the search, and effort of all of these (search/work.h).
 constexpr std::size_t kMostEntries = std::size_t{1} << 18;
 constexpr std::int64_t kMostTableWork = 4'000'000;
-// Entries of one late database; number of agents with which late databases are made.
+// Entries of one late database, and maximum number of agents with which there are late databases.
 constexpr std::size_t kMostLateEntries = std::size_t{1} << 21;
 constexpr std::size_t kMostGroupedLate = 6;
 

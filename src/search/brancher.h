@@ -32,9 +32,8 @@ class Brancher {
  public:
   enum class Outcome : std::uint8_t {
     kBranched,
-    kConflictFree,  // the paths in scope have no conflict, at the node or after bypasses: see
-                    // NodeView::path()
-    kStopped,       // a limit was reached: no result
+    kConflictFree,  // NodeView::paths() have no conflict, possibly after bypasses
+    kStopped,       // a limit was reached; there is no result
   };
 
   // `problem`, `planner` and `memory` must outlive this object. `planner` and `memory` may be

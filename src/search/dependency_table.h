@@ -23,8 +23,8 @@ namespace grove::detail {
 // subproblems. Thread-safe.
 //
 // A group is *listed* under its rarest subproblem, because few nodes look up that subproblem. The
-// list entry also stores the second rarest subproblem, which already differs at the node for most
-// groups that do not apply to it.
+// list entry also stores the second rarest subproblem. Most groups that do not apply to a node
+// already differ from it in that subproblem.
 class DependencyTable {
  public:
   using Id = SubproblemTable::Id;

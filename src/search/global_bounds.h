@@ -39,12 +39,13 @@ class GlobalBounds {
   // True if the incumbent is within omega of the lower bound, or if no node (live or evicted) and
   // no further tree is left.
   bool finished() const;
-  // True if no node (live or evicted), no further tree and no incumbent is left: there is no plan.
+  // True if there is no incumbent and no node (live or evicted) or further tree is left, which
+  // proves that there is no plan.
   bool proven_infeasible() const;
   // True if a node with this bound cannot lead to a plan cheaper than the incumbent.
   bool prunes(Cost bound) const;
-  // Algorithm 4 of the paper: whether the next tree must be instantiated before a node is expanded.
-  // `best_live` is the least bound of all live and evicted nodes (Frontier::bound());
+  // Returns whether the next tree must be instantiated before a node is expanded (Algorithm 4 of
+  // the paper). `best_live` is the least bound of all live and evicted nodes (Frontier::bound());
   // kInfiniteCost: there is none. `last_tree_cost` is the cost of the joint sequence instantiated
   // last; nullopt: no tree is instantiated yet.
   bool needs_new_tree(Cost best_live, std::optional<Cost> last_tree_cost) const;

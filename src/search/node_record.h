@@ -20,7 +20,7 @@ struct NodeRecord {
 
   std::uint32_t tree = 0;                    // number of its tree
   std::vector<AgentConstraint> constraints;  // in order of depth, from the root down
-  std::vector<Walk> paths;                   // that differ from the root's, in order of agent
+  std::vector<Walk> paths;                   // those that differ from the root's, in order of agent
   Cost cost = 0;
   Cost bound = 0;
   std::uint32_t conflicts = 0;

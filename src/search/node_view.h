@@ -74,8 +74,8 @@ class NodeView {
   bool conflict_free() const { return conflicts_.empty(); }
   // The first conflict of agents `a` and `b`. Returns nullptr if they have none.
   const Conflict* conflict_between(AgentIndex a, AgentIndex b) const;
-  // Replaces `agents` by the agents in scope that must be re-planned under `constraint`: those
-  // whose path violates the constraint on them that it implies.
+  // Replaces `agents` by the agents in scope whose path violates the constraint that `constraint`
+  // implies for them. They must be re-planned.
   void affected_agents(const AgentConstraint& constraint, std::vector<AgentIndex>& agents) const;
 
   // Replaces the path of each agent in `agents` by the one at the same position in `paths`, which

@@ -62,7 +62,7 @@ struct ProofLemma {
   ProofKey key() const;
 };
 
-// Use of a lemma for the bound of a node.
+// Use of a lemma in the proof of a node's bound.
 struct ProofExcess {
   ProofKey lemma = kNoProof;
   std::vector<AgentIndex> agents;

@@ -30,7 +30,7 @@ struct CacheDelta {
   };
   std::unordered_map<Id, SubproblemTable::Known> costs;
   std::unordered_map<Id, MddCache::Set> sets;  // all that the worker requested
-  // pairs and groups are searched linearly, because they hold few entries at a time.
+  // `pairs` and `groups` are searched linearly, because they hold few entries at a time.
   std::vector<Pair> pairs;
   std::vector<DependencyTable::Group> groups;
 };

@@ -15,7 +15,7 @@ namespace grove::detail {
 
 // The sequence classes that a tree fixes, and the paths of its root. A value.
 struct TreeRecord {
-  // See AgentSequencing.
+  // What the tree fixes about one agent; see AgentSequencing.
   struct Order {
     SequenceClass sequences;
     bool fixed = false;                // the prefix is complete and determines the goals
@@ -43,7 +43,7 @@ class Trees {
   // Recreates the tree with this number and returns its root. Throws std::invalid_argument, and
   // adds nothing, if the record cannot belong to this instance. This is so if the number of agents
   // or stops is wrong, or if a path is not a walk from its agent's start to a place where the agent
-  // may rest, visits other stops or in a different order, or is not shortest for its order. For a
+  // may rest, does not visit the stops in their order, or is not shortest for that order. For a
   // class that leaves the order open, it is not checked that no other order is better.
   NodePtr add(const TreeRecord& record, std::uint32_t number);
 

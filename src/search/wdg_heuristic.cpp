@@ -30,9 +30,9 @@
 // best spent. *Measured*: of five instances of 100 agents on empty-32-32 without tasks, w = 0, 5 s,
 // both together solve 5, either one without the other 1.
 //
-// *Sum.* Two pairs that share an agent can have their excesses by the same additional steps of that
-// agent, so excesses must not be added up. covering_bound() computes the least total that satisfies
-// all statements.
+// *Sum.* Two pairs that share an agent can owe their excesses to the same additional steps of that
+// agent, so their excesses must not be added up. covering_bound() computes the least total that
+// satisfies all statements.
 //
 // *Cache.* The excess of a pair depends only on the two subproblems (agent, sequence class and
 // constraint set), so a bound proven at one node holds at every node where both agents have the
