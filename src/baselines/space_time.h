@@ -14,8 +14,8 @@ namespace grove::detail {
 // Number of expansions between two checks of the limits: about a tenth of a millisecond.
 inline constexpr std::int64_t kExpansionsPerPoll = 512;
 
-// Returns a time from which on the constraints are constant: each cell and each move is then either
-// forbidden at every time or at none.
+// Returns a time from which on the constraints are constant: each cell and each move is then
+// forbidden either at every later time or at none.
 inline Time static_from(std::span<const Constraint> constraints) {
   Time memory_returned = 0;
   for (const Constraint& c : constraints)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Splits from symmetry reasoning, one function per kind of conflict. The proof that no plan is lost
-// is at the head of the file that a comment names.
+// Splits from symmetry reasoning, one function per kind of conflict. The comment on each function
+// names the file whose head proves that no plan is lost.
 #pragma once
 
 #include <optional>

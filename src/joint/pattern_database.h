@@ -22,9 +22,9 @@ class PatternDatabase {
   using Node = AgentGraph::Node;
   static constexpr std::uint8_t kUnreachable = 255;
 
-  // make() makes the database for the agents at the positions `members` in `agents`, in ascending
-  // order. It returns nullopt if a limit was reached. entries(): its size in bytes. work(): the
-  // effort of making it, in the unit of search/work.h.
+  // make() makes the database for the agents at the positions `members`, which ascend, in `agents`.
+  // It returns nullopt if a limit was reached. entries(): its size in bytes. work(): the effort of
+  // making it, in the unit of search/work.h.
   static std::optional<PatternDatabase> make(const Instance& instance,
                                              std::span<const AgentGraph> agents,
                                              std::vector<std::size_t> members,
