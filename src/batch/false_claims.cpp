@@ -16,7 +16,7 @@ using InstanceKey = std::pair<std::string, std::string>;  // id and digest of th
 struct Known {
   const Row* cheapest = nullptr;  // the cheapest plan that was re-checked
   const Row* highest = nullptr;   // the highest lower bound that Grove has proven
-  const Row* hopeless = nullptr;  // Grove has proven that there is no plan
+  const Row* hopeless = nullptr;  // a row in which Grove has proven that there is no plan
 };
 
 InstanceKey key_of(const Row& row) {

@@ -50,7 +50,7 @@ using Node = AgentGraph::Node;
 using Index = std::uint32_t;
 constexpr Index kNone = std::numeric_limits<Index>::max();
 constexpr std::int64_t kStatesPerPoll = 256;
-constexpr std::int64_t kMadePerWork = 2;  // joint states; see search/work.h
+constexpr std::int64_t kMadePerWork = 2;  // joint states generated per unit of search/work.h
 
 }  // namespace
 

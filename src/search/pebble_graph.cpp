@@ -73,7 +73,7 @@ void PebbleGraph::number(const World& world, Place root) {
 
 // The second loop runs backwards, so that each node is complete before its parent.
 void PebbleGraph::find_blocks() {
-  std::vector<PebbleNode> highest(size());  // least node adjacent to the subtree
+  std::vector<PebbleNode> highest(size());  // by node: least node adjacent to its subtree
   for (PebbleNode node = 0; node < size(); ++node) {
     highest[node] = node;
     for (const PebbleNode other : neighbors(node))

@@ -12,8 +12,8 @@
 namespace grove::detail {
 
 // One technique. Techniques affect the running time but never the validity of a result. Policy
-// `fixed` searches its trees without any. Each technique is explained at the head of the file that
-// implements it.
+// `fixed` and the published low levels use none. Each technique is explained at the head of the
+// file that implements it.
 enum class Technique : std::uint8_t {
   kPrimal,           // prioritised planning and large neighbourhood search for incumbents
   kLacam,            // LaCAM for first plans on dense instances
