@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Corridors of a world, doors included: rows of places in which an agent can only continue or turn
+// Corridors of a world, including doors: rows of places in which an agent can only continue or turn
 // round.
 #pragma once
 
@@ -12,9 +12,9 @@
 namespace grove::detail {
 
 // The corridors of a world. A corridor is a maximal row of places with exactly two neighbors, the
-// *inner* places, together with the two *ends* that they join, which have fewer or more neighbors.
-// A door between two rooms is a corridor of two moves. The two ends may be one place. A ring has no
-// end and is not a corridor. Immutable: any thread may read it.
+// *inner* places, together with the two *ends* that they join, which have fewer or more than two
+// neighbors. A door between two rooms is a corridor of two moves. The two ends may be one place. A
+// ring has no end and is not a corridor. Immutable: any thread may read it.
 class Corridors {
  public:
   static constexpr int kNoCorridor = -1;
