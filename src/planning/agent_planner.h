@@ -21,8 +21,8 @@ enum class PathOutcome : std::uint8_t {
   kFound,
   kAboveCutoff,  // proven: every path costs more than `cutoff`; perhaps none exists
   kInfeasible,   // proven: no path exists
-  kStopped,  // nothing is proven: a limit or label_limit was reached, the costs to go would be too
-             // large, or see known_sequences
+  kStopped,  // nothing is proven: a limit of the run or label_limit was reached, the costs to go
+             // would become too large, or known_sequences excluded sequences
 };
 
 // Constraints and preferences for the path of one agent. All pointers and spans must stay valid

@@ -156,8 +156,8 @@ class ConflictAvoidanceTable {
   std::vector<Counts> counts_;    // a power of two
   std::vector<Visited> visited_;  // by place
   std::size_t mask_;              // counts_.size() - 1
-  std::uint64_t stride_;  // of time; odd: on a place only times that differ by a multiple of the
-                          // size coincide
+  std::uint64_t stride_;  // factor of the time in the hash; odd, so that on one place only times
+                          // that differ by a multiple of the table size have the same hash
   std::uint64_t generation_ = 1;
   std::size_t keys_ = 0;          // keys of this generation, including those of removed paths
   Time horizon_ = 0;              // no path added since the last clear() moves after this time

@@ -26,8 +26,8 @@ void FreeOrderGoals::find_deadlines(const SafeIntervals& intervals) {
 }
 
 // Computes the first time at which the agent may come to rest for ever on any of its places of
-// rest, and the stop on which it must rest, if there is only one. (With a destination the heuristic
-// already leads there.)
+// rest. Without a destination, also finds the stop on which a constraint forces it to rest. (With a
+// destination the heuristic already leads there.)
 void FreeOrderGoals::find_rests(const SafeIntervals& intervals) {
   const AgentStops& stops = goals_->stops();
   only_rest_ = AgentStops::kNoStop;
