@@ -26,10 +26,9 @@ class CostToGo {
   // Returns the direct legs of the agent (direct_legs.h) between the same stops.
   using MakeDirectLegs = std::function<CostMatrix()>;
 
-  // `table`: memory in which a table is built if it has room, or from which it is read if another
-  // process has built it. `direct`: if given, a graph with more than kMostStates states is replaced
-  // by a graph by direct legs, i.e. of the routes of an agent that visits each plain stop that it
-  // passes.
+  // `table`: memory for the table, if it has room; a table that is already complete there is only
+  // read. `direct`: if given, a graph with more than kMostStates states is replaced by a graph by
+  // direct legs, i.e. of the routes of an agent that visits each plain stop that it passes.
   explicit CostToGo(CostMatrix matrix, SharedArray table = {}, MakeDirectLegs direct = {});
   // Returns the costs to go for one sequence class, because a graph by direct legs is valid for one
   // class only. Returns nullopt if *this can be used for `work`.
