@@ -10,10 +10,10 @@
 
 namespace grove::detail {
 
-// Source of a text: writes up to `size` bytes to `buffer` and returns their number, 0 at the end.
+// Source of a text: writes up to `size` bytes to `buffer` and returns their number; 0 at the end.
 using ByteSource = std::function<std::size_t(char* buffer, std::size_t size)>;
 
-// Buffers the current line and some text after it.
+// Buffers the current line and some text after it. One thread at a time.
 class LineStream {
  public:
   static constexpr std::size_t kLongest = std::size_t{1} << 22;
