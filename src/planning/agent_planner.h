@@ -19,7 +19,7 @@ namespace grove::detail {
 // Outcome of a path query.
 enum class PathOutcome : std::uint8_t {
   kFound,
-  kAboveCutoff,  // proven: every path costs more than `cutoff`; perhaps none exists
+  kAboveCutoff,  // proven: every path costs more than `cutoff`, if one exists
   kInfeasible,   // proven: no path exists
   kStopped,  // nothing is proven: a limit of the run or label_limit was reached, the costs to go
              // would become too large, or known_sequences excluded sequences
@@ -35,7 +35,7 @@ struct PathQuery {
   // as it generates them; nullptr: no preference.
   const ConflictAvoidanceTable* others = nullptr;
   Time cutoff = kNever;                   // greatest useful cost of a path; kNever: no limit
-  std::int64_t label_limit = kUnlimited;  // expanded labels, approximately; then kStopped
+  std::int64_t label_limit = kUnlimited;  // kStopped after about this many expanded labels
 
   // Paths that the path must not collide with; nullptr: none. If given, `constraints` is ignored.
   const ReservationTable* reservations = nullptr;

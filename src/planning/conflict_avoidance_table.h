@@ -14,7 +14,7 @@ namespace grove::detail {
 
 // Counts the paths that use each (place, time) and each (move, time); fewer than 65,536 paths. It
 // is a hash table of the (place, time) pairs on the paths, so its size does not depend on the
-// number of time steps and places of the world. It takes about 100 bytes or more per step of a
+// number of time steps and places of the world. It takes at least about 100 bytes per step of a
 // path, and fits into the processor cache where a table of all pairs would not. One thread at a
 // time.
 class ConflictAvoidanceTable {
@@ -120,7 +120,7 @@ class ConflictAvoidanceTable {
     while (counts_[at].key != key && is_current(counts_[at].key)) at = (at + 1) & mask_;
     return at;
   }
-  // Returns nullptr if no path is there.
+  // Returns the counts of this place and time; nullptr if no path visits the place then.
   const Counts* counts_of(Place place, Time time) const {
     if (!perhaps(place, time)) return nullptr;
     const Counts& counts = counts_[slot(key(place, time))];
@@ -134,7 +134,7 @@ class ConflictAvoidanceTable {
   // answers most queries. Bits of removed paths can remain set until the next generation.
   struct Visited {
     std::uint32_t generation = 0;
-    std::uint32_t times = 0;  // one bit per kTimesPerBit times, cyclic
+    std::uint32_t times = 0;  // bit t / kTimesPerBit % 32: visited at a time t?
   };
   static constexpr int kTimesPerBit = 8;
   static std::uint32_t time_bit(Time time) {

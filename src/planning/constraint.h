@@ -15,8 +15,8 @@ namespace grove::detail {
 
 class Corridors;
 
-// Files and MPI messages contain these numbers. A new kind takes the next number and a row in
-// constraint.cpp.
+// The numbers of the kinds are part of file formats and of messages between ranks. A new kind takes
+// the next number and a row in constraint.cpp.
 enum class ConstraintKind : std::uint8_t {
   // Without `from`: the agent is not on the place `cell` at any time in [begin, end]; resting there
   // after the finish counts. With `from`: the agent makes no move from `from` to `cell` that

@@ -13,8 +13,8 @@ namespace grove::detail {
 
 // The corridors of a world. A corridor is a maximal row of places with exactly two neighbors, the
 // *inner* places, together with the two *ends* that they join, which have fewer or more than two
-// neighbors. A door between two rooms is a corridor of two moves. The two ends may be one place. A
-// ring has no end and is not a corridor. Immutable: any thread may read it.
+// neighbors. A door between two rooms is a corridor of two moves. The two ends can be the same
+// place. A ring has no end and is not a corridor. Immutable: any thread may read it.
 class Corridors {
  public:
   static constexpr int kNoCorridor = -1;

@@ -25,12 +25,12 @@
 // visits goal k at time b or earlier, this time is in [g, b]. The agent of G can wait on goal k
 // until then and continue like P. Therefore L is needed only for paths that visit goal k in a later
 // interval. If the next interval begins at n, these paths cost n + after_goal(k) or more, and L is
-// postponed to that f. If there is no later interval, L is dropped. *Claim: the rule loses no
-// optimal path.* *Proof.* Until the finish is popped, some optimal path P has an open label that
-// reaches one of the states of P no later than P does and whose key (the f under which it is
-// queued) is at most the optimal cost. If this label is L and is postponed beyond the optimal cost,
-// P can be replaced by a path through G as above. That path costs the same, and its first
-// unexpanded label has more progress than L, so only finitely many replacements follow.
+// postponed to that f. If there is no later interval, L is dropped.
+// *Claim: the rule loses no optimal path.* *Proof.* Until the finish is popped, some optimal path P
+// has an open label that reaches one of the states of P no later than P does and whose key (the f
+// under which it is queued) is at most the optimal cost. If this label is L and is postponed beyond
+// the optimal cost, P can be replaced by a path through G as above. That path costs the same, and
+// its first unexpanded label has more progress than L, so only finitely many replacements follow.
 // *Consequence.* If no goal is constrained (b = kNever), the search decomposes into legs without
 // further rules. It remains exact if goals are constrained.
 #pragma once

@@ -4,11 +4,11 @@
 // that of the detour. Method: legs that provably begin late are charged for the detour.
 //
 // *Claim: a leg that leaves stop i at time e or later takes at least depth(j) steps to reach j.*
-// Here depth is the depth in a breadth-first search from all states on i that enters a place c only
-// if e + depth(c) <= last(c), the last time at which an agent may be on c. *Proof.* Let c_0 = i,
-// c_1, ... be the places of the leg, one per time step, begun at t >= e. depth(c_k) <= k by
-// induction: c_k is occupied at t + k, so e + depth(c_{k-1}) + 1 <= e + k <= t + k <= last(c_k),
-// and the search enters c_k by depth k.
+// Here depth is the depth in a breadth-first search from all base states on i that enters a place c
+// only if e + depth(c) <= last(c), the last time at which an agent may be on c. *Proof.* Let c_0 =
+// i, c_1, ... be the places of the leg, one per time step, begun at t >= e. depth(c_k) <= k by
+// induction: the agent is on c_k at t + k, so e + depth(c_{k-1}) + 1 <= e + k <= t + k <=
+// last(c_k), and the search enters c_k by depth k.
 //
 // *Earliest begin of a leg.* No path counts stop i before dist(start, i). Consider a path that
 // realizes a sequence s with i as its last stop. Until it counts i, the path visits all stops of s,

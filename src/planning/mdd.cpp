@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Builds the MDD of one agent in two searches over labels.
 //
-// *Definitions.* A *label* is a slot of safe_intervals.h and a stage of sequence_stages.h. The slot
-// determines the state and all facts about the past on which the constraints depend. An agent in a
-// slot can wait there until the slot ends, and its continuations from a label at a given time
-// depend on nothing else. Let the *earliest* time of a label be the first time at which an agent
-// can be in it, and its *latest* time the last one from which the agent can still end at C. The
-// paths of cost C are in the label exactly at the times from the earliest to the latest: an agent
-// that arrives at the earliest time can wait until any later time, and an agent that is there
-// before the latest time can wait for it.
+// *Definitions.* Let C be the given cost. A *label* is a slot of safe_intervals.h and a stage of
+// sequence_stages.h. The slot determines the state and all facts about the past on which the
+// constraints depend. An agent in a slot can wait there until the slot ends, and its continuations
+// from a label at a given time depend on nothing else. Let the *earliest* time of a label be the
+// first time at which an agent can be in it, and its *latest* time the last one from which the
+// agent can still end at C. The paths of cost C are in the label exactly at the times from the
+// earliest to the latest: an agent that arrives at the earliest time can wait until any later time,
+// and an agent that is there before the latest time can wait for it.
 //
 // *Method.* Neither search branches over times. The forward search computes the earliest times, in
 // order of time, and all moves. The backward search computes the latest times along those moves,
 // from the last moves on. Then the layers are written, only with nodes that lead to an end. (The
-// MDD of an agent without goals and constraints follows from two distances in the same way.)
+// MDD of an agent without tasks and constraints follows from two distances in the same way.)
 //
 // *Claim: the walks of the graph are exactly the paths of cost C.* *Proof.* Moves are generated at
 // the earliest time in the label that they leave, so the first time of a move is its earliest

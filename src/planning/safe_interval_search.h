@@ -19,11 +19,11 @@
 // two intervals, which differ in the time of arrival; see safe_intervals.h. The continuations
 // depend on no other part of the past.)
 //
-// *Finish.* The agent may come to rest only with all goals visited and in an interval that never
-// ends. Such a label is a *finish*. The *first rest* is the least begin of an interval in which the
-// agent may rest. No path costs less, so a finish at that time is optimal, no matter which f the
-// search has reached. The raised heuristic max(t + h, first rest) would have the same effect, but
-// with a plateau.
+// *Finish.* The agent may come to rest only after all goals are visited and in an interval that
+// permits rest. A label with both properties is a *finish*. The *first rest* is the least begin of
+// an interval in which the agent may rest. No path costs less, so a finish at that time is optimal,
+// no matter which f the search has reached. The raised heuristic max(t + h, first rest) would have
+// the same effect, but with a plateau.
 //
 // *Order.* Labels are popped by layer, which is f = t + h unless Goals defines another value. When
 // a label is popped, it can be postponed to a later layer; Goals has the proof that this loses no
@@ -120,7 +120,7 @@ class SafeIntervalSearch {
   };
 
   static constexpr std::int32_t kNoSlot = -1;
-  static constexpr std::int64_t kLabelsPerPoll = 256;  // between polls of the limits
+  static constexpr std::int64_t kLabelsPerPoll = 256;  // labels between polls of the limits
 
   Label& label(const Entry& entry) { return planes_.label(entry.slot, entry.progress); }
   bool postpone(const Entry& entry, State state);
@@ -224,7 +224,7 @@ void SafeIntervalSearch<Goals>::reach(const Entry& from, State from_state, std::
        .stamp = planes_.stamp(),
        .conflicts = conflicts,
        .parent_progress = from.progress};
-  // No path is cheaper than a finish at the first rest, so such a label skips its layer.
+  // No path costs less than a finish at the first rest, so this finish goes to the current layer.
   const bool optimal = time == goals_.first_rest() && is_finish(slot, state, progress);
   queue_.push(optimal ? queue_.layer() : std::max(layer, queue_.layer()),
               {.slot = slot, .time = time, .conflicts = conflicts, .progress = progress});

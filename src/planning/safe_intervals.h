@@ -25,8 +25,8 @@ struct SafeInterval {
   Time last_arrival = kNever;  // agents that arrive later are in another interval
   std::uint8_t copy = 0;       // copy of the place, see SafeIntervals
   bool may_rest = false;       // may the agent rest here for ever?
-  // With reservations: the place to which the previous agent here moves; kNoPlace if there was
-  // none.
+  // With reservations: the place to which the previous agent moves when it leaves this place;
+  // kNoPlace if there was none.
   Place left_for = kNoPlace;
   bool is_late = false;  // agents that arrived earlier may rest
 };
@@ -46,8 +46,8 @@ struct SafeInterval {
 //
 // - *No rest by t.* If the interval [b, inf) of a place has b <= t, it becomes two overlapping
 //   slots. An agent that arrives at t or earlier may stay for any time, but not for ever. An agent
-//   that arrives later may rest. (A turn on the place does not change the slots in this respect,
-//   because the time of arrival is the time at which the agent came to the place.)
+//   that arrives later may rest. (A turn on the place is no arrival: the time of arrival is the
+//   time at which the agent came to the place.)
 // - *Rest by t.* If agents can turn or execute tasks after their last arrival, the interval is
 //   divided in the same way: an agent that arrives at t or earlier may rest, one that arrives later
 //   may not.
@@ -90,16 +90,16 @@ class SafeIntervals {
     return (only_rest_ == kNoPlace || place_of(slot) == only_rest_) &&
            (slot < states_ || interval(slot).may_rest);
   }
-  // The last time at which a move from `from_slot` into `slot` may arrive, if the move is not
-  // barred.
+  // The last time at which a move from `from_slot` to `slot` can arrive, without regard to barred
+  // moves.
   Time last_entry(int from_slot, int slot) const {
     return place_of(from_slot) == place_of(slot)
                ? end_of(from_slot)
                : std::min(end_of(from_slot) + 1, last_arrival(slot));
   }
-  // Has an agent in this slot, until next_begin(), all continuations of an agent in another slot of
-  // this state at the same time or later? False for a copy with a barred traversal, and after an
-  // arrival that is too late to rest (kRestBy).
+  // True if an agent in this slot has, until next_begin(), all continuations of an agent in any
+  // other slot of this state at the same time or later. False for a copy with a barred traversal,
+  // and after an arrival that is too late to rest (kRestBy).
   bool stands_for_others(int slot) const {
     return copy_of(slot) == kFree && !(slot >= states_ && interval(slot).is_late);
   }
@@ -189,7 +189,7 @@ class SafeIntervals {
   // Slots of one constrained place, and the range of its constraints in bars_.
   struct Group {
     Place place;
-    std::int32_t first_slot = 0;  // of the first state on it; other states follow
+    std::int32_t first_slot = 0;  // of the first state on the place; other states follow
     std::int32_t slots = 0;       // number of slots of each state
     std::int32_t first_bar = 0;
     std::int32_t first_move = 0;  // the barred moves to the place come last
@@ -245,7 +245,7 @@ class SafeIntervals {
     const int first = group.first_slot + world_.rank_on_place(state) * group.slots;
     return {first, first + group.slots};
   }
-  // The slots of `state` that a move from `from` can lead to, whatever its time.
+  // The slots of `state` that a move from `from` can lead to, at any time.
   Range slots_entered(const Group& to, int from_slot, Place from, State state) const {
     if (to.corridor == kNoCopies) return slots(to, state);
     const ChainUsed& corridor = chains_used_[to.corridor];

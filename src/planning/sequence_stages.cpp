@@ -39,9 +39,9 @@
 // w) be the greatest distance to w from any state on u. *Claim: if onward(u) >= D(u, w) +
 // onward(w), then u is not needed if w is kept, for any state.* *Proof.* dist(state, w) <=
 // dist(state, u) + D(u, w). *Consequence.* Usually only a few stops are needed. (No two stops rule
-// out each other: on two places D is positive, and on one place the second stop takes time.) Onward
-// costs are minima over the states in which the agent can leave a stop, so they never exceed the
-// actual cost.
+// out each other: on two places D is positive, and two stops on one place take time.) Onward costs
+// are minima over the states in which the agent can leave a stop, so they never exceed the actual
+// cost.
 //
 // *Ports.* If agents turn and the world is of moderate size, each stop has four ports
 // (cost_matrix.h), and all of the above holds for ports instead of stops. With ports, onward costs

@@ -64,8 +64,7 @@ bool SingleStopBound::may_rest(int slot) const {
 
 void SingleStopBound::reach(int slot, State state, Time time, bool visited) {
   const int at = stops_->stop_at(state);
-  if (at < AgentStops::kNoStop && AgentStops::stop_of_work(at) < 0)
-    return;  // a task of another agent
+  if (at < AgentStops::kNoStop && AgentStops::stop_of_work(at) < 0) return;  // not its stop
   visited = visited || at == via_;
   Time& earliest = earliest_[index(slot, visited)];
   if (earliest <= time) return;

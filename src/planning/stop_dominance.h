@@ -21,8 +21,8 @@ class StopDominance {
   void begin_search();
 
   // Records a gate: a label whose parent is in stage `from` was expanded in `state`, on a stop that
-  // it has just counted at `time`. It dominates labels of `from` that count this stop at `time`
-  // plus the turning time or later, and before `until`; kNever: no upper limit.
+  // it has just counted at `time`. This label dominates labels of stage `from` that count this stop
+  // at `time` plus the turning time or later, and before `until`; kNever: no upper limit.
   void close(const SequenceStages& goals, StageId from, State state, Time time, Time until);
 
   // Is there a gate at any onward port of this stage?

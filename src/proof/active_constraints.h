@@ -25,8 +25,8 @@ class ActiveConstraints {
   void undo(const CertificateConstraint& side) { count(side, -1); }
   void clear() { counts_.clear(); }
 
-  // True if `constraint` is active. It can also be active if this is false, through a side of
-  // "later".
+  // True if `constraint` is active. Does not report a constraint that is active only through a side
+  // of "later", because the goal in such a side is not known.
   bool has(const CertificateConstraint& constraint) const;
   // True if `side` would add no constraint to the active ones.
   bool has_side(const CertificateConstraint& side) const;

@@ -21,10 +21,12 @@ struct CertificateConstraint {
 
   AgentIndex agent = 0;
   Kind kind = Kind::kVertexOrEdge;
-  std::int32_t p = 0;  // p, q: places in the order of the line; kStop: number and task
+  // kStop and kNoStop: p is the position of the stop, q its task. Others: p and q are the places,
+  // in the order of the line.
+  std::int32_t p = 0;
   std::int32_t q = 0;
   std::int32_t begin = 0;
-  std::int32_t end = 0;
+  std::int32_t end = 0;  // inclusive, or kForEver
 
   friend auto operator<=>(const CertificateConstraint&, const CertificateConstraint&) = default;
 };

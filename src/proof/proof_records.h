@@ -48,9 +48,10 @@ class ProofRecords : public ProofLog {
   void drop_what_lacks_lemmas();
 };
 
+// Default effort limit of covered() and leave_out().
+inline constexpr std::int64_t kCoveringSteps = 100'000;
 // Returns the excess that `excesses` together imply (search/covering.h). `steps` limits the effort.
 // With 0 steps it only adds excesses of groups without a common agent.
-inline constexpr std::int64_t kCoveringSteps = 100'000;
 Cost covered(std::span<const ProofExcess> excesses, std::int64_t steps = kCoveringSteps);
 
 // Removes excesses one after another, from the last to the first, as long as the remaining ones

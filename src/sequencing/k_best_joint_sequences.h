@@ -16,7 +16,7 @@ namespace grove::detail {
 
 struct JointSequence {
   Cost cost = 0;                     // sum of the agents' sequence costs
-  std::vector<std::uint32_t> ranks;  // by AgentIndex: rank of its sequence in its KBestSequences
+  std::vector<std::uint32_t> ranks;  // by AgentIndex: rank in the agent's KBestSequences
 };
 
 // Enumerates all combinations of the agents' sequences exactly once, in ascending order of cost.

@@ -6,8 +6,8 @@
 // member s of the cheapest class is the next sequence. The class without s is split into the
 // classes
 //
-//   begins like s up to its i-th stop, then not s[i]   (and, at the class's own place, not what the
-//                                                       class forbade there already)
+//   the first i stops are those of s, and the next stop is not s[i]; if i is the length of the
+//   prefix of the class, the next stop is also none of those that the class forbids
 //
 // for each position i after the prefix of the class, so every sequence is returned exactly once.
 // The branch at the last position would forbid the only stop left, so it is empty and omitted.

@@ -17,10 +17,9 @@ class OneTreeRelaxation {
   // The part of a bound over one set of stops that does not depend on the stop from which the agent
   // comes.
   struct Tail {
-    std::int64_t tree = 0;   // fixed point; all except the first and the last leg
-    int nearest_to_end = 0;  // the stop with the cheapest last leg
-    int second_to_end =
-        0;  // the stop with the second cheapest one; the same stop if it is the only one
+    std::int64_t tree = 0;      // fixed point; all except the first and the last leg
+    int nearest_to_end = 0;     // the stop with the cheapest last leg
+    int second_to_end = 0;      // with the next cheapest; the same if it is the only stop
     std::int64_t last_leg = 0;  // costs of these two last legs, in fixed point
     std::int64_t second_leg = 0;
   };
@@ -71,12 +70,10 @@ class OneTreeRelaxation {
 
   int stops_;
   int ports_;
-  std::vector<std::int64_t> costs_;  // in fixed point, laid out as the matrix
-  std::vector<std::int64_t> shift_;  // by row of the matrix
-  std::vector<std::int64_t>
-      legs_;  // from a row to a stop or the end: least over the ports of the stop
-  std::vector<std::int64_t>
-      edges_;  // from a stop or the start to a stop or the end: least over the ports of both
+  std::vector<std::int64_t> costs_;      // in fixed point, laid out as the matrix
+  std::vector<std::int64_t> shift_;      // by row of the matrix
+  std::vector<std::int64_t> legs_;       // from a row to a stop or the end: least over ports
+  std::vector<std::int64_t> edges_;      // also least over the ports of the first stop
   std::vector<std::int64_t> apart_;      // between two stops, in the cheaper direction
   std::vector<std::int64_t> potential_;  // by stop, in fixed point
   std::vector<std::int64_t> weight_;     // apart_ plus the potentials of both stops

@@ -11,7 +11,7 @@
 // after its first free stop passes a stop that comes later in the sequence.
 //
 // *Claim: each class with a sequence of finite cost has a cheapest member that is canonical.*
-// Proof: take a cheapest member, and the first leg (v, w) that passes a later stop u. Move u
+// *Proof.* Take a cheapest member, and the first leg (v, w) that passes a later stop u. Move u
 // between v and w. This removes a detour of least(u) or more, and adds a detour of least(u), so the
 // sequence costs no more. The prefix and the first free stop do not change, so the sequence is in
 // the class. The successor of v is now smaller in the order above, and the legs before v are

@@ -76,7 +76,8 @@ inline bool is_built(RtspBackend backend) {
 std::unique_ptr<RtspSolver> make_rtsp_solver(RtspBackend backend, const CostMatrix& matrix,
                                              const Limits& limits);
 
-// The makers of the individual back ends, each in the file of its name, with their limits.
+// The following functions make one back end each. The file with the name of the back end defines
+// it.
 //
 // Largest number of stops for which kAuto uses a table. A table of this size takes less than 1 ms
 // and 0.5 MB (four times that with ports). For more stops, building a sequence graph takes about as
