@@ -157,7 +157,7 @@ std::optional<CostMatrix> late_cost_matrix(const World& world, SafeIntervals& in
 
 namespace {
 
-// Returns the lower bound of the costs to go on every sequence of the class.
+// Returns a lower bound on the cost of every sequence of the class, computed from `goals`.
 Time least_cost(SequenceStages& goals) {
   const Time beyond = goals.cost_to_go().beyond();
   const SequenceStages::StageId stage = goals.first_stage();

@@ -17,12 +17,12 @@
 // *Relaxation.* The relaxation of the class is tried first. It decides many classes above the
 // cutoff without a graph, so that such a class does not enlarge the graph that all classes share.
 //
-// *Canonical sequences.* If many stops are in a row, so many sequences have the same cost that a
-// graph of all of them is too large. If the graph exceeds most_states_, a graph of the canonical
-// sequences (passed_stops.cpp) of the queried class replaces it. This graph is built separately for
-// each class. A query needs only a cheapest member of its class, and at least one is canonical. If
-// the second graph becomes too large as well, the answer is kStopped for this class and for every
-// later class that the relaxation does not decide, so that no more memory is spent.
+// *Canonical sequences.* If many stops are in a row, a huge number of sequences can have the same
+// cost, and no graph can hold all of them. If the graph exceeds most_states_, a graph of the
+// canonical sequences (passed_stops.cpp) of the queried class replaces it. This graph is built
+// separately for each class. A query needs only a cheapest member of its class, and at least one is
+// canonical. If the second graph becomes too large as well, the answer is kStopped for this class
+// and for every later class that the relaxation does not decide, so that no more memory is spent.
 //
 // *Measured* on 32x32 maps and den312d, CTS and MG, one core: the best sequence of 36 stops takes 2
 // to 120 ms, with graphs of at most 2,800 states.
