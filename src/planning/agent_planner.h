@@ -30,7 +30,7 @@ enum class PathOutcome : std::uint8_t {
 struct PathQuery {
   static constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
 
-  std::span<const Constraint> constraints = {};  // also satisfied while resting at the end
+  std::span<const Constraint> constraints = {};  // satisfied also by the final rest of the path
   // Among paths of equal cost the search prefers those with few conflicts with these paths, as far
   // as it generates them; nullptr: no preference.
   const ConflictAvoidanceTable* others = nullptr;

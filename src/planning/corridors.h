@@ -34,7 +34,7 @@ class Corridors {
   int position(Place inner) const { return position_[inner]; }
 
  private:
-  static constexpr int kSeen = -2;  // on a ring
+  static constexpr int kSeen = -2;  // position_ of places on a ring
 
   void add_chain_through(const World& world, Place inner);
   void number_inner_places(int corridor);

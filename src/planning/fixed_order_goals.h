@@ -43,6 +43,7 @@
 
 namespace grove::detail {
 
+// Goals of one GoalSequence, as template argument of SafeIntervalSearch. One thread at a time.
 class FixedOrderGoals {
  public:
   using Progress = std::uint8_t;

@@ -43,6 +43,7 @@
 
 namespace grove::detail {
 
+// Goals of one sequence class, as template argument of SafeIntervalSearch. One thread at a time.
 class FreeOrderGoals {
  public:
   using Progress = SequenceStages::StageId;

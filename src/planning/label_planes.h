@@ -95,6 +95,7 @@ class LabelPlanes {
     std::unique_ptr<Label, Unmap> labels;
     std::vector<std::uint8_t> touched;  // by plane, then group: 1 if a label of it was accessed
   };
+  // The plane of a state in the search with this stamp.
   struct Use {
     Label* labels = nullptr;
     std::uint8_t* touched = nullptr;

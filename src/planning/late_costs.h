@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cost matrix that takes into account the times from which places are barred for ever, and the
-// stages over this matrix.
+// Late costs: lower bounds on legs that take into account the times from which places are barred
+// for ever. (The *plain* costs ignore constraints.) Also the stages of an agent over these costs.
 #pragma once
 
 #include <optional>

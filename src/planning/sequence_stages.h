@@ -114,10 +114,11 @@ class AgentStops {
 };
 
 // Stages of one agent under one sequence class, numbered in the order of their creation. A stage is
-// the agent's progress: the stops left to count and, without a destination, the stops where it may
-// rest. A path *realizes* a sequence if it visits the stops in that order and, without a
-// destination, rests on the last one. One thread at a time; several SequenceStages of the same
-// thread may share their AgentStops.
+// the progress of the agent: the stops left to count and, without a destination, the stops where it
+// may rest. The agent *counts* a stop by one of its visits there, which is then the visit that the
+// sequence refers to. A path *realizes* a sequence if it visits the stops in that order and,
+// without a destination, rests on the last one. One thread at a time; several SequenceStages of the
+// same thread may share their AgentStops.
 class SequenceStages {
  public:
   using StageId = std::int32_t;

@@ -160,6 +160,7 @@ class LemmaWriter : public ProofLog {
   std::unordered_map<ProofKey, std::int64_t> numbers_;
 };
 
+// Writes the lines of the proof of the theorem, and counts splits and leaves.
 class TreeWriter : public ForestVisitor {
  public:
   TreeWriter(const Instance& instance, const LemmaWriter& lemmas, CertificateOutput& output,

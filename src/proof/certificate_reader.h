@@ -15,6 +15,7 @@
 
 namespace grove::detail {
 
+// A constraint in a certificate (docs/proof.md, section 2).
 struct CertificateConstraint {
   enum class Kind : std::uint8_t { kVertexOrEdge, kMove, kNoRest, kRest, kPass, kStop, kNoStop };
   static constexpr std::int32_t kForEver = -1;

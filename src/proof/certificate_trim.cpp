@@ -61,6 +61,7 @@ Constraints united(const Constraints& a, const Constraints& b) {
   return all;
 }
 
+// First pass: decides which sides of each split to keep, and fills the lemma table.
 class Deciding : public KeptParts {
  public:
   explicit Deciding(LemmaTable& lemmas) : lemmas_(lemmas) {}
@@ -166,7 +167,7 @@ class Deciding : public KeptParts {
   Needs needs_;  // of the last complete proof
 };
 
-// Base of the later passes, which visit only the parts that the first pass keeps.
+// Base of the second and third pass, which visit only the parts that the first pass keeps.
 class Decided : public KeptParts {
  public:
   Decided(const LemmaTable& lemmas, const std::vector<Keep>& keeps)
@@ -206,6 +207,7 @@ class Decided : public KeptParts {
   LemmaNumber number_ = 0;
 };
 
+// Second pass: finds the lemmas that the theorem needs, directly or through other lemmas.
 class Naming : public Decided {
  public:
   Naming(const LemmaTable& lemmas, const std::vector<Keep>& keeps)
@@ -247,6 +249,7 @@ class Naming : public Decided {
   std::vector<LemmaNumber>* of_lemma_ = nullptr;
 };
 
+// Third pass: writes the parts to keep, with new numbers for the lemmas.
 class Writing : public Decided {
  public:
   Writing(const LemmaTable& lemmas, const std::vector<Keep>& keeps, const std::vector<bool>& needed,

@@ -17,6 +17,7 @@ namespace grove::detail {
 // the split.
 enum class Keep : std::uint8_t { kBoth, kFirst, kSecond };
 
+// A line "split" or "later" with its two sides.
 struct Fork {
   std::array<CertificateConstraint, 2> sides;
   std::optional<LemmaNumber> why;  // for "later": its lemma

@@ -13,6 +13,7 @@
 
 namespace grove::detail {
 
+// A lemma without its proof.
 struct TableLemma {
   std::vector<AgentIndex> agents;
   Cost bound = 0;

@@ -54,6 +54,7 @@ struct CostMatrix {
   StopSet all() const { return all_stops(stops()); }
 };
 
+// Returns the matrix with one port per stop.
 CostMatrix cost_matrix(const Instance& instance, AgentIndex agent, const DistanceFields& distances);
 // Returns the matrix with ports if the agent turns, distances to ports are available and take
 // little enough memory, and the agent does not start within a turn (it could execute a task there

@@ -14,6 +14,7 @@
 
 namespace grove::detail {
 
+// One sequence for each agent.
 struct JointSequence {
   Cost cost = 0;                     // sum of the agents' sequence costs
   std::vector<std::uint32_t> ranks;  // by AgentIndex: rank in the agent's KBestSequences

@@ -27,6 +27,7 @@ struct SequenceClass {
   friend bool operator==(const SequenceClass&, const SequenceClass&) = default;
 };
 
+// Result of RtspSolver::best().
 struct RtspAnswer {
   enum class Kind : std::uint8_t {
     kExact,        // `cost` is the proven optimum of the class
@@ -57,6 +58,7 @@ class RtspSolver {
   virtual Time root_bound() const = 0;
 };
 
+// Back ends of make_rtsp_solver(); n is the number of stops.
 enum class RtspBackend : std::uint8_t {
   kAuto,       // Held-Karp table if it is small, else bounded dynamic programming
   kHeldKarp,   // for n up to 26 (kMostTableStops): 2^n * n table entries
