@@ -12,8 +12,8 @@
 namespace grove::detail {
 
 // Result for two agents and their MDDs. If the MDDs hold all optimal paths under the agents'
-// constraints, kDependent proves that any two paths that satisfy the constraints and do not collide
-// cost at least 1 more than the two optima together.
+// constraints, kDependent proves that two paths that satisfy the constraints and do not collide
+// cost together at least 1 more than the sum of the two optima.
 enum class Dependence : std::uint8_t {
   kIndependent,  // some path of a and some path of b do not collide
   kDependent,    // proven: every path of a collides with every path of b

@@ -106,8 +106,9 @@ class LateCosts {
     }
   }
 
-  // Can a leg that begins at `begin` on the stop come to some place only after the last time at
-  // which the place is free?
+  // Quick test: can a leg that begins at `begin` on the stop reach some place only after the last
+  // time at which an agent may be there? It uses distances to the stop for those from it. If the
+  // two differ, the test may miss a leg, whose entry then remains the plain one.
   bool is_late(int stop, Time begin) const {
     return std::ranges::any_of(barred_, [&](State state) {
       const Time there = stops_.distance(state, stop);

@@ -6,9 +6,10 @@
 // constraints depend. An agent in a slot can wait there until the slot ends, and its continuations
 // from a label at a given time depend on nothing else. Let the *earliest* time of a label be the
 // first time at which an agent can be in it, and its *latest* time the last one from which the
-// agent can still end at C. The paths of cost C are in the label exactly at the times from the
-// earliest to the latest: an agent that arrives at the earliest time can wait until any later time,
-// and an agent that is there before the latest time can wait for it.
+// agent can still end at C. At each time from the earliest to the latest, and at no other time,
+// some path of cost C can be in the label: an agent that arrives at the earliest time can wait
+// until any later time, and an agent that is in the label before the latest time can wait until
+// then.
 //
 // *Method.* Neither search branches over times. The forward search computes the earliest times, in
 // order of time, and all moves. The backward search computes the latest times along those moves,

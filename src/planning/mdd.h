@@ -16,7 +16,7 @@ namespace grove::detail {
 
 // Multi-valued decision diagram, a layered graph. The state sequences along its walks from layer 0
 // to layer cost() are exactly the paths that it represents. Each path has at least one walk, and
-// every node is on such a walk. (MDDs in CBS: Boyarski et al. 2015.)
+// every node is on such a walk.
 class Mdd {
  public:
   // Index of a node; the nodes of all layers are numbered together.

@@ -244,7 +244,7 @@ class SequenceStages {
   std::vector<Stage> stages_;
   std::vector<StageId> after_;  // by stage, then stop
   std::vector<Onward> onward_;
-  std::vector<StopSetIndex> index_;  // stages by `left`; [1 + s]: those that may not rest on s
+  std::vector<StopSetIndex> index_;  // by `left`; [1 + s]: stages without rest on s
 };
 
 // Returns the sequence of the class that a path realizes, where each stop is counted as early as

@@ -203,7 +203,7 @@ class ProofRecorder::Stream {
 
   const std::filesystem::path path_;
   FileDescriptor file_;
-  std::mutex mutex_;  // guards:
+  std::mutex mutex_;  // guards file_, compressor_ and failure_
   ZstdCompressor compressor_;
   std::string failure_;  // not empty: error after which nothing more is logged
 };

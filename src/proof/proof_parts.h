@@ -14,8 +14,8 @@ namespace grove::detail {
 
 // Logs all calls to a compressed file, in order. Thread-safe. Buffers about 4 MB, nearly all of it
 // in the compressor. If a write fails, for instance because the disk is full, it removes the file
-// and logs nothing more: the search continues and needs the space for its plan. A certificate
-// without this file can prove only a lower bound that is less, never a wrong one.
+// and logs nothing more: the search continues and needs the space for its plan. A certificate made
+// without this file can only prove a smaller bound, never a wrong one.
 class ProofRecorder : public ProofLog {
  public:
   // Throws InputError if the file cannot be created.

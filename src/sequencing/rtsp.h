@@ -80,7 +80,7 @@ std::unique_ptr<RtspSolver> make_rtsp_solver(RtspBackend backend, const CostMatr
 
 // The following functions make one back end each. The file with the name of the back end defines
 // it.
-//
+
 // Largest number of stops for which kAuto uses a table. A table of this size takes less than 1 ms
 // and 0.5 MB (four times that with ports). For more stops, building a sequence graph takes about as
 // long and little memory; only long lists of sequences are slower with it.
