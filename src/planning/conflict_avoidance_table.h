@@ -78,7 +78,7 @@ class ConflictAvoidanceTable {
   // neighbor, by direction.
   struct Counts {
     std::uint64_t key = 0;     // 0: never used
-    std::uint16_t visits = 0;  // 0: only removed paths were here
+    std::uint16_t visits = 0;  // 0: all paths that were here are removed
     std::array<std::uint16_t, 4> moves{};
   };
   // The final rest of a path. It has no entries by time step, because it never ends.
@@ -153,7 +153,7 @@ class ConflictAvoidanceTable {
   void begin_generation();
 
   const World& world_;
-  std::vector<Counts> counts_;    // a power of two
+  std::vector<Counts> counts_;    // hash table; its size is a power of two
   std::vector<Visited> visited_;  // by place
   std::size_t mask_;              // counts_.size() - 1
   std::uint64_t stride_;  // factor of the time in the hash; odd, so that on one place only times

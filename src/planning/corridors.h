@@ -42,7 +42,7 @@ class Corridors {
   std::vector<std::int32_t> corridor_of_;  // by place
   std::vector<std::int32_t> position_;     // by place
   std::vector<Place> places_;              // corridor after corridor
-  std::vector<std::int32_t> first_{0};     // by corridor; one more for the end of the last
+  std::vector<std::int32_t> first_{0};  // by corridor: index in places_; and one more for the end
 };
 
 }  // namespace grove::detail

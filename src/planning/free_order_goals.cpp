@@ -33,7 +33,7 @@ void FreeOrderGoals::find_rests(const SafeIntervals& intervals) {
   only_rest_ = AgentStops::kNoStop;
   first_rest_ = stops.destination() ? intervals.rest_begin(*stops.destination()) : kNever;
   if (stops.destination()) return;
-  if (stops.count() == 0) first_rest_ = 0;  // anywhere
+  if (stops.count() == 0) first_rest_ = 0;  // it may rest anywhere
   for (int stop = 0; stop < stops.count(); ++stop) {
     first_rest_ = std::min(first_rest_, intervals.rest_begin(stops.place(stop)));
     if (stops.rests_on_last_stop() && stops.place(stop) == intervals.only_rest()) only_rest_ = stop;

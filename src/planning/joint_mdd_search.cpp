@@ -79,7 +79,7 @@ class PairSet {
       if (entry.generation == generation_) entries_[place_of(entry.key)] = entry;
   }
 
-  std::vector<Entry> entries_;  // a power of two
+  std::vector<Entry> entries_;  // hash table; its size is a power of two
   std::uint32_t generation_ = 1;
   std::size_t size_ = 0;
 };
@@ -141,7 +141,7 @@ Dependence JointMddSearch::Workspace::find(const Mdd& a, const Mdd& b, std::size
   most_pairs_ = most_pairs;
   find_contacts();
   if (first_contact_ == kNever) return Dependence::kIndependent;
-  if (first_contact_ == 0) return Dependence::kDependent;  // they start on one cell
+  if (first_contact_ == 0) return Dependence::kDependent;  // they start on the same place
   known_.clear();
   const Time before = first_contact_ - 1;
   const Range of_a = nodes_at(a, before);

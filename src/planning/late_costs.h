@@ -21,7 +21,7 @@ std::optional<CostMatrix> late_cost_matrix(const World& world, SafeIntervals& in
 // actual costs. One thread at a time.
 class LateGoals {
  public:
-  // Both must outlive this.
+  // `world` and `intervals` must outlive this.
   LateGoals(const World& world, SafeIntervals& intervals) : world_(world), intervals_(intervals) {}
 
   // Returns the stages of the class of `plain` over late costs. Returns nullptr if they do not

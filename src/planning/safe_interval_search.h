@@ -76,7 +76,7 @@ class SafeIntervalSearch {
   enum class End : std::uint8_t {
     kFound,
     kExhausted,  // no path exists except through labels that Goals dropped
-    kPaused,     // `pause_at` labels are expanded; run() continues
+    kPaused,     // `pause_at` labels are expanded; call run() to continue
     kStopped,    // a limit was reached
   };
 
@@ -164,7 +164,7 @@ template <class Goals>
 typename SafeIntervalSearch<Goals>::End SafeIntervalSearch<Goals>::run(std::int64_t pause_at) {
   for (Entry entry; queue_.pop(entry);) {
     const Label& l = label(entry);
-    if (l.time != entry.time || l.conflicts != entry.conflicts) continue;  // improved since
+    if (l.time != entry.time || l.conflicts != entry.conflicts) continue;  // was improved later
     const State state = intervals_.state_of(entry.slot);
     if (postpone(entry, state)) continue;
     if (is_finish(entry.slot, state, entry.progress)) {

@@ -160,7 +160,7 @@ class SafeIntervals {
   // Copies of the inner places of a corridor.
   static constexpr std::uint8_t kFromFront = 0;
   static constexpr std::uint8_t kFromBack = 1;
-  static constexpr std::uint8_t kFree = 2;  // also of places without copies
+  static constexpr std::uint8_t kFree = 2;  // last copy; also for places without copies
 
   struct Range {
     int first;

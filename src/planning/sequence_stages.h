@@ -90,7 +90,8 @@ class AgentStops {
   std::shared_ptr<const std::int8_t[]> stops_of_states(const Instance& instance,
                                                        SharedArray shared) const;
 
-  // In stop_at_, work on stop s has the value kFirstWork - s.
+  // Values in stop_at_: kFirstWork - s while the agent executes the task at stop s, kForeignWork
+  // while it executes a task that is not one of its stops.
   static constexpr int kFirstWork = -2;
   static constexpr int kForeignWork = -128;
 
@@ -107,7 +108,7 @@ class AgentStops {
   StopSet work_stops_ = 0;
   std::shared_ptr<const std::int8_t[]> stop_at_;  // by state; owns nothing if the array is shared
   std::vector<DistanceView> to_port_;
-  std::vector<Time> longest_legs_;  // by port, then port
+  std::vector<Time> longest_legs_;  // by first port, then second port
   int ports_ = 1;
   DistanceView to_rest_;
   CostToGo cost_to_go_;
@@ -238,7 +239,7 @@ class SequenceStages {
   StopSet free_;            // stops that are not in the prefix
   StopSet first_free_;      // stops of free_ that may be the first of them
   bool rest_is_not_first_;  // without a destination: see the head of the .cpp
-  std::size_t stride_;      // of after_
+  std::size_t stride_;      // row length of after_: number of stops
   Time built_beyond_ = -1;  // beyond() of the costs to go for which the stages are valid
   StageId first_stage_ = kOutside;
   std::vector<Stage> stages_;

@@ -18,7 +18,7 @@ namespace grove::detail {
 // long time. One thread at a time.
 class SingleStopBound {
  public:
-  // Both must outlive this.
+  // `world` and `intervals` must outlive this.
   SingleStopBound(const World& world, SafeIntervals& intervals)
       : world_(world), intervals_(intervals) {}
 

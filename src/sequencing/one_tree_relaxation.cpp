@@ -63,7 +63,7 @@ constexpr std::int64_t kNoLeg = std::int64_t{1} << 54;
 constexpr std::int64_t kSurelyNoWay = kNoLeg / 2;
 constexpr std::int64_t kMostPotential = std::int64_t{1} << 43;
 
-// Rounds up: the true cost is an integer.
+// Converts a lower bound to a cost. Rounds up, because the true cost is an integer.
 Time to_cost(std::int64_t fixed_point) {
   if (fixed_point >= kSurelyNoWay) return kNever;
   return static_cast<Time>(std::max<std::int64_t>(0, fixed_point + kScale - 1) / kScale);
