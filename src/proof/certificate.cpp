@@ -43,7 +43,7 @@ std::string until(Time end) {
   return end >= kNever ? "inf" : fmt::to_string(end);
 }
 
-// "3 bar 17 4 4"
+// Returns a constraint as text, for example "3 bar 17 4 4".
 std::string proof_text(const AgentConstraint& constraint, const Instance& instance) {
   const Constraint& c = constraint.constraint;
   const auto text = [&](std::string_view what, auto... values) {
@@ -70,13 +70,13 @@ std::string proof_text(const AgentConstraint& constraint, const Instance& instan
   return {};
 }
 
-// "split 3 bar 17 4 4 | 5 bar 17 4 4"
+// Returns the line of a split, for example "split 3 bar 17 4 4 | 5 bar 17 4 4".
 std::string proof_text(const Split& split, const Instance& instance) {
   return fmt::format("split {} | {}", proof_text(split[0], instance),
                      proof_text(split[1], instance));
 }
 
-// "place 17 4 512"
+// Returns the line of a row, for example "place 17 4 512".
 std::string proof_text(const RowMultiplier& charged) {
   const auto& [row, charge] = charged;
   switch (row.kind) {
@@ -90,7 +90,7 @@ std::string proof_text(const RowMultiplier& charged) {
   return {};
 }
 
-// A number, or "inf".
+// Returns a number, or "inf" for kInfiniteCost.
 std::string proof_text(Cost cost) {
   return cost >= kInfiniteCost ? "inf" : fmt::to_string(cost);
 }

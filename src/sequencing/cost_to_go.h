@@ -70,8 +70,7 @@ class CostToGo {
   // Makes the current store the one that reset() restores.
   void mark() { marked_ = store_; }
 
-  static constexpr std::size_t kMostStates = std::size_t{1}
-                                             << 15;  // of a graph of all sequences; about 0.1 s
+  static constexpr std::size_t kMostStates = std::size_t{1} << 15;  // about 0.1 s to build
   static constexpr std::size_t kMostDirectStates = std::size_t{1} << 16;
 
  private:

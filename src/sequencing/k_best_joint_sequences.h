@@ -40,7 +40,7 @@ class KBestJointSequences {
   // Returns the agent's sequence of this rank, which next() must have returned.
   const Sequence& sequence(AgentIndex agent, std::uint32_t rank);
 
-  // Number of rTSPs solved so far, over all agents.
+  // Number of calls of rTSP solvers so far, over all agents.
   std::int64_t rtsp_calls() const;
 
  private:

@@ -34,7 +34,7 @@ class KBestSequences {
   // Returns the sequence of a known rank. The reference is valid as long as the list lives.
   const Sequence& sequence(std::size_t rank);
 
-  // Number of rTSPs solved so far.
+  // Number of calls of the solver so far.
   std::int64_t rtsp_calls() const;
 
  private:
