@@ -14,17 +14,18 @@
 //
 // *Exception.* Without a destination, an agent whose stops take no time rests on the last stop of
 // its sequence. So every path has one last stop, and the classes of a partition share no sequence.
-// The visit of that stop at the end of the path is the last visit. Therefore a path that has
-// counted all stops may rest on any free stop v, if moving v to the end of the counted order gives
-// a sequence of the class. This fails only if v was the first free stop to be counted and F is not
-// empty, because the new first free stop could be in F. So the agent may not rest on the stop w
-// that was counted first, unless w is the only free stop or F is empty. The stage stores this in
-// `rests`. Because counting w first removes a place of rest, a visit of a possible first stop need
-// not count it: the search follows both alternatives. This is exact: for a realized sequence with
-// first free stop w and last stop v != w, the search counts w at its visit, skips the possible
-// first stops before it, and counts every other stop at its first visit after that. If only one
-// stop can be the first, no continuation can skip it, and the search omits this alternative. The
-// agent may rest on a stop of the prefix only if it is the last stop of a complete prefix.
+// The agent is on that stop at the end of its path, and this visit can be the one that counts.
+// Therefore a path that has counted all stops may rest on any free stop v, if moving v to the end
+// of the counted order gives a sequence of the class. This fails only if v was the first free stop
+// to be counted and F is not empty, because the new first free stop could be in F. So the agent may
+// not rest on the stop w that was counted first, unless w is the only free stop or F is empty. The
+// stage stores this in `rests`. Because counting w first removes a place of rest, a visit of a
+// possible first stop need not count it: the search follows both alternatives. This is exact: for a
+// realized sequence with first free stop w and last stop v != w, the search counts w at its visit,
+// skips the possible first stops before it, and counts every other stop at its first visit after
+// that. If only one stop can be the first, no continuation can skip it, and the search omits this
+// alternative. The agent may rest on a stop of the prefix only if it is the last stop of a complete
+// prefix.
 //
 // *Task executions.* A stop that takes time is counted when its execution is completed. An agent
 // starts an execution only on a stop that may be counted next. The execution ends with this count,
