@@ -93,7 +93,7 @@ class World {
   std::span<const State> moves_to(State state) const {
     return is_symmetric_ ? moves_[state] : moves_back_[state];
   }
-  // The places, other than `place`, to or from which a move leads from or to `place`.
+  // The other places to which a move leads from `place`, or from which a move leads to `place`.
   std::span<const Place> neighbors(Place place) const {
     return has_other_neighbors_ ? neighbors_[place] : moves_[place];
   }
@@ -161,8 +161,8 @@ class World {
   // must contain the reverse of every move.
   World(CsrArray moves, Place row_width);
   // Constructs a world with the places of `ground`, more kinds of states, and states at work.
-  // `kinds`: the kinds from 1 on. `work`: one entry for each state at work, in order of state.
-  // `moves` has one row for each state.
+  // `kinds`: all kinds, from kind 0 on. `work`: one entry for each state at work, in order of
+  // state. `moves` has one row for each state.
   World(const World& ground, std::vector<Kind> kinds, std::vector<Work> work, CsrArray moves);
 
  private:
