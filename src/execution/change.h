@@ -20,9 +20,8 @@ struct NewTask {
 struct InstanceChange {
   std::vector<NewTask> new_tasks;
   std::vector<std::string> dropped_tasks;  // by id
-  std::vector<Place>
-      blocked;  // cells of a grid, or vertices of a roadmap (which closes their roads)
-  std::vector<int> closed_roads;  // positions in Roadmap::roads()
+  std::vector<Place> blocked;              // cells, or vertices of a roadmap with their roads
+  std::vector<int> closed_roads;           // positions in Roadmap::roads()
 };
 
 // The changed instance, and the part of the plan that is still possible. A path that enters a

@@ -252,8 +252,7 @@ class Switching {
       const AgentIndex agent = order_.actions()[a].agent;
       const ActionIndex other = after(a);
       if (other != kNoAction && !is_done(other)) return order_.actions()[other].agent;
-      if (next_[agent] != a)
-        return agent;  // in a ring: this robot has not reached its move of the ring yet
+      if (next_[agent] != a) return agent;  // has not reached the ring yet
     }
     return order_.actions()[action].agent;
   }

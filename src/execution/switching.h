@@ -20,12 +20,13 @@ struct SwitchableTrace {
 // Simulates the execution as drive() does, but robots can change their order. A robot that has
 // waited for another robot for `patience` >= 1 steps attempts to pass first, on the place for which
 // it waits and on all places around it that both robots pass consecutively. The attempt succeeds if
-// no robot has entered too far for it, no robots would wait in a cycle, and it reduces the expected
-// sum of finish times. After a failure the robot waits twice as long before the next attempt. The
-// expectation assumes that actions take as long as in the plan, and that an action that is overdue
-// by d steps takes max(d, 1) more steps. Robots never wait in a cycle and never collide; proof:
-// switching.cpp. `order` must be the action dependency graph of `plan`. O(actions log actions),
-// plus O(actions) for each attempt.
+// the other robot has not begun to enter any of these places, the robot itself does not rest on any
+// of them, no robots would wait in a cycle, and the expected sum of finish times decreases. After a
+// failure the robot waits twice as long before the next attempt. The expectation assumes that
+// actions take as long as in the plan, and that an action that is overdue by d steps takes max(d,
+// 1) more steps. Robots never wait in a cycle and never collide; proof: switching.cpp. `order` must
+// be the action dependency graph of `plan`. O(actions log actions), plus O(actions) for each
+// attempt.
 SwitchableTrace simulate_switchable(const World& world, const Plan& plan,
                                     const ActionDependencyGraph& order, const Duration& duration,
                                     Time patience = 5);
