@@ -24,8 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kTemporary = ".grove-";
-constexpr auto kLongestPause =
-    std::chrono::hours(1);  // maximum time between two writes to a temporary file
+constexpr auto kLongestPause = std::chrono::hours(1);  // between two writes to a file
 
 // Returns the path of the file to write, which is `path` with symbolic links resolved. Throws
 // InputError if the file could not be written.

@@ -18,9 +18,8 @@ struct Link {
   bool one_way = false;
   double metres = 0;  // length; positive and finite
   std::optional<double>
-      seconds;  // travel time at the maximum speed, positive and finite; nullopt: not in the file
-  std::string
-      place;  // position in the file, for messages, such as "line 7, column 3" or "/edges/2"
+      seconds;        // travel time at full speed; positive and finite; nullopt: unknown
+  std::string place;  // position in the file, such as "line 7, column 3" or "/edges/2"
 };
 
 // The roads in a file of another tool. The ids of the vertices are distinct and not empty. The ends

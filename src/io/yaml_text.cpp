@@ -36,8 +36,7 @@ bool is_plain(const std::string& text) {
 std::string yaml_text(const std::string& text) {
   if (is_plain(text)) return text;
   YAML::Emitter emitter;
-  emitter.SetOutputCharset(
-      YAML::EscapeNonAscii);  // some non-ASCII characters end a line in YAML 1.1 only
+  emitter.SetOutputCharset(YAML::EscapeNonAscii);  // some others end a line in YAML 1.1 only
   emitter << YAML::DoubleQuoted << text;
   return emitter.c_str();
 }

@@ -135,10 +135,9 @@ class LagrangianBound {
   // the last agents from helpers. When only requested agents are left, it computes their
   // outstanding values as well, in descending order.
   AgentIndex next_agent_ = 0;
-  AgentIndex end_agent_ = 0;  // agents from this one on are assigned to helpers
-  AgentIndex asked_ = 0;      // agents from this one on were requested from helpers
-  AgentIndex taken_over_ =
-      0;  // requested agents from this one on are computed by this process, too
+  AgentIndex end_agent_ = 0;             // agents from this one on are assigned to helpers
+  AgentIndex asked_ = 0;                 // agents from this one on were requested from helpers
+  AgentIndex taken_over_ = 0;            // requested agents from this one on are computed here, too
   std::vector<std::uint8_t> is_priced_;  // by agent
   std::vector<ScaledCost> known_;        // by agent: cost of a known path, as sent to a helper
   int unpriced_ = 0;

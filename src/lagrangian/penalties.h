@@ -76,7 +76,7 @@ class Penalties {
   CsrArray arcs_to_;
   std::size_t arcs_ = 0;
   std::vector<std::vector<std::uint32_t>>
-      pages_of_time_;  // by arrival time, then arc / kOnPage; 0: no penalties
+      pages_of_time_;  // by arrival time and page of arcs; 0: none
   std::vector<Amount> pages_;
 };
 

@@ -37,8 +37,7 @@ class RemotePricing {
   const Instance& instance_;
   Multipliers multipliers_;  // changes only when no job is in progress
   mutable std::mutex mutex_;
-  std::optional<PricingRequest>
-      share_;  // the current request; mutex_ guards it and all members below
+  std::optional<PricingRequest> share_;  // current request; mutex_ guards it and all below
   PricingReply answer_;
   std::size_t next_ = 0;  // position in the request of the next job
   std::size_t done_ = 0;

@@ -36,8 +36,7 @@ class Targets {
   }
 
   std::vector<std::vector<State>> sets;
-  std::vector<Place>
-      places;  // by set: the place, if the set contains all of its states; else kNoPlace
+  std::vector<Place> places;  // by set: the place, if it contains all of its states; else kNoPlace
   // Indices in `sets`. kNone: the agent rests on its last stop, or no agent of this kind has this
   // port.
   static constexpr int kNone = -1;

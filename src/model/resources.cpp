@@ -34,9 +34,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kUnlimited =
-    std::uint64_t{1}
-    << 62;  // this and greater values mean no limit; cgroup version 1 writes such values
+constexpr std::uint64_t kUnlimited = std::uint64_t{1}
+                                     << 62;  // no limit, as are greater values (cgroup version 1)
 
 // The minimum of the limits in the files of a control group. A file may be missing or contain
 // "max".

@@ -44,8 +44,7 @@ class CsrArray {
   std::span<const std::int32_t> items() const { return items_; }
 
  private:
-  std::vector<std::int32_t> first_{
-      0};  // by row: its offset in items_; then the end of the last row
+  std::vector<std::int32_t> first_{0};  // by row: its offset; then the end of the last row
   std::vector<std::int32_t> items_;
 };
 
