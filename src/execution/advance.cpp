@@ -140,7 +140,7 @@ class AgentLater {
   std::vector<TaskIndex> left_;
 };
 
-// A copy of `instance` in which agent i has the specification spec(i).
+// Returns a copy of `instance` in which agent i has the specification spec(i).
 template <class Spec>
 Instance with_specs(const Instance& instance, const Spec& spec) {
   InstanceBuilder builder = InstanceBuilder::like(instance);

@@ -127,7 +127,7 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
   // pointers to them remain valid.
   struct Level {
     Json* container;
-    std::string key;  // of the current member
+    std::string key;  // key of the current member
   };
 
   bool add(Json value) {

@@ -16,10 +16,9 @@ struct Link {
   int from = 0;  // positions in RoadNetwork::vertices
   int to = 0;
   bool one_way = false;
-  double metres = 0;  // length; positive and finite
-  std::optional<double>
-      seconds;        // travel time at full speed; positive and finite; nullopt: unknown
-  std::string place;  // position in the file, such as "line 7, column 3" or "/edges/2"
+  double metres = 0;              // length; positive and finite, as is `seconds`
+  std::optional<double> seconds;  // at the maximum speed; nullopt: not in the file
+  std::string place;              // position in the file, such as "line 7, column 3" or "/edges/2"
 };
 
 // The roads in a file of another tool. The ids of the vertices are distinct and not empty. The ends

@@ -15,7 +15,7 @@
 namespace grove::detail {
 namespace {
 
-// Sufficient for more than a million obstacles.
+// Maximum size of a file in bytes, which is sufficient for more than a million obstacles.
 constexpr std::size_t kLargestYaml = std::size_t{32} << 20;
 constexpr std::size_t kBytesPerByte = 150;  // memory for the parser's nodes per byte of text
 

@@ -31,7 +31,7 @@ class Multipliers {
   using Amount = Penalties::Amount;
   using RowId = std::uint32_t;
 
-  // `world` must outlive this.
+  // `world` must outlive this object.
   Multipliers(const World& world, int agents);
 
   const Penalties& penalties() const { return penalties_; }

@@ -22,7 +22,7 @@ struct Collision {
 // The number of agents on each place at each time, including agents at rest. One thread at a time.
 class OccupancyCounts {
  public:
-  // `world` must outlive this.
+  // `world` must outlive this object.
   explicit OccupancyCounts(const World& world) : world_(world) {}
 
   // Replaces the counts by those of `paths`, which has one path per agent; an empty path is not

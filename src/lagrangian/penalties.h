@@ -21,7 +21,7 @@ class Penalties {
   using Arc = std::int32_t;
   static constexpr Amount kUnit = 1 << 10;
 
-  // `world` must outlive this.
+  // `world` must outlive this object.
   explicit Penalties(const World& world);
 
   const World& world() const { return world_; }

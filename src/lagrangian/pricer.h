@@ -15,7 +15,7 @@
 
 namespace grove::detail {
 
-constexpr std::int64_t kLabelsPerWork = 2;  // see search/work.h
+constexpr std::int64_t kLabelsPerWork = 2;  // labels per unit of work (search/work.h)
 
 // The agents `first`, ..., `end` - 1, and their results with one entry per agent.
 struct PricingJob {

@@ -95,7 +95,7 @@ double RelaxedRows::turn(std::span<const Path> paths, const OccupancyCounts& enc
   count_uses(paths, encounters);
   double squares = 0;
   for (Course& row : courses_) {
-    const bool is_at_rest = row.exact_multiplier <= 0;  // it cannot decrease
+    const bool is_at_rest = row.exact_multiplier <= 0;  // the multiplier cannot decrease
     double direction = row.used - 1;
     if (is_at_rest) direction = std::max(direction, 0.0);
     direction += memory * row.direction;

@@ -170,7 +170,7 @@ DistanceFields::DistanceFields(const Instance& instance, const Limits& limits, i
   const Targets targets(instance);
   const std::size_t sets = targets.sets.size();
   const auto states = static_cast<std::size_t>(instance.world().state_count());
-  // Shared memory is already allocated.
+  // The memory of shared arrays is already allocated.
   if (!limits.memory_allows(arrays ? 0 : sets * states * sizeof(std::uint16_t))) {
     limits.memory_exhausted();
     return;

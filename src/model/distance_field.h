@@ -55,6 +55,8 @@ class DistanceView {
   const Time* long_ = nullptr;
 };
 
+// A distance field that takes half the memory of a DistanceField if no distance exceeds 65,534
+// steps.
 class CompactDistanceField {
  public:
   CompactDistanceField() = default;
@@ -77,7 +79,8 @@ class CompactDistanceField {
 };
 
 // The distance fields of an instance: one for each task, and one for the states in which each agent
-// may rest. Equal target sets on a place share one field. Immutable: any thread may read it.
+// may rest. Targets that consist of all states on one place share a field. Immutable: any thread
+// may read it.
 class DistanceFields {
  public:
   // Computes the fields on `threads` threads, or on one thread if the effort is small. Checks the
@@ -103,8 +106,8 @@ class DistanceFields {
   // True if all fields were computed. Only then may the functions below be called.
   bool complete() const { return complete_; }
 
-  // Distances to the states that visit the task: all states on its place or, if the task takes
-  // time, the last states of its execution.
+  // Distances to the states in which an agent visits the task: all states on its place or, if the
+  // task takes time, the states in which its execution is completed.
   DistanceView to_task(TaskIndex task) const { return by_task_[task]; }
   // Distances to one port of the task: the states in which an agent of kind `kind` visits it with
   // heading `port`. Precondition: has_ports(), which is true on worlds of moderate size in which

@@ -183,7 +183,7 @@ class InstanceBuilder {
   // that already has kMaxTasksPerAgent tasks; a duration that is not in 0, ..., kLongest.
   TaskIndex add_task(std::string id, Position cell, std::span<const std::string> agent_ids,
                      Time duration = 0);
-  // The same on any map.
+  // Adds a task on any map.
   TaskIndex add_task(std::string id, Place place, std::span<const std::string> agent_ids,
                      Time duration = 0);
 

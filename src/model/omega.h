@@ -17,7 +17,7 @@ inline constexpr Cost kInfiniteCost = std::int64_t{1} << 60;
 // the test needs no floating-point arithmetic. A value type, ordered by size.
 class Omega {
  public:
-  constexpr Omega() = default;  // w = 0: optimal
+  constexpr Omega() = default;  // w = 0: only optimal plans
   static constexpr Omega infinite() { return Omega(kInfinite); }
 
   // Parses text such as "0", "0.01", "1e-2" or "inf". Throws std::invalid_argument if the text is

@@ -34,7 +34,7 @@ class Random {
   Int below(Int bound) {
     const auto n = static_cast<std::uint64_t>(bound);
     std::uint64_t draw = engine_();
-    // Rejects the lowest 2^64 mod n draws, so that the result is uniform.
+    // Rejects draws below 2^64 mod n, so that the result is uniform.
     while (draw < n && draw < -n % n) draw = engine_();
     return static_cast<Int>(draw % n);
   }

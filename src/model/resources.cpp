@@ -34,8 +34,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kUnlimited = std::uint64_t{1}
-                                     << 62;  // no limit, as are greater values (cgroup version 1)
+constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 62;  // and more: no limit (cgroup v1)
 
 // The minimum of the limits in the files of a control group. A file may be missing or contain
 // "max".
@@ -61,7 +60,7 @@ std::uint64_t limit_within(const fs::path& folder, std::string_view group) {
   return least;
 }
 
-// True if `controllers`, such as "a,b,c", contains `name`.
+// True if the list `controllers`, such as "a,b,c", contains `name`.
 bool lists(std::string_view controllers, std::string_view name) {
   while (!controllers.empty()) {
     const std::string_view first = controllers.substr(0, controllers.find(','));
@@ -71,7 +70,8 @@ bool lists(std::string_view controllers, std::string_view name) {
   return false;
 }
 
-// The value of a variable if it is a number >= 1. Returns nullopt if it is not, or is not set.
+// The number in an environment variable. Returns nullopt if the variable is not set or is not an
+// integer >= 1.
 std::optional<std::int64_t> count(const Environment& environment, const char* name) {
   const char* value = environment(name);
   if (value == nullptr) return std::nullopt;
