@@ -18,6 +18,10 @@ struct Remainder {
   std::vector<bool> ends_with_plan;
 };
 
+// Where an agent without a destination may rest in a remainder once it has visited all its tasks:
+// anywhere, or only on a place where it may rest in the original instance.
+enum class Rests : std::uint8_t { kAnywhere, kWhereItMust };
+
 // Returns the remainder of `instance` and `plan` after `time` >= 0 time steps.
 // - Each agent starts in its pose at that time in `plan`: on a vertex or cell, on a road or within
 //   a turn, possibly at work.
@@ -38,7 +42,6 @@ struct Remainder {
 // tasks does not become idle. Its destination is a place where it may rest in `instance`, if
 // possible its last place in `plan`. Throws InstanceError if two agents would have the same
 // destination.
-enum class Rests : std::uint8_t { kAnywhere, kWhereItMust };
 Remainder advance(const Instance& instance, const Plan& plan, Time time,
                   Rests rests = Rests::kAnywhere, const std::vector<bool>& before = {});
 

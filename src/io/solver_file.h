@@ -22,10 +22,12 @@ enum class SolverInput : std::uint8_t {
   kMgcbs,           // {instance}, YAML with lists of goals: MG-MAPF
 };
 
-// A pattern for a line with a result. The last line in which the regular expression is found
-// counts. Only the first kLongestLine characters of a line are searched, because longer lines are
+// Only this number of characters of a line is searched for a pattern, because longer lines are
 // paths and no results, and libstdc++ matches regular expressions by recursion.
 inline constexpr std::size_t kLongestLine = 4096;
+
+// A pattern for a line with a result. The last line in which the regular expression is found
+// counts.
 struct LinePattern {
   std::string file;   // template for a file name; empty: the program's standard output
   std::string regex;  // ECMAScript

@@ -53,7 +53,7 @@ class FinishTimeConflicts {
   std::int64_t work() const { return builder_.nodes() + dependency_.pairs(); }
 
  private:
-  enum class Known : std::uint8_t { kNot, kExcluded, kNotExcluded };  // 0 in a new Grid: kNot
+  enum class Known : std::uint8_t { kNot, kExcluded, kNotExcluded };  // new entries: kNot
   struct OfAgent {
     std::unique_ptr<SequenceStages> goals;
     Time least = 0;  // a lower bound on the finish time

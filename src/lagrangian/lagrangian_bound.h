@@ -47,13 +47,14 @@ class LagrangianBound {
 
   // Sets the number of helpers, which are numbered from 0.
   void set_helpers(int count) { helpers_.resize(static_cast<std::size_t>(count)); }
-  // Returns pricing requests for helpers without an outstanding request. Returns none if there is
-  // too little work left in this round.
+  // A pricing request for a helper.
   struct Asked {
     int helper;
-    std::int64_t work;  // expected
+    std::int64_t work;  // expected effort, in the unit of search/work.h
     PricingRequest share;
   };
+  // Returns pricing requests for helpers without an outstanding request. Returns none if there is
+  // too little work left in this round. The caller must send them.
   std::vector<Asked> dispatch_pricing();
   // Processes a helper's reply. Uses a value only if the round and the multipliers are still those
   // of the request and the agent has no value yet. Returns the number of values used. Throws

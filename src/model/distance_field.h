@@ -109,11 +109,12 @@ class DistanceFields {
   // Distances to the states in which an agent visits the task: all states on its place or, if the
   // task takes time, the states in which its execution is completed.
   DistanceView to_task(TaskIndex task) const { return by_task_[task]; }
-  // Distances to one port of the task: the states in which an agent of kind `kind` visits it with
-  // heading `port`. Precondition: has_ports(), which is true on worlds of moderate size in which
-  // agents turn.
+  // The number of ports of a task, one for each heading.
   static constexpr int kPorts = 4;
+  // True on worlds of moderate size in which agents turn.
   bool has_ports() const { return !by_port_.empty(); }
+  // Distances to one port of the task: the states in which an agent of kind `kind` visits it with
+  // heading `port`. Precondition: has_ports().
   DistanceView to_port(TaskIndex task, int kind, int port) const {
     return by_port_[(static_cast<std::size_t>(task) * kinds_ + kind) * kPorts + port];
   }
