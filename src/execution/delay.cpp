@@ -47,7 +47,7 @@ class Wishes {
  private:
   Time clock(const Action& action) const { return time_ - late_[action.agent]; }
   bool is_done(const Action& action) const { return action.begin + action.steps <= clock(action); }
-  // True if the robot is within the action at time_, so that its delay has occurred by then.
+  // True if the robot has begun the action but not completed it at time_.
   bool is_under_way(const Action& action) const {
     return action.begin < clock(action) && !is_done(action);
   }

@@ -73,7 +73,7 @@ std::size_t begin_of_token(std::string_view text, std::size_t offset) {
   return offset;
 }
 
-// True if the character at `offset` is a closing bracket directly after a comma, as in "[1, 2, ]".
+// True if the character at `offset` is a closing bracket that follows a comma, as in "[1, 2, ]".
 bool is_behind_last_comma(std::string_view text, std::size_t offset) {
   if (offset >= text.size() || (text[offset] != '}' && text[offset] != ']')) return false;
   const std::size_t before = text.substr(0, offset).find_last_not_of(" \t\r\n");
