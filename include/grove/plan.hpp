@@ -81,7 +81,8 @@ struct Solution {
   bool following = true;
 
   /// Returns (cost - lower bound) / lower bound: the plan costs at most this part more than an
-  /// optimal plan. std::nullopt without a plan, or if the bound is 0 and the cost is not.
+  /// optimal plan. Returns 0 if cost and bound are both 0. Returns std::nullopt without a plan, or
+  /// if the bound is 0 and the cost is not.
   GROVE_API std::optional<double> gap() const;
 };
 
