@@ -41,7 +41,7 @@ AgentStates::State AgentStates::number(const Standing& standing) {
   return known->second;
 }
 
-// A task that takes no time is visited by being on its place.
+// Marks the tasks on the agent's place that take no time as visited.
 void AgentStates::arrive(Standing& standing) const {
   for (std::size_t k = 0; k < agent_.tasks.size(); ++k) {
     const Task& task = instance_.task(agent_.tasks[k]);
@@ -111,7 +111,7 @@ void AgentStates::connect(State s) {
   }
 }
 
-// Value iteration until no cost changes: slow, but simple.
+// Value iteration until no cost changes, chosen for simplicity over speed.
 void AgentStates::settle_costs() {
   to_go_.assign(moves_.size(), kNever);
   for (State s = 0; s < count(); ++s)
