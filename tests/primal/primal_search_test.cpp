@@ -410,8 +410,7 @@ TEST(PrimalSearch, AdoptsABetterPlan) {
   Plan good = [&] { return Search(instance, 1).plans(400).back(); }();
   const Plan poor = [&] { return Search(instance, 2).plans(400).front(); }();
   ASSERT_LT(good.cost, poor.cost);
-  good.agents[0].path.push_back(
-      good.agents[0].path.back());  // a plan file can contain the final rest
+  good.agents[0].path.push_back(good.agents[0].path.back());  // files can contain the final rest
   for (const int steps : {0, 1, 5}) {
     Search search(instance, 3);
     search.plans(steps);

@@ -85,7 +85,7 @@ TEST(Traffic, FadesToNothingWithFactorZero) {
   EXPECT_EQ(block.field(9), before);
 }
 
-// The edge cost is capped because the bucket queue supports only small costs.
+// The edge cost is capped, because the bucket queue cannot hold larger costs.
 TEST(Traffic, EdgeCostIsCapped) {
   Block block;
   for (int i = 0; i < 10'000; ++i) block.traffic.add(block.above, 1);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Compares MDDs with a time-expanded graph that is built only from the definitions of the
 // constraints. Both are layered graphs, which the test reads in parallel as automata: they have the
-// same paths if no path is a dead end in only one of them. The test therefore does not list paths,
-// and maps, costs and time windows can be larger than in mdd_test.cpp. FreeOrderSipp must find the
-// least cost that has a path. GROVE_FUZZ_FACTOR multiplies the number of cases.
+// same paths if every continuation of a path in one is also possible in the other. The test
+// therefore does not list paths, and maps, costs and time windows can be larger than in
+// mdd_test.cpp. FreeOrderSipp must find the least cost that has a path. GROVE_FUZZ_FACTOR
+// multiplies the number of cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
