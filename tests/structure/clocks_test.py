@@ -53,7 +53,7 @@ SLEEPS_CPP = re.compile(r"\bsleep_(?:for|until)\b|\bwait_(?:for|until)\s*\(\s*\w
 PYTHON = re.compile(r"\btime\.(?:sleep|time|monotonic|perf_counter|process_time)(?:_ns)?\(|\bthreading\.Timer\("
                     r"|\bfrom time import|\bdatetime\.now\(")
 SCRIPT = re.compile(r"\b(?:performance|Date)\.now\(|\bsetTimeout\(")
-SHELL = re.compile(r"\bsleep (?:\d?\.\d+|[1-9]\d?)(?![\d.])")  # sleeps that end soon, in contrast to those that simulate a hanging program
+SHELL = re.compile(r"\bsleep (?:\d?\.\d+|[1-9]\d?)(?![\d.])")  # not the long sleeps of simulated hangs
 
 
 def uses_time(name, text):
