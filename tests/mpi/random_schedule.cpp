@@ -62,7 +62,7 @@ struct Disturbances {
   }
 
   int talk;            // percentage of steps in which a process polls for messages
-  int freeze_once_in;  // mean number of steps between freezes of a process
+  int freeze_once_in;  // mean number of steps between freezes
   int freeze_on_news;  // probability of a freeze after a received message, in percent
   int longest_freeze;  // steps
 };
