@@ -51,8 +51,10 @@ struct Results {
   int answers = 0;
   int wrong = 0;
   int not_kept = 0;
-  int without_plan = 0;                 // neither found a plan
-  int without_plan_unlike_scratch = 0;  // only the solve from scratch did
+  // Changes for which neither re-planning nor the solve from scratch found a plan.
+  int without_plan = 0;
+  // Changes for which only the solve from scratch found a plan.
+  int without_plan_unlike_scratch = 0;
   int infeasible = 0;
   int impossible = 0;  // changes and delays refused as impossible
   std::vector<double> first_s, total_s, scratch_first_s;

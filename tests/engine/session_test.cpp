@@ -23,7 +23,7 @@ namespace session_test {
 using testing::AgentSpec;
 using testing::instance_of;
 
-constexpr std::int64_t kLimitChecks = 10'000;  // clock readings per solve
+constexpr std::int64_t kLimitChecks = 10'000;  // limit on clock readings per solve
 
 SolveOptions with_omega(Omega omega) {
   SolveOptions options;

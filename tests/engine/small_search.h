@@ -25,7 +25,7 @@ inline Instance two_in_a_bay() {
   return instance_of({".....", "@@.@@"}, {{{0, 0}, Position{4, 0}}, {{4, 0}, Position{0, 0}}});
 }
 
-// A search on such an instance, with its root (of cost 8 by default) and its live nodes.
+// A search on an instance, by default two_in_a_bay(), with its root and its live nodes.
 struct SmallSearch {
   explicit SmallSearch(Instance the_instance = two_in_a_bay())
       : instance(std::move(the_instance)), root(forest.next_root()) {}

@@ -48,7 +48,8 @@ struct Campaign {
   std::uint64_t seed = 0;  // of the first case; it increases by 1 for each further case
   std::optional<double> seconds = std::nullopt;    // time limit; nullopt: none
   std::chrono::milliseconds patience = kPatience;  // see run_case()
-  std::filesystem::path trace = {};                // file for the current case; empty: none
+  // File to which each case is written before it runs, in case of a crash; empty: none.
+  std::filesystem::path trace = {};
 };
 
 // Runs cases until one fails, and shrinks that case. Returns nullopt if no case failed within the

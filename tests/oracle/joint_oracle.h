@@ -13,7 +13,7 @@ namespace grove::detail::oracle {
 enum class Verdict : std::uint8_t {
   kSolved,
   kInfeasible,  // every reachable joint state was expanded
-  kTooLarge,    // more joint states than allowed: no result
+  kTooLarge,    // more states than `state_cap`, or than a key can number: no result
 };
 
 struct Answer {

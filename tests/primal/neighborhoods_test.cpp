@@ -22,7 +22,7 @@ Instance crossing(int count) {
   return testing::instance_of(std::vector<std::string>(12, std::string(12, '.')), agents);
 }
 
-// Such an instance with a collision-free path for each agent.
+// An instance made by crossing(), with a collision-free path for each agent.
 struct Planned {
   explicit Planned(int count) : instance(crossing(count)) {
     PrioritizedPlanning planning(instance.world(), low_level, paths, random, tuning);
