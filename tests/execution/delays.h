@@ -10,9 +10,9 @@
 
 namespace grove::detail::testing {
 
-// A random delay schedule: some actions take longer, some robots are slower, some stand still for
-// long and, with `may_fail`, some fail. It depends only on the seed, not on the times at which
-// actions start.
+// A random delay schedule: some actions take longer, some robots are slower, some make long stops
+// and, with `may_fail`, some fail. It depends only on the seed, not on the times at which actions
+// start.
 class Delays {
  public:
   Delays(const ActionDependencyGraph& order, std::uint64_t seed, bool may_fail = false);

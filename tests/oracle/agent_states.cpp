@@ -60,7 +60,8 @@ bool AgentStates::may_rest(const Standing& standing) const {
          });
 }
 
-// An agent that has begun a task continues it until it is completed; then it may move at once.
+// An agent that has started a task continues it until it is completed. In the next step it can
+// move.
 std::vector<Standing> AgentStates::next(const Standing& standing) const {
   std::vector<Standing> next;
   const auto work_on = [&](int work, Time done) {

@@ -207,7 +207,8 @@ TEST(FreeOrderSipp, StopsAtTheGivenNumberOfLabels) {
 INSTANTIATE_TEST_SUITE_P(, FreeOrderSippFuzz, ::testing::Bool(),
                          [](const auto& all) { return all.param ? "AllKinds" : "Bars"; });
 
-// A problem with so many stops that the cost-to-go is a graph of only the low-cost sequences.
+// A problem whose cost-to-go is a graph of only the low-cost sequences, because it has too many
+// stops for a table.
 class ManyStops {
  public:
   ManyStops(unsigned seed, bool with_destination) : random_(seed) {

@@ -289,7 +289,7 @@ TEST(WorldLowLevel, AgreesWithTimeExpandedSearch) {
   const int seeds = testing::fuzz_rounds(300);
   std::vector<int> all(static_cast<std::size_t>(seeds));
   std::iota(all.begin(), all.end(), 0);
-  all.push_back(3582);  // regression: gates of late labels postponed timely ones
+  all.push_back(3582);  // regression: a gate postponed labels in time to rest
   for (const int seed : all) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Fuzzer fuzzer(static_cast<unsigned>(seed));
