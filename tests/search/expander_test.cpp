@@ -124,7 +124,7 @@ TEST(Expander, BoundsAHardNodeAlikeInOneOrSeveralCalls) {
   } while (in_parts.unfinished);
   EXPECT_GT(calls, 2);
 
-  // With a shared cache that succeeds another one, an expander leaves no effort to a later call.
+  // With a shared cache that succeeds another one, an expander leaves nothing to a later call.
   Expander other(problem, stops, {Techniques::defaults(), 0});
   other.turn_to(std::make_shared<SharedCache>(SharedCache::Successor{}));
   const Expansion at_once = other.expand(root, kInfiniteCost, limits);

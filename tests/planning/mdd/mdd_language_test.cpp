@@ -461,8 +461,8 @@ std::vector<std::vector<Cell>> cells_of(const Mdd& graph) {
   return layers;
 }
 
-// Builds an MDD whose cost is just above the bound of the sequence graph, and compares it with an
-// MDD from a sequence graph that was widened beyond that cost.
+// Builds an MDD of cost beyond(), the bound of the sequence graph on the sequences that it omits,
+// and compares it with an MDD from a sequence graph that was widened beyond that cost.
 TEST(MddLanguage, IsCompleteAtTheBoundOfTheSequenceGraph) {
   int at_the_bound = 0;
   for (unsigned seed = 0; seed < 12; ++seed) {
