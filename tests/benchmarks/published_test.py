@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests the comparison of published results with ours: the pages agree with the result files."""
+"""Tests the comparison of published results with those of Grove: the pages agree with the result files."""
 import pathlib
 import sys
 import unittest
@@ -17,9 +17,10 @@ def measured(success, runtime=10.0, sqr=None):
 
 
 def cells():
-    """Returns two cells of a room map.
+    """Returns two configurations on a room map.
 
-    In the first A is better than all baselines and B solves twice as many as the best; in the second only B solves any.
+    In the first, A is better than all baselines and B solves twice as many instances as the best baseline. In the
+    second, only B solves any instances.
     """
     baselines = {name: measured(0.4, 5.0, 1.0) for name in published.BASELINES}
     nothing = dict.fromkeys(published.BASELINES, measured(0))

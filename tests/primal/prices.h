@@ -9,8 +9,8 @@
 
 namespace grove::detail::testing {
 
-// Dual solution of a Lagrangian bound after at most `rounds` rounds. Returns nullptr if there is
-// none.
+// Returns the dual solution of a Lagrangian bound after at most `rounds` rounds, or nullptr if
+// there is none.
 inline std::shared_ptr<const DualSolution> prices_of(const Instance& instance,
                                                      const AgentStopsCache& stops, int rounds) {
   constexpr Cost kAnyCost = 1'000'000;
