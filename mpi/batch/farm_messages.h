@@ -26,12 +26,12 @@ namespace grove::detail::batch {
 struct RequestWork {
   friend bool operator==(const RequestWork&, const RequestWork&) = default;
 };
-// The group has solved its assignment, or failed to.
+// The group has solved its assignment or failed to solve it.
 struct Report {
   Row row;
   friend bool operator==(const Report&, const Report&) = default;
 };
-// The group was interrupted; its assignment is left for another run.
+// The group was interrupted; a later run must solve its assignment.
 struct Aborted {
   friend bool operator==(const Aborted&, const Aborted&) = default;
 };
@@ -40,7 +40,7 @@ struct Assignment {
   Entry entry;
   friend bool operator==(const Assignment&, const Assignment&) = default;
 };
-// The run ends: abort the assignment.
+// The batch was interrupted: abort the assignment.
 struct Stop {
   friend bool operator==(const Stop&, const Stop&) = default;
 };
