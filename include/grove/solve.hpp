@@ -34,8 +34,9 @@ GROVE_API std::size_t default_memory_limit();
 /// Options of solve(). The defaults are those of `grove solve`: a plan within 1 % of optimal, or
 /// the best plan found within 180 seconds, on all cores.
 struct Options {
-  /// Relative tolerance, >= 0: the run ends when the plan costs at most (1 + omega) times the lower
-  /// bound. 0: optimal; infinity: any plan. Rounded to a multiple of 1e-9.
+  /// Relative tolerance, from 0 to 1e6, or infinity: the run ends when the plan costs at most (1 +
+  /// omega) times the lower bound. 0: an optimal plan; infinity: any plan. Rounded to a multiple of
+  /// 1e-9.
   double omega = 0.01;
   /// Wall-clock seconds, >= 0. At the limit solve() returns the best plan and the lower bound so
   /// far. std::nullopt: no limit.
