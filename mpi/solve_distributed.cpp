@@ -24,8 +24,7 @@ namespace {
 constexpr double kAccountInterval_s = 2;      // between two statistics, which only observers need
 constexpr double kHeartbeatInterval_s = 0.3;  // between statistics while ranks wait for a worker
 
-constexpr double kLeastNap_s =
-    1e-5;  // minimum sleep; a shorter one could lead to the same poll time
+constexpr double kLeastNap_s = 1e-5;  // minimum sleep; a shorter one can hit the same poll time
 
 void sleep(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));

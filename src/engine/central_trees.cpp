@@ -125,9 +125,9 @@ void CentralTrees::prepare_tree() {
 }
 
 // Must be called only when no node is live, with growing_ held. If nodes were evicted, restarts
-// from all roots, unless a tree not yet instantiated has a lower bound than the evicted nodes: then
-// instantiates that tree. Returns false if no node was evicted, if w = inf, or if the search since
-// the last restart has not raised evicted_bound().
+// from all roots. If the bound of the trees not yet instantiated is below the bound of the evicted
+// nodes, only instantiates the next tree instead. Returns false if no node was evicted, if w = inf,
+// or if the search since the last restart has not raised evicted_bound().
 bool CentralTrees::restart() {
   const Cost proven = nodes_.evicted_bound();
   if (proven == kInfiniteCost || options_.omega.is_infinite()) return false;

@@ -4,7 +4,7 @@
 // all agents are in each other's way; there the joint search ends soon, and the tree search perhaps
 // never. It is not known in advance which of the two ends first, so they share the effort: joint
 // search gets up to joint_max_share units per unit of other effort. When joint search has ended or
-// exceeds its memory, all effort goes to the tree search.
+// exceeds its memory, it gets no more effort.
 #include "engine/joint_scheduler.h"
 
 #include <algorithm>

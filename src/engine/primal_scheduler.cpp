@@ -17,8 +17,8 @@
 // - Cap: r <= clamp(8 t, 1/4, 8), where t = (tree effort) / primal_full_share_work, because the
 //   tree search solves most small instances within tenths of a second, whatever the incumbent.
 //   While the gap exceeds large_gap, the cap is 8.
-// Apart from the number of failed attempts, r depends neither on the size of the instance nor on
-// the speed of the machine. The numbers are the constants below and the defaults of tunables.def.
+// r depends neither on the size of the instance nor on the speed of the machine. The numbers are
+// the constants below and the defaults of tunables.def.
 #include "engine/primal_scheduler.h"
 
 #include <algorithm>

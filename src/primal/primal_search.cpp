@@ -9,7 +9,7 @@
 //
 // *Definition.* W is the effort of individual planning for all agents (meeting_work_).
 //
-// *First plan.* Prioritised planning has a head start: until its first failure, but for an effort
+// *First plan.* Prioritised planning has a head start: until its first failure, and for an effort
 // of at most pp_head_start*W, it gets all effort. On instances that are not dense it ends within
 // 1.5 W, with plans much cheaper than LaCAM's (which cost 1.1 to 3.5 times the sum of individual
 // costs). After the head start, prioritised planning and LaCAM share the effort equally until one
