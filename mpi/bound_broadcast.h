@@ -62,7 +62,7 @@ class BoundBroadcast {
   const double rate_;
   double next_ = 0;
   double last_ = 0;
-  double allowance_ = 0;            // bytes
+  double allowance_ = 0;            // bytes that may be sent now
   std::map<int, Waiting> waiting_;  // by the reach of this rank when it sends; no heap is empty
 };
 

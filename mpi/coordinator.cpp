@@ -132,7 +132,7 @@ void Coordinator::begin() {
     run_.begin();
 }
 
-// Assigns the nodes to the children as they are read.
+// Restores the run, and assigns the nodes to the children while it reads them.
 void Coordinator::restore(CheckpointReader& checkpoint) {
   const auto roots = run_.restore(checkpoint.header());
   restored_ = roots.has_value();
@@ -187,7 +187,7 @@ void Coordinator::heard(int child, message::Status status) {
   nodes_.update(child, std::move(status));
   run_.shared_bounds().nodes_changed();
   run_.run_events().worked();
-  if (ending_) return;  // a batch sent after a RankFinished would be left in transit
+  if (ending_) return;  // a batch ordered now could be left in transit at the end
   run_.trees().instantiate_due_tree();
   while (const auto transfer = load_balancer_.next())
     children_.send(transfer->from,

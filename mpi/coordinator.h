@@ -30,8 +30,8 @@ class Coordinator {
   // Posts the start plan and instantiates the first tree, or restores a checkpoint. Must be called
   // before any other function. Throws what reading the checkpoint throws.
   void begin();
-  // Handles a message from a child. Throws std::invalid_argument for a message that a child cannot
-  // send, and what GlobalBounds::post() throws.
+  // Handles a message from a child. Throws std::invalid_argument for a type of message that no
+  // child sends, and what GlobalBounds::post() throws.
   void handle(int from, message::Message&& message);
   // Takes a due checkpoint and supplies nodes if none is live, or ends the run if it is over. Must
   // be called repeatedly.
@@ -77,7 +77,7 @@ class Coordinator {
   const Hierarchy hierarchy_;
   ChildLinks children_;
   Announcer announcer_;
-  NodePool pool_;  // nodes of the roots
+  NodePool pool_;  // memory of the root nodes
   RankNodes nodes_;
   RunState run_;
   LoadBalancer load_balancer_;

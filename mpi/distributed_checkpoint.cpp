@@ -44,7 +44,7 @@ DistributedCheckpoint::DistributedCheckpoint(const Checkpoints& checkpoints, con
   children.broadcast(message::SnapshotRequest{});
 }
 
-// If this checkpoint fails, the previous one stays valid and the run continues.
+// If writing fails, the previous checkpoint stays valid and the run continues.
 template <class Write>
 void DistributedCheckpoint::write(Write what) {
   if (!report_.failure.empty()) return;

@@ -40,16 +40,16 @@ class DistributedCheckpoint {
   void write(Write what);
 
   const Checkpoints& checkpoints_;
-  const Limits& limits_;  // for the clock
+  const Limits& limits_;  // only used for its clock
   RunState& run_;
   Transport& transport_;
   ChildLinks& children_;
   const Clock::time_point begin_ = limits_.now();
   Clock::time_point said_ = begin_;  // time of the last broadcast to all ranks
   const std::int64_t trees_;         // number of trees that the checkpoint records as instantiated
-  int looked_ = 0;                   // children that have taken their snapshot
+  int looked_ = 0;                   // number of children that have taken their snapshots
   Cost evicted_bound_ = kInfiniteCost;
-  int asked_ = -1;  // the rank that sends its snapshot
+  int asked_ = -1;  // rank that is sending its snapshot; -1: none yet
   bool done_ = false;
   std::unique_ptr<CheckpointWriter> writer_;  // nullptr before the start and after a failure
   CheckpointReport report_;

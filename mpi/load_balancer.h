@@ -20,7 +20,7 @@ namespace grove::detail {
 class LoadBalancer {
  public:
   struct Transfer {
-    int from = 0;            // the child
+    int from = 0;            // the sending child
     int to = 0;              // the receiving rank, which is not below `from`
     std::int64_t nodes = 0;  // maximum number of nodes
     bool to_idle = false;
@@ -30,7 +30,7 @@ class LoadBalancer {
   // no rank has nodes.
   explicit LoadBalancer(const std::vector<std::vector<int>>& children, const Tuning& tuning = {});
 
-  // Handles a new status of `child`.
+  // Handles a new status from `child`.
   void heard(int child, const message::Status& status);
   // Records that a transfer to `rank` has arrived.
   void arrived(int rank);
@@ -62,7 +62,7 @@ class LoadBalancer {
   const Tuning tuning_;
   std::vector<View> children_;
   std::set<Offer> offers_;
-  std::map<Request, int> wishes_;  // value: the child of the request
+  std::map<Request, int> wishes_;  // value: the child that the request came from
   std::set<int> awaiting_;         // ranks with a transfer in transit
 };
 

@@ -116,8 +116,8 @@ struct NodeBatch {
   std::vector<GroupBound> findings;
 };
 
-// From rank to rank: learned bounds. The receiver forwards them to the next `reach` - 1 ranks in
-// cyclic order of rank; see bound_broadcast.h.
+// From rank to rank: learned bounds. The receiver is responsible for forwarding them to the next
+// `reach` - 1 ranks, in cyclic order of ranks; see bound_broadcast.h.
 struct LearnedBounds {
   std::int32_t reach = 1;
   std::vector<std::string> facts;  // packed by packed(), because many ranks only forward them
@@ -207,11 +207,11 @@ struct Addressed {
 
 // Serialized form of a learned bound.
 std::string packed(const LearnedBound& fact);
-// Throws std::invalid_argument if `bytes` is not a learned bound.
+// Inverse of packed(). Throws std::invalid_argument if `bytes` is not a packed learned bound.
 LearnedBound unpacked(std::string_view bytes);
 
 std::string bytes_of(const Message& message, int level);
-// Throws std::invalid_argument if `bytes` is not a message.
+// Inverse of bytes_of(). Throws std::invalid_argument if `bytes` is not a serialized message.
 Addressed message_of(std::string_view bytes);
 
 }  // namespace grove::detail::message

@@ -20,7 +20,7 @@ class MpiSession {
   // Session without MPI: rank 0 of 1, on which only gather() may be called. For programs that only
   // print their help, because this must work where MPI cannot start.
   MpiSession() = default;
-  // Starts MPI. Throws std::runtime_error if MPI does not support threads (MPI_THREAD_FUNNELED).
+  // Initializes MPI. Throws std::runtime_error if MPI does not provide MPI_THREAD_FUNNELED.
   MpiSession(int& argc, char**& argv);
   ~MpiSession();
   MpiSession(const MpiSession&) = delete;

@@ -32,7 +32,7 @@ inline double next_poll(double heard, double time, double max_poll_interval = kM
   double interval = kMinPollInterval * max_poll_interval;
   while (interval < std::min(elapsed, max_poll_interval)) interval *= 2;
   if (elapsed > interval) interval = max_poll_interval * std::ceil(elapsed / max_poll_interval);
-  return std::max(time, heard + interval);  // rounding must not make it earlier
+  return std::max(time, heard + interval);  // guards against rounding errors
 }
 
 constexpr double kLongestPause_s = 20e-3;

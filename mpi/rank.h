@@ -38,7 +38,7 @@ class Rank {
 
   SharedSearch& search() { return search_; }
   const LocalNodes& nodes() const { return nodes_; }
-  // Initial contents of the workers' caches.
+  // Cached stops of the agents with which the workers' caches start.
   const AgentStopsCache& stops() const { return stops_; }
 
   // Handles a message to this rank. Throws std::invalid_argument for a type of message that no rank
@@ -68,7 +68,7 @@ class Rank {
   bool left() const;
 
  private:
-  struct DeferredBatch {  // a batch that arrived before its tree or its epoch
+  struct DeferredBatch {  // a batch that arrived before its tree or its Restart
     int from;
     message::NodeBatch batch;
   };
@@ -122,7 +122,7 @@ class Rank {
     std::map<std::int64_t, std::vector<NodePtr>> custody;  // by batch number
   };
   std::map<int, Peer> peers_;
-  std::int64_t in_custody_ = 0;         // nodes
+  std::int64_t in_custody_ = 0;         // number of nodes in custody
   std::int64_t cached_only_until_ = 0;  // value of `expanded` at which kCachedOnly ends
   std::int64_t nodes_sent_ = 0;
   std::int64_t facts_sent_ = 0;

@@ -21,8 +21,8 @@ class RankNodes : public LiveNodes {
   // `children` must outlive this.
   explicit RankNodes(ChildLinks& children);
 
-  // Handles a new status of `child`. Throws std::invalid_argument for a status that the child
-  // cannot send.
+  // Handles a new status from `child`. Throws std::invalid_argument for a status that cannot follow
+  // the previous one.
   void update(int child, message::Status status);
 
   Cost bound() const override;

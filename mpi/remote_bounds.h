@@ -42,7 +42,7 @@ class RemoteBounds : public SharedBounds {
   // Returns the best plan posted since the last call, or nullopt if no such plan is better than the
   // incumbent.
   std::optional<Found> take_found();
-  // The best bound proven outside the tree search, and its source.
+  // The best bound that this rank has proven outside the tree search, and its source.
   std::pair<Cost, BoundSource> proven() const;
   // Sets the lower bound of the whole search.
   void know(Cost bound) { known_ = bound; }

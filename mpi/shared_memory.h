@@ -12,7 +12,7 @@ namespace grove::detail {
 // together when none of them uses it any more.
 class SharedMemory {
  public:
-  SharedMemory() = default;  // no shared memory
+  SharedMemory() = default;  // provides no shared memory
   virtual ~SharedMemory() = default;
   SharedMemory(const SharedMemory&) = delete;
   SharedMemory& operator=(const SharedMemory&) = delete;

@@ -87,7 +87,7 @@ void SubCoordinator::heard(int child, message::Status&& status) {
       taken_.push_back(taken);
   }
   nodes_.update(child, std::move(status));
-  if (ending_) return;  // a batch sent after a RankFinished would be left in transit
+  if (ending_) return;  // a batch ordered now could be left in transit at the end
   while (const auto transfer = load_balancer_.next())
     children_.send(transfer->from,
                    message::SendNodes{transfer->to, transfer->nodes, transfer->to_idle});

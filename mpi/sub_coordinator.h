@@ -45,7 +45,7 @@ class SubCoordinator {
   ParentLink parent_;
   bool changed_ = false;                       // changed since the last status
   std::int64_t assigned_ = 0;                  // number of AssignNodes messages handled so far
-  std::vector<message::BatchReceived> taken_;  // not reported yet
+  std::vector<message::BatchReceived> taken_;  // receipts not yet reported to the parent
   Cost cutoff_ = kInfiniteCost;                // cost of the incumbent
   message::SnapshotTaken gathered_;  // merged over the children that have taken a snapshot
   int looked_ = 0;

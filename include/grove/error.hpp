@@ -21,8 +21,8 @@ class GROVE_API Error : public std::runtime_error {
   ~Error() override;
 };
 
-/// A file, or the text of a file, is invalid or cannot be read or written. what() is "FILE: PLACE:
-/// what is wrong; expected WHAT"; PLACE and the expectation can be absent.
+/// Thrown if a file, or the text of a file, is invalid or cannot be read or written. what() is
+/// "FILE: PLACE: what is wrong; expected WHAT"; PLACE and the expectation can be absent.
 class GROVE_API InputError : public Error {
  public:
   using Error::Error;                                  ///< From the text of what().
@@ -31,7 +31,7 @@ class GROVE_API InputError : public Error {
   ~InputError() override;
 };
 
-/// An argument (world, instance, plan, change or option) is invalid.
+/// Thrown if an argument (world, instance, plan, change or option) is invalid.
 class GROVE_API InvalidArgument : public Error {
  public:
   /// Constructs an exception whose what() is "FIELD: MESSAGE", for example "/threads: found 0;

@@ -32,5 +32,5 @@
 #include "grove/version.hpp"
 #include "grove/world.hpp"
 
-/// The library. Names in grove::detail are internal.
+/// The namespace of the library. Names in grove::detail are internal.
 namespace grove {}

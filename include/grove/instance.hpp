@@ -40,9 +40,10 @@ struct Agent {
 
 /// A place that each agent of a list must visit at least once, at any time from 0 on.
 struct Task {
-  std::string id = {};                   ///< Unique among tasks; not empty.
-  Place place = {};                      ///< A cell or a vertex. Tasks may share a place.
-  std::vector<std::string> agents = {};  ///< Ids of the agents that must visit it; at least one.
+  std::string id = {};  ///< Unique among tasks; not empty.
+  Place place = {};     ///< A cell or a vertex. Tasks may share a place.
+  std::vector<std::string> agents =
+      {};            ///< Distinct ids of the agents that must visit it; at least one.
   int duration = 0;  ///< Time steps that its execution takes; 0: a visit is enough.
 };
 
@@ -75,8 +76,8 @@ class GROVE_API Instance {
 
 /// Restrictions for untrusted files and texts; see read_instance() and parse_instance().
 struct Trust {
-  /// Refuses a file that names a map or roadmap outside its own directory, by an absolute path, by
-  /// `..` or by a symbolic link.
+  /// True: refuses a file that names its map or roadmap by an absolute path, or outside its own
+  /// directory by `..` or a symbolic link.
   bool confine = false;
   /// Limit, in bytes, on the memory for the map and the states of the agents on it. A file that
   /// needs more is refused before the memory is allocated; 64 MiB are always granted. std::nullopt:

@@ -11,7 +11,7 @@
 #include "grove/export.hpp"
 #include "grove/solve.hpp"
 
-/// For programs that use MPI.
+/// Functions for programs that use MPI.
 namespace grove::mpi {
 
 /// Finds a plan and proves a lower bound like grove::solve(), with all ranks of `communicator`.

@@ -52,7 +52,7 @@ struct Plan {
   }
 };
 
-/// What a run has proven.
+/// Outcome of a run: what it has proven about its plan and the instance.
 enum class Status : std::uint8_t {
   optimal,     ///< The plan has minimum cost.
   bounded,     ///< The plan costs at most (1 + omega) times the lower bound.
@@ -91,8 +91,8 @@ struct Solution {
 struct Violation {
   /// JSON Pointer (RFC 6901) into the plan file: "/agents/0/path/7".
   std::string json_pointer = {};
-  std::string message = {};  ///< One line of text for people.
-  std::string place = {};    ///< \deprecated Equal to json_pointer; removed in 0.2.
+  std::string message = {};  ///< One-line message for people.
+  std::string place = {};    ///< \deprecated Equal to json_pointer; will be removed in 0.2.
 };
 
 /// Returns the errors in a plan, at most `limit`; empty: the plan is valid. The checker recomputes

@@ -19,7 +19,7 @@ struct Delay {
   int steps = 0;           ///< Time steps, >= 0.
 };
 
-/// \deprecated Old name of Delay; removed in 0.2.
+/// \deprecated Old name of Delay; will be removed in 0.2.
 using Late [[deprecated("use grove::Delay")]] = Delay;
 
 /// Changes to an instance during execution.

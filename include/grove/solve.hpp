@@ -18,17 +18,17 @@ namespace grove {
 /// Progress of a run.
 struct Progress {
   double seconds = 0;                     ///< Seconds since the run started.
-  std::int64_t nodes_expanded = 0;        ///< Constraint-tree nodes expanded.
+  std::int64_t nodes_expanded = 0;        ///< Constraint-tree nodes expanded so far.
   std::int64_t nodes_open = 0;            ///< Live constraint-tree nodes not yet expanded.
   std::int64_t lower_bound = 0;           ///< Proven so far: no plan costs less.
   std::optional<std::int64_t> cost = {};  ///< Cost of the best plan so far.
 };
 
-/// Returns the number of cores that this process may use, at most 1024: the default of
-/// Options::threads.
+/// Returns the default of Options::threads: the number of cores that this process may use, at most
+/// 1024.
 GROVE_API int default_threads();
-/// Returns 80 % of the memory of the machine, or of the limit that a container or batch system
-/// sets, in bytes: the default of Options::memory_limit.
+/// Returns the default of Options::memory_limit in bytes: 80 % of the memory of the machine or, if
+/// a container or batch system sets a limit, of that limit; rounded down to a multiple of 10 MB.
 GROVE_API std::size_t default_memory_limit();
 
 /// Options of solve(). The defaults are those of `grove solve`: a plan within 1 % of optimal, or

@@ -20,14 +20,14 @@ namespace grove {
 struct Cell {
   int x = 0;  ///< Column, from 0.
   int y = 0;  ///< Row, from 0; grows downwards.
-  /// True for the same cell.
+  /// True for equal members.
   friend bool operator==(const Cell&, const Cell&) = default;
 };
 
 /// A vertex of a roadmap.
 struct Vertex {
   std::string id = {};  ///< Id of the vertex.
-  /// True for the same vertex.
+  /// True for equal members.
   friend bool operator==(const Vertex&, const Vertex&) = default;
 };
 
@@ -35,7 +35,7 @@ struct Vertex {
 struct OnRoad {
   std::string from = {};  ///< Id of the vertex from which `steps` counts.
   std::string to = {};    ///< Id of the vertex at the other end.
-  int steps = 0;          ///< Time steps from `from`, from 1 to the length of the road - 1.
+  int steps = 0;  ///< Distance from `from` in time steps, from 1 to the length of the road - 1.
   /// Index in World::edges() of the road; required if several roads join the two vertices.
   std::optional<int> edge = std::nullopt;
   /// True for equal members. (The same place can be described from either end.)

@@ -22,7 +22,7 @@ struct BatchState {
   double under_way_s = 0;  // sum of the elapsed times of the instances in progress
   double elapsed_s = 0;    // time since the start of this run
   bool ending = false;     // no more instances are assigned, although some are left
-  // Seconds until the total time limit, after which no more instances are assigned.
+  // Seconds left until the total time limit, after which no more instances are assigned.
   double closes_in_s = std::numeric_limits<double>::infinity();
 
   int done() const { return solved + limited + failed; }

@@ -32,7 +32,7 @@ struct Grouping {
 };
 
 struct MasterOptions {
-  Settings settings;  // of all runs
+  Settings settings;  // settings of all runs
   // Seconds from the construction of the master after which it assigns no further instance.
   // Instances in progress continue.
   double total_time_limit_s = std::numeric_limits<double>::infinity();
@@ -63,7 +63,7 @@ class FarmMaster {
   BatchState state() const;
   // True if the batch was interrupted.
   bool interrupted() const { return stopping_; }
-  // Number of instances without a row, neither a result nor an error.
+  // Number of instances that have no row yet, neither with a result nor with an error.
   int left() const { return state_.total - state_.done(); }
 
   // Returns the next message for the leader on this rank, or nullopt if there is none.

@@ -22,7 +22,7 @@
 
 namespace grove::detail::batch {
 
-// The group is idle.
+// The group is idle and requests an instance.
 struct RequestWork {
   friend bool operator==(const RequestWork&, const RequestWork&) = default;
 };
@@ -44,7 +44,7 @@ struct Assignment {
 struct Stop {
   friend bool operator==(const Stop&, const Stop&) = default;
 };
-// No more instances are assigned.
+// The master assigns no more instances; the receiver ends.
 struct NoMoreWork {
   friend bool operator==(const NoMoreWork&, const NoMoreWork&) = default;
 };
@@ -57,7 +57,7 @@ struct Ended {
 using FarmMessage = std::variant<RequestWork, Report, Aborted, Assignment, Stop, NoMoreWork, Ended>;
 
 std::string encode(const FarmMessage& message);
-// Throws std::invalid_argument if `bytes` is not a message.
+// Inverse of encode(). Throws std::invalid_argument if `bytes` is not an encoded message.
 FarmMessage decode(std::string_view bytes);
 
 }  // namespace grove::detail::batch

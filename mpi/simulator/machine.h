@@ -13,7 +13,7 @@ namespace grove::detail {
 // polling.h, but not before it has handled the messages of the last poll.
 struct Machine {
   double latency = 2e-6;             // seconds
-  double bandwidth = 1e9;            // bytes per second, serialization included
+  double bandwidth = 1e9;            // bytes per second, including serialization
   double message_cost = 2e-6;        // seconds
   double poll = kMaxPollInterval_s;  // seconds: maximum interval between two polls
   // Seconds that a work item takes per unit of effort (search/work.h). 0: a work item takes the

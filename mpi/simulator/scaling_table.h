@@ -33,8 +33,8 @@ struct ScalingRow {
   double messages_per_node = 0;
   double bytes_per_node = 0;
   std::int64_t nodes_sent = 0;
-  double talking_share = 0;              // fraction of the time of all ranks
-  double coordinator_talking_share = 0;  // fraction of the time of rank 0
+  double talking_share = 0;  // communication time as a fraction of the time of all ranks
+  double coordinator_talking_share = 0;  // communication time as a fraction of the time of rank 0
   double coordinator_wait_s = 0;  // mean seconds from the arrival of a message to its handling
   // Load balance.
   double max_over_mean = 0;  // maximum / mean over ranks of the seconds spent on expansions
@@ -43,7 +43,7 @@ struct ScalingRow {
   std::int64_t ranks_without_node = 0;
 };
 
-// Compares `run` with `alone`, the run of one rank.
+// Compares `run` with `alone`, the run of a single rank.
 ScalingRow scaling_row(const SimulatedRun& run, const SimulatedRun& alone);
 
 // The column names, and the values of a row: comma-separated, without a line end.

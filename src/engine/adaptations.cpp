@@ -92,7 +92,7 @@ class Told {
   bool ends_ = false;  // a search is ending
 };
 
-// Observer of a search of the instance itself.
+// Observer of a search of the original instance (A).
 class Stage : public RunObserver {
  public:
   explicit Stage(Told& told) : told_(told) { told.begin_search(); }
@@ -125,7 +125,7 @@ class Stage : public RunObserver {
   Told& told_;
 };
 
-// Observer of a search of the instance with destinations.
+// Observer of a search of the instance with chosen destinations (B).
 class StageOfB : public Stage {
  public:
   StageOfB(Told& told, const Instance& instance, const Destinations& destinations)

@@ -38,7 +38,7 @@ class CentralBounds : public SharedBounds {
   void post(Plan plan, PlanSource source) override;
   void prove(Cost bound, BoundSource by) override;
   void nodes_changed() override;
-  // Adds the number of better plans by source, and the cost that each source saved. Thread-safe.
+  // Adds, by source, the number of better plans and the total cost reduction by them. Thread-safe.
   void add_counts(Stats& stats) const;
 
   // For queries about decisions of GlobalBounds.
@@ -47,7 +47,7 @@ class CentralBounds : public SharedBounds {
   bool has_no_joint_plan() const { return ended_beside_; }
   static constexpr std::string_view kNoJointPlan =
       "the search visited all joint states that the agents can reach";
-  // Takes over the lower bound of an earlier run.
+  // Raises the lower bound to that of an earlier run, which this run resumes.
   void resume_at(Cost lower_bound);
   // Sets the lower bound on all trees not yet instantiated; kInfiniteCost: no such tree is left.
   // Must be called after the roots of the instantiated trees were pushed.
@@ -74,7 +74,7 @@ class CentralBounds : public SharedBounds {
   };
   std::mutex posting_;  // serialises the events about plans
   mutable std::mutex counting_;
-  std::array<Found, kPlanSources.size()> found_;  // under counting_
+  std::array<Found, kPlanSources.size()> found_;  // guarded by counting_
 };
 
 }  // namespace grove::detail

@@ -113,7 +113,8 @@ bool CentralTrees::claim_preparation() {
   return wanted && !preparing_.exchange(true);
 }
 
-// A prepared tree is not instantiated: its root is not live, but it bounds the trees to come.
+// A prepared tree does not count as instantiated: its root is not live, but its bound is part of
+// the bound of the trees not yet instantiated.
 void CentralTrees::prepare_tree() {
   const std::unique_lock lock(growing_, std::try_to_lock);
   if (lock && (prepared_ || (prepared_ = forest_.next_root()))) {

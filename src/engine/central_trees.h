@@ -33,7 +33,7 @@ class CentralTrees : public TreeSource {
 
   // Number of trees instantiated so far, with their roots pushed.
   std::int64_t count() const { return count_; }
-  // Records of the first `count` trees.
+  // Returns the records of the first `count` trees.
   std::vector<TreeRecord> records(std::int64_t count) const;
   // Adds the counts of this object to the statistics of the solution.
   void add_counts(Stats& stats) const;
@@ -51,7 +51,7 @@ class CentralTrees : public TreeSource {
   bool restart();
 
   const SolveOptions& options_;
-  Forest& forest_;  // under growing_
+  Forest& forest_;  // guarded by growing_
   LiveNodes& nodes_;
   CentralBounds& shared_bounds_;
   RunEvents& run_events_;

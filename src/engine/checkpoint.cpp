@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic = "GROVE-CP";
 constexpr std::uint32_t kVersion = 3;
-constexpr std::size_t kBlockBytes = std::size_t{1} << 18;  // approximate content of a block
+constexpr std::size_t kBlockBytes = std::size_t{1} << 18;  // approximate size of a block's content
 constexpr std::size_t kBlockHeadBytes = 12;
 constexpr std::size_t kChecksumBytes = 4;
 

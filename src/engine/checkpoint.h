@@ -38,7 +38,7 @@ struct CheckpointHeader {
   double seconds = 0;                            // duration of all runs so far
 };
 
-// DIR/checkpoint.grove.
+// Returns the path of the checkpoint file in `directory`.
 std::filesystem::path checkpoint_file(const std::filesystem::path& directory);
 
 // Writes a checkpoint node by node, with a buffer of some hundred nodes. finish() replaces the
@@ -50,7 +50,7 @@ class CheckpointWriter {
   // `directory` must exist. Throws std::invalid_argument for the policy kAuto.
   CheckpointWriter(const std::filesystem::path& directory, const CheckpointHeader& header);
 
-  // Throws std::invalid_argument for a node of a tree that is not in the header.
+  // Writes a node. Throws std::invalid_argument if its tree is not in the header.
   void add(NodeRecord node);
   // Completes the file and replaces the previous checkpoint. Must be called once, last.
   void finish();
@@ -95,7 +95,7 @@ class CheckpointReader {
   CheckpointHeader header_;
   std::vector<NodeRecord> nodes_;  // nodes of the block read last
   std::size_t next_ = 0;           // position in nodes_
-  std::uint64_t nodes_read_ = 0;   // from all blocks
+  std::uint64_t nodes_read_ = 0;   // number of nodes in all blocks read
   bool ended_ = false;
 };
 

@@ -102,7 +102,8 @@ class Chooser {
   }
 
  private:
-  // Adds the best sequence costs of the agents that have a destination.
+  // Adds the best sequence costs of the agents that have a destination to `bound`. Returns false if
+  // a cost is not known exactly.
   bool add_bound_of_others(Cost& bound) const {
     const Instance& instance = problem_.instance;
     for (AgentIndex agent = 0; agent < instance.agent_count(); ++agent) {

@@ -15,7 +15,7 @@ namespace grove::detail {
 inline constexpr TaskIndex kNoTask = -1;
 
 struct Destinations {
-  std::vector<TaskIndex> tasks;  // by AgentIndex; kNoTask: the agent has a destination of its own
+  std::vector<TaskIndex> tasks;  // by AgentIndex; kNoTask: the agent already has a destination
   // The sum of the agents' best sequence costs. Proven: no plan of the instance costs less,
   // wherever the agents end.
   Cost bound = 0;

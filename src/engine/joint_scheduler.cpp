@@ -13,7 +13,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr double kMaxLog2States = 44;  // for instances with at most 2^44 joint states
+constexpr double kMaxLog2States = 44;  // at most 2^44 joint states
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;
 

@@ -17,9 +17,9 @@ enum class Method : std::uint8_t {
   kAuto,  // Grove's own search, with the given options
   // Adaptations of CTS-CBS to MG-MAPF (paper, section V-B), under either policy; see
   // adaptations.cpp.
-  kCtsCbsA,  // agents may end on any of their tasks
-  kCtsCbsB,  // one task of each agent becomes its destination; see destinations.h
-  kCtsCbsC,  // A, then B
+  kCtsCbsA,  // CTS-CBS-A: agents may end on any of their tasks
+  kCtsCbsB,  // CTS-CBS-B: one task of each agent becomes its destination (destinations.h)
+  kCtsCbsC,  // CTS-CBS-C: runs A, then B; or first B, see solve_by()
   // Plain CBS with a published low level; see baselines/low_level.h.
   kOptimalCbs,
   kHcbs,

@@ -9,7 +9,7 @@
 namespace grove::detail {
 
 struct TreeOutlook {
-  bool is_behind = false;     // more is proven outside the tree search than by it
+  bool is_behind = false;     // the bound proven outside the tree search exceeds the tree's bound
   bool gap_is_large = false;  // the gap exceeds large_gap
 };
 

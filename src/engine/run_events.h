@@ -49,7 +49,7 @@ class RunEvents : public WorkObserver {
   const std::function<Progress()> progress_;
   std::function<RunStatistics()> survey_;  // may be empty
   std::mutex mutex_;
-  Cost announced_bound_ = 0;  // under mutex_
+  Cost announced_bound_ = 0;  // guarded by mutex_
 };
 
 }  // namespace grove::detail

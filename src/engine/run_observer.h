@@ -53,7 +53,8 @@ class RunObserver {
   // Describes the next search in a sentence. Only for methods that search more than once.
   virtual void on_note(std::string_view /*note*/) {}
 
-  // The next kBound event reports a bound that was proven outside the tree search.
+  // A bound proven outside the tree search has raised the lower bound. The next kBound event
+  // reports it, unless it is infinite.
   virtual void on_bound_beside(BoundSource /*by*/) {}
 
   // A checkpoint was written, or writing it failed.

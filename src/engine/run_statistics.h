@@ -16,7 +16,7 @@ namespace grove::detail {
 struct MemoryUse {
   std::int64_t process = 0;    // resident set
   std::int64_t nodes = 0;      // constraint-tree nodes
-  std::int64_t prices = 0;     // cached subproblem costs of agents
+  std::int64_t prices = 0;     // cached costs of agents
   std::int64_t path_sets = 0;  // cached MDDs
   std::int64_t groups = 0;     // cached dependencies of agents
 };
@@ -43,7 +43,7 @@ struct RunStatistics {
   int rank_count = 0;                   // 0: not a distributed run
 };
 
-// Adds counts and bytes.
+// Adds the counts and bytes of `part` to `sum`.
 inline void add(const ProcessStatistics& part, ProcessStatistics& sum) {
   for (const auto& [name, count] : part.counts) sum.counts[name] += count;
   sum.memory.process += part.memory.process;
@@ -53,7 +53,7 @@ inline void add(const ProcessStatistics& part, ProcessStatistics& sum) {
   sum.memory.groups += part.memory.groups;
 }
 
-// Adds counts and bytes; copies the entries of `part.ranks`.
+// Adds the counts and bytes of `part` to `sum`, and copies the entries of `part.ranks` to it.
 inline void add(const RunStatistics& part, RunStatistics& sum) {
   add(part.whole, sum.whole);
   for (const auto& [rank, survey] : part.ranks) sum.ranks[rank] = survey;

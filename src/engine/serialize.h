@@ -84,7 +84,7 @@ class GuardedInput : public cereal::InputArchive<GuardedInput, cereal::AllowEmpt
     return byte;
   }
   std::uint64_t get_number() {
-    constexpr int kLastShift = 63;  // only one more bit fits there
+    constexpr int kLastShift = 63;  // shift of the last byte, of which only one bit fits
     std::uint64_t number = 0;
     for (int shift = 0;; shift += 7) {
       const std::uint8_t byte = get();
@@ -169,7 +169,7 @@ void CEREAL_LOAD_FUNCTION_NAME(GuardedInput& in, cereal::SizeTag<T>& tag) {
   in.require(tag.size <= in.left(), "found a number of items above the number of bytes left");
 }
 
-// `size` is the size of all items in bytes.
+// `data.size` is the size of all items in bytes.
 template <class T>
 void CEREAL_SAVE_FUNCTION_NAME(BytesOutput& out, const cereal::BinaryData<T>& data) {
   using Item = std::remove_pointer_t<T>;

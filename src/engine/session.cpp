@@ -328,11 +328,11 @@ class Session::Impl {
   }
 
   Instance instance_;
-  std::optional<Plan> plan_;    // valid
-  std::optional<Plan> old_;     // valid except for affected agents
+  std::optional<Plan> plan_;    // a valid plan of instance_
+  std::optional<Plan> old_;     // last plan: valid except for the affected agents
   std::vector<bool> affected_;  // by agent
   std::vector<bool> cut_;       // by agent: its path enters a closed place; empty: no path does
-  std::vector<bool> ends_with_plan_;  // by agent (execution/advance.h)
+  std::vector<bool> ends_with_plan_;  // by agent; see execution/advance.h
   std::unique_ptr<Kept> kept_;
 };
 

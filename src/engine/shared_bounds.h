@@ -43,7 +43,7 @@ class SharedBounds {
   // Proven lower bound: no plan costs less.
   virtual Cost lower_bound() const = 0;
 
-  // Offers a plan.
+  // Offers a plan. It becomes the incumbent if it is valid and better than the current one.
   virtual void post(Plan plan, PlanSource source) = 0;
   // Reports a lower bound proven outside the tree search on all plans that cost less than cutoff()
   // at the time of the proof. kInfiniteCost: no such plan exists.

@@ -27,7 +27,8 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kMostKnown = std::size_t{1} << 29;  // bytes of cached results
+constexpr std::size_t kMostKnown = std::size_t{1}
+                                   << 29;  // maximum size of the cached results in bytes
 
 constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t kLeast = 64 << 10;  // bytes; smaller budgets bring no benefit
@@ -136,7 +137,7 @@ bool SharedSearch::gap_is_large() const {
          static_cast<double>(shared_bounds_.lower_bound());
 }
 
-// True if the next node is selected by its expected plan cost.
+// True if the next node is to be selected by its expected plan cost.
 bool SharedSearch::plan_is_wanted() {
   if (omega_ == Omega() || shared_bounds_.cutoff() < kInfiniteCost || !uses_estimates_)
     return false;

@@ -119,10 +119,10 @@ class SharedSearch {
   std::atomic<std::size_t> most_known_;  // maximum size of the cached results in bytes
   mutable std::mutex knowing_;
   std::shared_ptr<SharedCache>
-      known_;  // under knowing_: GCC 11 has no std::atomic<std::shared_ptr>
+      known_;  // guarded by knowing_: GCC 11 has no std::atomic<std::shared_ptr>
 
   mutable std::mutex helping_;
-  NodePtr unfinished_;  // under helping_
+  NodePtr unfinished_;  // guarded by helping_
 };
 
 }  // namespace grove::detail

@@ -148,7 +148,7 @@ Solution solve(const Problem& problem, const SolveOptions& options, const Limits
   try {
     if (auto answer = presolve(problem, options, limits, watcher)) return std::move(*answer);
     return search(problem, options, limits, watcher);
-  } catch (const std::bad_alloc&) {  // before the search
+  } catch (const std::bad_alloc&) {  // thrown before the search
     limits.memory_exhausted();
     return stopped_before_search(problem.instance, options, limits, watcher);
   }

@@ -32,7 +32,7 @@ struct SolveOptions {
 
   Omega omega;
   Policy policy = Policy::kAuto;
-  RtspBackend rtsp = RtspBackend::kAuto;  // for kFixed
+  RtspBackend rtsp = RtspBackend::kAuto;  // used only with kFixed
   // Must be kOwn with kFixed. Any low level other than kOwn implies plain CBS, without techniques.
   LowLevel low_level = LowLevel::kOwn;
   int threads = 1;  // at least 1
@@ -53,9 +53,9 @@ struct SolveOptions {
   // Maximum size of open nodes and their ancestors, in bytes; above it the worst nodes are evicted.
   // kUnlimited: only the memory limit of the run applies.
   std::size_t node_memory = kUnlimited;
-  // See SearchOptions::audit.
+  // Whether expanded nodes are audited; see SearchOptions::audit.
   bool audit = false;
-  // See SearchOptions::proof. Must outlive the run.
+  // Proof log, or nullptr for none; see SearchOptions::proof. Must outlive the run.
   ProofLog* proof = nullptr;
 };
 

@@ -36,13 +36,13 @@ class Worker {
     Job job;
     NodePtr node;                                            // to expand or to assist with
     BoundingEffort bounding_effort = BoundingEffort::kFull;  // used for expanding it
-    std::shared_ptr<SharedCache> memory;                     // cache to use
+    std::shared_ptr<SharedCache> memory;                     // shared cache to use
     CacheDelta found;
     Expansion expansion;
     std::optional<Plan> plan;
-    Cost proven = 0;  // by the joint search; see SharedBounds::prove()
+    Cost proven = 0;  // bound by the joint search; see SharedBounds::prove()
     LagrangianBound::Job lagrangian;
-    std::int64_t work = 0;   // see search/work.h
+    std::int64_t work = 0;   // effort; see search/work.h
     ExpansionCounts counts;  // counts added by this item
   };
 

@@ -58,9 +58,9 @@ constexpr double kRepairLabels = 2000;  // base of the label limit per repaired 
 // Multiple of the mean number of labels of successful calls that is added to this base.
 constexpr double kRepairLabelsFactor = 16;
 constexpr double kRepairDecay = 0.98;  // decay factor of the repair statistics per iteration
-// One iteration in this number uses a random repair operator.
+// One iteration in 10 uses a random repair operator.
 constexpr int kRepairExplorationPeriod = 10;
-// Failed iterations per agent before worse plans are accepted.
+// Iterations without improvement, per agent, before worse plans are accepted.
 constexpr std::int64_t kRecordDeviationStart = 1;
 
 constexpr std::int64_t kMostFirstLabels = std::int64_t{1} << 40;

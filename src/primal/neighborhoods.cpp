@@ -24,7 +24,7 @@ constexpr std::int64_t kMaxNeighborhood = 8;  // agents
 // Failures per agent after which the maximum size grows by its initial value.
 constexpr std::int64_t kGrowthFailures = 2;
 constexpr std::int64_t kMaxGrowth = 4;  // maximum factor of this growth
-constexpr double kDestroyDecay = 0.99;  // decay of the weights of destroy operators per iteration
+constexpr double kDestroyDecay = 0.99;  // decay factor of the operators' weights per iteration
 // Approximate probability of an operator without gain.
 constexpr double kDestroyMinProbability = 0.02;
 constexpr int kAgentBasedTries = 8;  // tries to fill an agent-based neighbourhood

@@ -39,7 +39,7 @@ class PlannedPaths {
     cost_ += cost(agent);
     steps_moved_ += static_cast<std::int64_t>(paths_[agent].size());
   }
-  // Removes the agent's path and returns it. The agent must have one.
+  // Removes and returns the path of `agent`, which must have one.
   Path take(AgentIndex agent) {
     GROVE_ASSERT(!paths_[agent].empty(), "a path that is taken was there");
     cost_ -= cost(agent);

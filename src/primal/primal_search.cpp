@@ -191,10 +191,10 @@ class PrimalSearch::Impl {
   Cost own_costs_ = 0;  // sum over the agents with an individual path
   bool own_costs_are_least_ = true;
   std::int64_t meeting_work_ = 0;
-  std::optional<Plan> adopted_;  // adopted before all individual paths were known
+  std::optional<Plan> adopted_;  // plan adopted before all individual paths were known
   bool improving_ = false;       // there is a plan in paths_
   Cost best_ = kInfiniteCost;
-  std::vector<Path> best_paths_;  // by agent: paths of the plan of cost best_, if found here
+  std::vector<Path> best_paths_;  // by agent: paths of the best plan, if it was found here
   std::vector<std::int64_t> best_editions_;  // by agent: edition in paths_ that best_paths_ holds
   Cost told_ = kInfiniteCost;                // cost of the best plan returned or adopted
   std::int64_t work_when_told_ = 0;
@@ -210,9 +210,9 @@ class PrimalSearch::Impl {
   std::int64_t round_began_ = 0;  // value of work()
   bool first_round_ = true;
   bool planning_now_ = false;  // prioritised planning is in progress
-  std::int64_t patience_ = 0;  // label limit of a low-level call, while is_raced()
+  std::int64_t patience_ = 0;  // label limit of a low-level call while is_raced()
   std::int64_t planning_work_ = 0;
-  std::int64_t other_work_ = 0;  // work of LaCAM and LNS in this round
+  std::int64_t other_work_ = 0;  // effort of LaCAM and LNS in this round
   Cost round_best_ = kInfiniteCost;
   std::int64_t round_improved_ = 0;       // value of work()
   std::int64_t round_improved_step_ = 0;  // LNS iteration

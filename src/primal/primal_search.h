@@ -27,8 +27,8 @@ class PrimalSearch {
  public:
   struct Counts {
     std::int64_t steps = 0;
-    std::int64_t attempts = 0;       // of prioritised planning, including failed ones
-    std::int64_t joint_steps = 0;    // of LaCAM
+    std::int64_t attempts = 0;       // orders started by prioritised planning
+    std::int64_t joint_steps = 0;    // joint steps of LaCAM
     std::int64_t neighborhoods = 0;  // LNS iterations
     std::int64_t low_level_calls = 0;
     std::int64_t low_level_expanded = 0;

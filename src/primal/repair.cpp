@@ -18,8 +18,8 @@ namespace grove::detail {
 namespace {
 
 constexpr std::int64_t kFailuresPerAgent = 4;
-constexpr std::int64_t kLabels = 10'000;   // label limit of a call: this many,
-constexpr std::int64_t kLabelsOfOwn = 50;  // and this many per step of the individual path
+constexpr std::int64_t kLabels = 10'000;   // label limit of a call: this number,
+constexpr std::int64_t kLabelsOfOwn = 50;  // plus this number per step of the individual path
 constexpr int kLatest = 8;  // maximum delay, in steps, in the search for blocking agents
 
 class Repair {

@@ -23,7 +23,7 @@ class Traffic {
   // opposite direction) times its cost without traffic.
   Traffic(const World& world, double usual, const Tuning& tuning);
 
-  // Multiplies all counts by `left`.
+  // Multiplies all counts by `left`, from 0 to 1.
   void fade(double left);
   void add(const Path& path, double weight);
   // Computes, from the current counts, the costs that field() uses.
@@ -48,7 +48,7 @@ class Traffic {
   const double usual_;
   const Tuning& tuning_;
   std::vector<Move> first_;      // by place
-  std::vector<double> there_;    // by place: steps that end there
+  std::vector<double> there_;    // by place: steps that end there (traffic)
   std::vector<double> moving_;   // by move
   std::vector<Time> edge_cost_;  // by move: cost of the reverse move
   std::vector<std::vector<State>> buckets_;

@@ -31,8 +31,8 @@ class TrafficGuidedLacam {
     kStopped,  // a limit was reached, or so little memory is left that continuing would reach one
   };
 
-  // `orders` as for LacamWithRestarts. `problem` and `tuning` must outlive this. `mean_cost`: mean
-  // individual cost of an agent.
+  // `orders` and `seed` are as for LacamWithRestarts. `mean_cost`: mean individual cost of the
+  // agents. `problem` and `tuning` must outlive this.
   TrafficGuidedLacam(const Problem& problem, std::vector<Sequence> orders, double mean_cost,
                      std::uint64_t seed, const Tuning& tuning);
 

@@ -57,7 +57,7 @@ class VisitStages {
     return entry.to_next[state] + entry.onward;
   }
 
-  // Replaces the guide by distances in steps.
+  // Uses distances in steps from now on, instead of the guide.
   void go_by_steps();
 
   // True if an agent in `stage` may rest in `state`.
