@@ -40,10 +40,9 @@ struct Agent {
 
 /// A place that each agent of a list must visit at least once, at any time from 0 on.
 struct Task {
-  std::string id = {};  ///< Unique among tasks; not empty.
-  Place place = {};     ///< A cell or a vertex. Tasks may share a place.
-  std::vector<std::string> agents =
-      {};            ///< Distinct ids of the agents that must visit it; at least one.
+  std::string id = {};                   ///< Unique among tasks; not empty.
+  Place place = {};                      ///< A cell or a vertex. Tasks may share a place.
+  std::vector<std::string> agents = {};  ///< Ids of the agents that must visit it, distinct, >= 1.
   int duration = 0;  ///< Time steps that its execution takes; 0: a visit is enough.
 };
 

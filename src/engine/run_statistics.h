@@ -16,7 +16,7 @@ namespace grove::detail {
 struct MemoryUse {
   std::int64_t process = 0;    // resident set
   std::int64_t nodes = 0;      // constraint-tree nodes
-  std::int64_t prices = 0;     // cached costs of agents
+  std::int64_t prices = 0;     // cached subproblem costs of agents
   std::int64_t path_sets = 0;  // cached MDDs
   std::int64_t groups = 0;     // cached dependencies of agents
 };

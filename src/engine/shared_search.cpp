@@ -27,8 +27,7 @@
 namespace grove::detail {
 namespace {
 
-constexpr std::size_t kMostKnown = std::size_t{1}
-                                   << 29;  // maximum size of the cached results in bytes
+constexpr std::size_t kMostKnown = std::size_t{1} << 29;  // max. bytes of cached results
 
 constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t kLeast = 64 << 10;  // bytes; smaller budgets bring no benefit
