@@ -89,7 +89,7 @@ class GROVE_API World {
   /// InvalidArgument if the sizes are invalid or do not match.
   static World grid(int width, int height, const std::vector<bool>& passable);
   /// Returns a grid from rows of equal length, top row first. '.' and ' ' are passable; '@', '#',
-  /// 'T', 'O' and 'W' are blocked. Throws InvalidArgument, with field() "/<row>" for an invalid
+  /// 'T', 'O' and 'W' are blocked. Throws InvalidArgument, with field() "/<i>" if row i is invalid.
   /// row.
   static World from_rows(const std::vector<std::string>& rows);
   /// Returns a roadmap of at least one vertex. Throws InvalidArgument for invalid vertices or
