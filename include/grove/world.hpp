@@ -90,7 +90,6 @@ class GROVE_API World {
   static World grid(int width, int height, const std::vector<bool>& passable);
   /// Returns a grid from rows of equal length, top row first. '.' and ' ' are passable; '@', '#',
   /// 'T', 'O' and 'W' are blocked. Throws InvalidArgument, with field() "/<i>" if row i is invalid.
-  /// row.
   static World from_rows(const std::vector<std::string>& rows);
   /// Returns a roadmap of at least one vertex. Throws InvalidArgument for invalid vertices or
   /// roads.

@@ -27,11 +27,11 @@
 // *No destination.* An agent without a destination heads for one of its stops to rest there, but a
 // configuration is a goal wherever the agent rests.
 //
-// *Priority.* The more steps an agent has made since it could last rest, the earlier it chooses.
-// Ties are broken by distance at the start, longest first. Agents that may rest where they are
-// choose last; if they make way, their steps count again. (Counting steps from the last visited
-// stop instead gives plans that cost 6 % more on the dense instances below, and fails more often on
-// the densest. With the longest *remaining* distance first, plans cost four times as much.)
+// *Priority.* The more joint steps ago an agent could last rest, the earlier it chooses. Ties are
+// broken by distance at the start, longest first. Agents that may rest where they are choose last.
+// If they make way, counting starts again. (Counting steps from the last visited stop instead gives
+// plans that cost 6 % more on the dense instances below, and fails more often on the densest. With
+// the longest *remaining* distance first, plans cost four times as much.)
 //
 // *Measured* with the restarts of lacam_with_restarts.cpp on one core, on scenarios 1-5 of Moving
 // AI maps with 3 seeds each (agents/tasks). All runs found a plan. Costs are multiples of the cost

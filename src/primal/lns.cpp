@@ -19,11 +19,11 @@
 // *Acceptance.* LNS soon reaches a local optimum. After kRecordDeviationStart iterations per agent
 // without improvement, it also accepts plans that cost up to record_deviation times (best cost -
 // sum of individual costs) more than the best plan so far. The deviation is proportional to this
-// difference, because local optima are deeper where congestion costs more. Higher costs are not
-// accepted earlier, because they slow down a search that still improves quickly: random-32-32-20,
-// 200 agents, ten seconds, 5,202 to 5,238 instead of 5,149. Nor are they accepted while the best
-// cost exceeds the sum of individual costs by more than record_deviation_max_loss times that sum,
-// because plans of such dense instances improve during the whole run.
+// difference, because escaping from a local optimum takes more where congestion costs more. Higher
+// costs are not accepted earlier, because they slow down a search that still improves quickly:
+// random-32-32-20, 200 agents, ten seconds, 5,202 to 5,238 instead of 5,149. Nor are they accepted
+// while the best cost exceeds the sum of individual costs by more than record_deviation_max_loss
+// times that sum, because plans of such dense instances improve during the whole run.
 //
 // *Cutoff.* The cutoff of a low-level call is the cost of the removed paths, plus the accepted
 // increase, minus the costs of the new paths so far, minus the individual costs of the agents still
