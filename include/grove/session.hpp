@@ -30,8 +30,8 @@ struct Change {
 };
 
 /// A re-planning session. Keeps the world, its distances and the plan between runs, so that
-/// replan() neither computes the distances again nor starts without a plan. Owns its data. A
-/// moved-from session may only be assigned to or destroyed. One thread at a time.
+/// replan() can reuse them. Owns its data. A moved-from session may only be assigned to or
+/// destroyed. One thread at a time.
 class GROVE_API Session {
  public:
   /// Creates a session without a plan.
