@@ -37,7 +37,7 @@ struct Surplus {
   friend bool operator==(const Surplus&, const Surplus&) = default;
 };
 
-// Request of a rank for nodes, or for better nodes than it has. A node is wanted if it must be
+// Request from a rank for nodes, or for better nodes than it has. A node is wanted if it must be
 // expanded before the run can end.
 struct WorkRequest {
   std::int32_t rank = 0;

@@ -5,18 +5,19 @@
 //
 // Charge for visitors. Once an agent rests, no other agent can visit its place. All other agents
 // that must visit the place have to do so before, which under fixed sequences is often possible
-// only at a very high cost. Without a charge, plans with the chosen destinations cost hardly more
-// than plans without destinations, but the instance is hardly easier to solve. Measured on 36
-// instances (the paper's three maps, N = 5 and 10, M = 10 to 30; policy fixed, 4 s): CTS-CBS-A
-// solves 17 or 18, B without a charge 23, B with 12 steps per visitor 32 (visitor_steps in
-// model/tunables.def). (With an additional charge for destinations in corridors, B solved no more.)
+// only at a very high cost. Without a charge, plans that end on the chosen tasks cost hardly more
+// than other plans, but the instance is hardly easier to solve. Measured on 36 instances (the
+// paper's three maps, N = 5 and 10, M = 10 to 30; policy fixed, 4 s): CTS-CBS-A solves 17 or 18, B
+// without a charge 23, B with 12 steps per visitor 32 (visitor_steps in model/tunables.def). (With
+// an additional charge for destinations in corridors, B solved no more.)
 //
-// All ends in one table. Distances are symmetric, so a sequence from the start that ends on e, read
-// backwards, starts on e and ends at the start. Hence the cost-to-go table of a matrix whose
-// destination is the start gives, for every stop e, the cost through all other stops. The table is
-// exact for ends up to a limit above the cost of the best end. The limit is raised until no other
-// end can improve the assignment: an end above the limit costs at least beyond(), and an assignment
-// that uses it costs at least that plus the costs of the best ends of all other agents.
+// All ends in one table. CTS-CBS-B accepts only plain worlds (method.cpp), in which distances are
+// symmetric. Therefore a sequence from the start that ends on e, read backwards, starts on e and
+// ends at the start. Hence the cost-to-go table of a matrix whose destination is the start gives,
+// for every stop e, the cost through all other stops. The table is exact for ends up to a limit
+// above the cost of the best end. The limit is raised until no other end can improve the
+// assignment: an end above the limit costs at least beyond(), and an assignment that uses it costs
+// at least that plus the costs of the best ends of all other agents.
 #include "engine/destinations.h"
 
 #include <algorithm>

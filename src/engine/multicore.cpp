@@ -2,10 +2,10 @@
 // Each worker has a thread and performs work items until none is available; then it parks. A worker
 // that completes an item wakes a parked worker if there is work for it.
 //
-// Claim: no node stays open while a worker is parked and no other worker will take it. Proof: a
-// worker checks that no node is open, and parks, under one lock. A worker pushes nodes before it
-// takes this lock to look for parked workers. Hence either the parking worker sees the node, or the
-// pushing worker sees the parked one.
+// Claim: whenever a worker here has pushed an open node, some worker that is not parked will find
+// it. Proof: a worker tests that no node is open, and parks, under one lock. A worker pushes nodes
+// before it takes this lock to look for parked workers. Hence either the parking worker sees the
+// node, or the pushing worker sees the parked one.
 //
 // A worker that finds no work item does not park in two cases:
 // - No node is live. Then either the next tree is due or the run is over, and a worker must

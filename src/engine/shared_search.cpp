@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Node selection. With w = 0 the best node is always taken.
 //
-// With w > 0, a plan from any node whose bound is within w of the lower bound can end the run at
-// once. Among these nodes the one with the least bound is a poor place to look for a plan, because
-// it often has many conflicts. Therefore, as in explicit estimation search (Li, Ruml and Koenig,
-// AAAI 2021), every second node is selected by the expected cost of a plan below it. The other
-// nodes are selected best first and raise the bound.
+// With w > 0, a plan within w of the lower bound ends the run at once. Any node whose bound is
+// within w of the lower bound can lead to such a plan. Among these nodes the one with the least
+// bound is a poor choice, because it often has many conflicts. Therefore, as in explicit estimation
+// search (Li, Ruml and Koenig, AAAI 2021), every second node is selected by the expected cost of a
+// plan below it. The other nodes are selected best first and raise the bound.
 //
 // With an incumbent of cost C, selection is best first, as with w = 0. Every node with a bound
 // below C / (1 + w) must be expanded, in any order. Expanding a node above that bound could only

@@ -10,12 +10,12 @@
 // *Definition.* W is the effort of individual planning for all agents (meeting_work_).
 //
 // *First plan.* Prioritised planning has a head start: until its first failure, and for an effort
-// of at most pp_head_start*W, it gets all effort. On instances that are not dense it ends within
-// 1.5 W, with plans much cheaper than LaCAM's (which cost 1.1 to 3.5 times the sum of individual
-// costs). After the head start, prioritised planning and LaCAM share the effort equally until one
-// of them has a plan. A long low-level call of prioritised planning is postponed and repeated with
-// twice the label limit, because a call that proves that an agent is enclosed can take longer than
-// the tree search needs for a small instance.
+// of at most pp_head_start*W, it gets all effort. On instances that are not dense, prioritised
+// planning ends within 1.5 W, with plans much cheaper than LaCAM's, which cost 1.1 to 3.5 times the
+// sum of individual costs. After the head start, prioritised planning and LaCAM share the effort
+// equally until one of them has a plan. A long low-level call of prioritised planning is postponed
+// and repeated with twice the label limit, because a call that proves that an agent is enclosed can
+// take longer than the tree search needs for a small instance.
 //
 // *Both continue.* If LaCAM finds a plan first (mostly within 2 W), LNS takes over that plan and
 // LaCAM's half of the effort. Prioritised planning keeps the other half, because its plan, if it
