@@ -38,7 +38,7 @@ class Rank {
 
   SharedSearch& search() { return search_; }
   const LocalNodes& nodes() const { return nodes_; }
-  // Cached stops of the agents with which the workers' caches start.
+  // Cached stops of the agents; the workers' caches start with them.
   const AgentStopsCache& stops() const { return stops_; }
 
   // Handles a message to this rank. Throws std::invalid_argument for a type of message that no rank

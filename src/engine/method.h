@@ -33,7 +33,7 @@ std::string_view name_of(Method method);
 std::optional<Method> parse_method(std::string_view name);
 
 // True if the method requires an agent without a destination. (For kCtsCbsA, solve_by() only calls
-// solve(); kCtsCbsB and kCtsCbsC run adaptations.h.)
+// solve(); kCtsCbsB and kCtsCbsC run the functions of adaptations.h.)
 bool is_adaptation(Method method);
 
 // Returns `options` adapted to the searches that the method runs. Throws std::invalid_argument with
