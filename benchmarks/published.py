@@ -108,7 +108,7 @@ def quality_a(cells):
 
 
 def of(cells, is_true):
-    return f"{sum(map(is_true, cells.values()))} of {len(cells)} cells"
+    return f"{sum(map(is_true, cells.values()))} of {len(cells)} configurations"
 
 
 def rooms(cells):
@@ -122,7 +122,8 @@ def best_success(lines):
 def room_success_a(cells):
     some = {cell: lines for cell, lines in rooms(cells).items() if max(best_success(lines), lines[A].success) > 0}
     higher, lower = (sum(sign * (lines[A].success - best_success(lines)) > 0 for lines in some.values()) for sign in (1, -1))
-    return f"than all: {higher} of the {len(some)} cells in which A or a baseline solves any; lower than the best: {lower}"
+    return f"than all: {higher} of the {len(some)} configurations in which A or a baseline solves any; " \
+        f"lower than the best: {lower}"
 
 
 def fastest(lines):
@@ -139,13 +140,13 @@ def success_b(cells):
     ratios = [lines[B].success / best_success(lines) for lines in cells.values() if best_success(lines)]
     none = sum(not best_success(lines) and lines[B].success > 0 for lines in cells.values())
     return f"of the best baseline's: {min(ratios):.1f} to {max(ratios):.1f} times, in the median {statistics.median(ratios):.1f} " \
-        f"times; in {none} cells B alone solves any"
+        f"times; in {none} configurations B alone solves any"
 
 
 def runtime_b(cells):
     ratios = [fastest(lines) / lines[B].mean_runtime_s for lines in cells.values()]
-    return f"than the fastest baseline's: ten times and more in {sum(ratio >= 10 for ratio in ratios)} of {len(ratios)} cells, " \
-        f"{max(ratios):.0f} times at most"
+    return f"than the fastest baseline's: ten times and more in {sum(ratio >= 10 for ratio in ratios)} of {len(ratios)} " \
+        f"configurations, {max(ratios):.0f} times at most"
 
 
 def quality_b(cells):
