@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Exit codes and error messages in the format of grove."""
+"""Runs programs with exit codes and error messages in the format of grove."""
 import asyncio
 import os
 import signal
@@ -16,7 +16,7 @@ def complain(message):
 
 
 def exit_code(run, arguments):
-    """Returns the exit code of run(arguments), whether it returns or raises."""
+    """Calls run(arguments) and returns the exit code, also if it raises an exception."""
     try:
         return run(arguments)
     except BadInput as error:

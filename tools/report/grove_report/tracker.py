@@ -124,7 +124,7 @@ class Known(NamedTuple):
 
 
 def _named(path):
-    """Returns the columns that the file name, such as MAP.csv or MAP-even-3.csv, determines for all rows of the file."""
+    """Returns the columns that the file name, such as MAP.csv or MAP-even-3.csv, determines for all its rows."""
     found = SCENARIO.fullmatch(path.stem)
     return {"map_name": found[1], "scen_type": found[2], "type_id": found[3]} if found else {"map_name": path.stem}
 
