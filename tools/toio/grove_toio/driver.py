@@ -236,7 +236,7 @@ class Driver:
         return abs(goal[0] - point[0]) <= BY_HAND and abs(goal[1] - point[1]) <= BY_HAND
 
     async def by_hand(self, handle, goal):
-        """Turns the cube towards or away from the goal, then rolls. For the last units, where a cube ignores targets."""
+        """Turns the cube towards or away from the goal, then rolls. For last units, where a cube ignores targets."""
         dx, dy = goal[0] - handle.mean[0], goal[1] - handle.mean[1]
         way, bearing = math.hypot(dx, dy), math.degrees(math.atan2(dy, dx))
         off = turn_between(handle.angle, bearing)
