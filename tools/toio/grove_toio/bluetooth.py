@@ -61,7 +61,7 @@ class BluetoothCube:
             try:
                 await self.connect()
             except (self.bleak.exc.BleakError, asyncio.TimeoutError, OSError, EOFError):
-                pass    # the loop tries again, and meanwhile the driver reports that the cube is silent
+                pass    # the loop tries again; until then the driver reports that the cube is silent
 
     async def disconnect(self):
         self.wanted = False
