@@ -175,7 +175,9 @@ class Replanning {
     }
   }
 
-  // Returns the file beside the instance for a map with blocked places; "" if nothing is blocked.
+  // Returns the path, beside the new instance, for its map; "" if the new instance uses the map
+  // file of the old one. It needs a new file if places are blocked, or if the old instance has no
+  // map file.
   fs::path changed_map() const {
     if (a_.change.blocked.empty() && !loaded_.map_path.empty()) return {};
     return stem_of(a_.output_instance) +

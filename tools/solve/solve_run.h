@@ -18,8 +18,8 @@
 namespace grove::detail {
 
 // Sets the default name of the plan file, checks that the output files of the run are distinct and
-// can be written, and locks them. While the returned locks exist, no other run of Grove can use the
-// files. Throws InputError.
+// can be written, and locks them. While the returned locks exist, no other run of Grove can write
+// the files; see OutputLock. Throws InputError.
 [[nodiscard]] std::vector<OutputLock> prepare_outputs(SolveArguments& arguments,
                                                       const LoadedInstance& loaded);
 
