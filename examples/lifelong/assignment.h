@@ -16,9 +16,9 @@ namespace lifelong {
 // Pairs of a robot's id and the errand that is assigned to it.
 using Given = std::vector<std::pair<std::string, Errand>>;
 
-// Greedy assignment: takes open errands in the order in which they were added, and assigns each to
-// the nearest robot without a task. An errand on the cell of a current task stays open, because the
-// robot with that task rests there until it gets a new task.
+// Greedy assignment in order of arrival at add(): each open errand goes to the nearest robot
+// without a task. An errand on the cell of a current task stays open, because the robot with that
+// task rests there until it gets a new task.
 class Assignment {
  public:
   explicit Assignment(grove::World world) : world_(std::move(world)) {}

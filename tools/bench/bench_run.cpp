@@ -34,9 +34,10 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kCsvInterval_s = 30;  // not after every row, because the whole file is rewritten
-// Not after every row, because a flush takes longer than a short run. If the machine crashes, the
-// runs whose rows are lost are repeated.
+// Minimum intervals between writes of the CSV file, which is rewritten as a whole, and between
+// flushes of the table, which take longer than a short run. If the machine crashes, rows since the
+// last flush are lost and their runs are repeated.
+constexpr double kCsvInterval_s = 30;
 constexpr double kFlushInterval_s = 1;
 constexpr auto kWatchInterval = std::chrono::milliseconds(100);
 constexpr double kMaxCheckTime_s = 3600;

@@ -40,8 +40,8 @@ std::vector<batch::TracePoint> trace_of_log(const std::filesystem::path& log);
 
 // Returns whether grove refused its instance or its options (kExitBadInput).
 bool is_refusal(const ChildEnd& end);
-// Returns the reason of such a refusal, without the name of the instance. `instance`: its path on
-// the command line.
+// Returns the reason for a refusal, without the name of the instance. `instance`: path of the
+// instance on the command line.
 std::string refusal(const std::filesystem::path& output_file, const std::string& instance);
 
 // Returns ": " and the last line of `output_file`; "" if there is no output.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-//! Model of one agent for the searches: its poses, its stops, and its least remaining costs. The latter respect constraints on the order
-//! of stops and ignore all others.
+//! Model of one agent for the searches: its poses, its stops, and its least remaining costs. These costs respect constraints on the order
+//! of stops and ignore all other constraints.
 use crate::instance::{Agent, Instance, Place, World};
 use crate::orders::{After, Bound, Orders};
 use crate::tokens::Map;
@@ -129,9 +129,9 @@ struct Choice {
     done: Vec<Done>,
 }
 
-/// With at most this number of stops, the remaining costs are computed for all paths at once.
+/// With at most this number of stops, the first computation of remaining costs covers all paths.
 const MAX_STOPS_AT_ONCE: usize = 5;
-/// With at most this number of stops, they are computed for all paths if the first limit does not suffice.
+/// With at most this number of stops, the computation covers all paths if the first limit does not suffice.
 const MAX_STOPS_COMPLETE: usize = 11;
 /// With more stops, the limit is raised only for costs less than this number of steps above the cost of the best order.
 const MAX_EXCESS: u32 = 200;

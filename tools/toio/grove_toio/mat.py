@@ -12,8 +12,8 @@ notified positions and of steering, and the delay of notifications. The rest is 
 its notified position is within the tolerance of the centre.
 
 For example, a 7 x 5 grid on the simple mat has a pitch of 43.2 units (59 mm). This is 9.9 units more than BODY, so the
-tolerance is 2.9 units (4 mm). The cube itself treats a target as reached when it is 15 units away. Neighbours that both
-rely on this could touch (43.2 - 15 < 33.3). Therefore the response of a cube does not count as arrival, and the driver
+tolerance is 2.9 units (4 mm). The cube itself treats a target as reached when it is 15 units away, where it could touch
+a neighbour (43.2 - 15 < 33.3). Therefore the response of a cube does not count as arrival, and the driver
 controls the rest of the way directly: it turns the cube and then runs the wheels for some hundredths of a second.
 """
 import math
