@@ -45,7 +45,7 @@ LONG = [DrawnCase("rooms-50-mapf", ROOMS, 50, None, 1), DrawnCase("open-60-mapf"
          DrawnCase("open-40-40", OPEN, 40, 40, 1), DrawnCase("rooms-25-60-mg", ROOMS, 25, 60, 1, mg=True),
          DrawnCase("rooms-25-50-mg", ROOMS, 25, 50, 1, mg=True),
          DrawnCase("warehouse-100-200", WAREHOUSE, 100, 200, 1)]
-# Weak scaling: instances of growing size, for a growing number of ranks.
+# Cases of increasing size for weak scaling, each with a larger number of ranks.
 WEAK = [DrawnCase(f"rooms-{agents}-mapf", ROOMS, agents, None, 1) for agents in (40, 43, 45, 50)]
 # Each of these cases takes seconds on one core, for measurements on the current machine.
 SHORT = [Case("room-32-32-4", 20, 20, 3), Case("room-32-32-4", 20, 30, 3),

@@ -176,7 +176,7 @@ def main(instance, proof):
 
 
 def run(instance, proof):
-    """Runs main() within the memory limit."""
+    """Calls main() with a limit of MEMORY bytes, and refuses the certificate if it needs more."""
     _, most = resource.getrlimit(resource.RLIMIT_DATA)
     resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, most))
     try:

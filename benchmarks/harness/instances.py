@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Cases of the benchmarks: Moving AI scenarios, generated instances, and instance files."""
+"""Defines the cases of the benchmarks: Moving AI scenarios, generated instances, and instance files."""
 
 import dataclasses
 import json
@@ -42,7 +42,7 @@ class Case:
 
 @dataclasses.dataclass(frozen=True)
 class FileCase:
-    """An instance file."""
+    """A case from an instance file."""
 
     file: pathlib.Path
     agents: int

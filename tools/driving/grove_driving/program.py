@@ -27,7 +27,7 @@ def exit_code(run, arguments):
     except asyncio.CancelledError:
         return 128 + signal.SIGTERM
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush when Python exits
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # so that Python's flush at exit does not fail
         return FAILURE
     except OSError as error:
         complain(f"{error.filename or 'the drive'}: {error.strerror or error}")

@@ -11,7 +11,7 @@ pub enum Json {
     Object(Vec<(String, Json)>),
 }
 
-/// Maximum nesting of objects and lists.
+/// Maximum nesting depth of objects and lists.
 const MAX_DEPTH: usize = 32;
 
 impl Json {

@@ -3,7 +3,7 @@
 //! change the problem, and the bound would then be that of a different problem.
 use crate::json::Json;
 
-/// The keys of one kind of object, and for each key the keys of the objects in its value.
+/// The keys of one kind of object and, for each key, the keys of the objects in its value (None: no objects are checked).
 pub struct Keys(&'static [(&'static str, Option<&'static Keys>)]);
 
 static WORKING: Keys = Keys(&[("task", None), ("done", None)]);

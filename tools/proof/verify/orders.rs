@@ -15,7 +15,7 @@ pub struct Orders<'a> {
     pub posts: &'a [(usize, u32)],
     /// Distances from the start to posts.
     pub first: &'a [u32],
-    /// Distances between posts, row by row.
+    /// Distances between posts, row by row: from post i to post j at i * posts.len() + j.
     pub legs: Vec<u32>,
     /// Distances from posts to the end.
     pub last: Vec<u32>,

@@ -111,7 +111,7 @@ impl Successors<'_> {
         }
     }
 
-    /// Returns a lower bound on the remaining cost.
+    /// Returns a lower bound on the remaining cost from this state.
     pub fn remains(&self, state: &State) -> u32 { state.left + self.model.remains(state.done, state.pose) }
 
     /// Returns whether the agent may rest in this state, provided that its place is free for ever.

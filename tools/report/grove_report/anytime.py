@@ -16,7 +16,7 @@ from .metrics import by_line, cost_ratio, has_plan
 class Step(NamedTuple):
     """Values from time `seconds` until the next step; None: unknown."""
     seconds: float
-    with_plan: float             # share of the instances with a plan
+    with_plan: float             # share of the instances that have a plan by now
     common_with_plan: float      # share of the common instances that have a plan of known cost by now
     cost_ratio: Optional[float]  # mean of cost / best known cost over the common instances with such a plan
     cost_over_bound: Optional[float]  # mean of cost / best lower bound over those of them that have a bound
@@ -37,10 +37,10 @@ class Curve(NamedTuple):
 
 
 class Panel(NamedTuple):
-    """Curves of one map, or of one number of agents if there is only one map."""
+    """The Curves for one map, or for one number of agents if there is only one map."""
     title: str
     instances: int
-    common: int    # instances for which every line has a plan, with every seed
+    common: int    # number of instances for which every line has a plan with every seed
     curves: dict   # {line: Curve}
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Command line of grove report."""
+"""Implements the command line of grove report."""
 import argparse
 import contextlib
 import io
@@ -202,7 +202,7 @@ def _print(text):
         return 0
     except OSError:
         _complain("standard output: cannot be written")
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush when Python exits
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # so that Python's flush at exit succeeds
         return INTERNAL_FAILURE
 
 

@@ -14,8 +14,8 @@ from .style import COLOURS, DASHES, MARKERS, depth, plot_arguments
 TITLE = 0.4  # height of two lines, inches
 LEFT, RIGHT = 0.46, 0.06
 DIGITS = 0.13  # additional left margin for numbers of four digits, inches
-RUN_DASHES = [pattern for pattern in DASHES if pattern[0] > 2]  # bounds are dotted
-MOST_STEPS = 300  # steps drawn per curve
+RUN_DASHES = [pattern for pattern in DASHES if pattern[0] > 2]  # without dotted patterns, which are for bounds
+MOST_STEPS = 300  # maximum number of steps that are drawn per curve
 
 ANYTIME_CAPTION = (
     "Cost ratio: cost / best known cost, mean over the common instances (all methods end with a plan). Thin: while "

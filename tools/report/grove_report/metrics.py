@@ -15,7 +15,7 @@ from .lines import line_of
 from .rows import CLAIMED, INVALID
 
 
-NO_PROMISE = ("", "inf")  # omegas without a guarantee
+NO_PROMISE = ("", "inf")  # values of omega that guarantee nothing
 
 
 @functools.cache
@@ -80,14 +80,14 @@ class Measures(NamedTuple):
     seeds: int                     # maximum number of runs of an instance
     runs: int
     solved: int
-    invalid: int                   # runs with an invalid plan
-    claimed: int                   # runs that report a cost without a plan
+    invalid: int                   # number of runs with an invalid plan
+    claimed: int                   # number of runs that report a plan but wrote none
     within_omega: Optional[int]    # number of solved runs within omega; None: omega guarantees nothing
     success: float                 # mean over instances of the share of solved runs
     mean_runtime_s: float          # a failure counts as the time limit
     median_runtime_s: float        # a failure counts as the time limit
     par2_s: float                  # mean; a failure counts as twice the time limit
-    mean_sqr: Optional[float]      # over solved rows
+    mean_sqr: Optional[float]      # mean SQR over solved rows
     mean_cost_ratio: Optional[float]  # mean of cost / best known cost over solved rows
     common: int                    # number of common_instances()
     common_sqr: Optional[float]    # mean SQR over the common instances
@@ -96,7 +96,7 @@ class Measures(NamedTuple):
     common_median_cost: Optional[float]
     common_mean_s: Optional[float]
     common_median_s: Optional[float]
-    mean_roots: Optional[float]    # over all rows with a value
+    mean_roots: Optional[float]    # mean over all rows with a value
     mean_rtsp_calls: Optional[float]
 
 
@@ -181,7 +181,7 @@ def measures_by_line(rows, best):
 
 
 def by_line(rows):
-    """Returns {line: its rows}."""
+    """Returns {line: rows of the line}."""
     return grouped(rows, line_of)
 
 

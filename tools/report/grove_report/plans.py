@@ -57,7 +57,7 @@ def read_plan(path, agents):
 
 
 def cost_of(paths):
-    """Returns the sum of the times at which agents come to rest."""
+    """Returns the cost of a plan, which is the sum of the times at which the agents come to rest."""
     return sum(len(path) - 1 for path in paths)
 
 

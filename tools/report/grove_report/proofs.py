@@ -60,7 +60,7 @@ class FalseClaim(NamedTuple):
     seed: Optional[int]
     kind: str             # "plan", "cost", "lower bound"
     claimed: Optional[int]
-    checked: Optional[int]  # the value that refutes it
+    checked: Optional[int]  # the checked value that refutes the claim
     what: str
 
 
@@ -112,7 +112,7 @@ def false_claims(rows, known_costs=()):
 
 
 def _against(rows, known):
-    """Yields contradictions between the rows of an instance and the entry of MAPF Tracker."""
+    """Yields the contradictions between the rows of an instance and its entry in MAPF Tracker."""
     plans = [row for row in rows if has_plan(row)]
     if plans and known.bound is not None and min(row.cost for row in plans) < known.bound:
         cheaper = [row for row in plans if row.cost < known.bound]

@@ -49,7 +49,7 @@ class Problem(NamedTuple):
     cactus: Figure
     success: object     # Figure; None: no map has several numbers of agents
     anytime: object     # Figure; None: no line is anytime
-    panels: list        # of the figure `anytime`
+    panels: list        # Panels of the figure `anytime`
     counters: dict      # {line: Counters}
     splits: object      # Figure; None: no run reports splits
 

@@ -59,7 +59,7 @@ class Row(NamedTuple):
     gap: Optional[float]
     root_cost: Optional[int]
     sqr: Optional[float]
-    runtime_s: float  # the time limit if not solved
+    runtime_s: float  # the time limit if the run is not solved
     wall_s: Optional[float]
     roots: Optional[int]
     rtsp_calls: Optional[int]
@@ -72,7 +72,7 @@ class Row(NamedTuple):
     error: str
     ranks: Optional[int]
     threads: Optional[int]
-    instance_digest: str  # of the instance files, because two instances may have one id
+    instance_digest: str  # digest of the instance files, because different instances can have the same id
     counts: dict  # {name: number} for the other counters of the search; empty if the run reports none
     first_plan_s: Optional[float]
     plan_file: str  # path relative to the working directory; "" if no plan was kept
@@ -379,7 +379,7 @@ NO_RESULTS = Results([], [], [], 0, [])
 
 
 def read_results(arguments):
-    """Reads the rows of all files and directories, sorted. Raises BadInput."""
+    """Reads the rows of all files and directories and returns the Results, sorted. Raises BadInput."""
     files = list(dict.fromkeys(_files(argument) for argument in arguments))
     rows, counts, cut_off, unreadable = [], [], [], []
     for path in files:

@@ -20,13 +20,13 @@ class Speedup(NamedTuple):
     map: str              # a map, or ALL_MAPS
     baseline: Line        # a baseline, or BEST
     line: Line
-    instances: int        # tried by both, and solved by the best baseline in more than TRIVIAL_S
+    instances: int        # number of instances that both tried and that the best baseline solved in more than TRIVIAL_S
     median_ratio: float   # time of the baseline / time of the line; a failure counts as the limit
     sure: str             # how failures affect the ratio: "exactly", "at least", "at most", "about"
     baseline_median_s: float
     line_median_s: float
-    baseline_failed: int  # of `instances`
-    line_failed: int
+    baseline_failed: int  # number of failures of the baseline among `instances`
+    line_failed: int      # number of failures of the line among `instances`
 
 
 def best_baseline(lines, is_baseline):

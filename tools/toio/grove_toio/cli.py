@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Command line of grove toio."""
+"""Implements the command line of grove toio."""
 import asyncio
 import contextlib
 import os

@@ -40,7 +40,7 @@ class Outcome(NamedTuple):
     all_actions: int
     writes: int
     repeats: int
-    corrections: int            # short rolls over the last units
+    corrections: int            # number of short rolls over the last units
     waits: list                 # texts that say why robots are not done
 
     @property
@@ -275,7 +275,7 @@ class Driver:
 
     def unfit(self, handle, state, why):
         if handle.position is None and self.now() < PATIENCE:
-            return False    # the first position has just been requested
+            return False    # no report yet, because the first position has just been requested
         self.set_state(handle, state)
         self.report(handle, "unfit", why)
         return False

@@ -11,7 +11,7 @@ PUT_DOWN = 2.0              # error of manual placement, units from the centre
 
 
 def make_world(order, grid, disturbances, seed):
-    """Returns (world, {robot: cube})."""
+    """Makes the simulated world and its cubes and returns (world, {robot: cube})."""
     world = World(grid.mat, seed)
     hand = random.Random(f"start {seed}")
     cubes = {}

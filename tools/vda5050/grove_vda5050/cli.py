@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Command line of grove vda5050."""
+"""Implements the command line of grove vda5050."""
 import contextlib
 import functools
 import json

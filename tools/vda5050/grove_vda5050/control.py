@@ -8,7 +8,7 @@ base that the vehicle has confirmed. Control resends an update until the vehicle
 """
 from .route import actions_done
 
-RESEND_SECONDS = 3.0        # vehicle seconds
+RESEND_SECONDS = 3.0        # vehicle seconds until an unconfirmed update is sent again
 SILENT_SECONDS = 40.0       # real seconds; vehicles must send a state at least every 30 s
 
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from .protocol import Header
 from .vehicle import SimulatedVehicle
 
-TICK = 0.02                 # real seconds
+TICK = 0.02                 # real seconds between two steps of the simulation
 HEARTBEAT = 10.0            # real seconds between states if nothing changes; VDA 5050 allows at most 30
 NEAR = 1.5                  # larger distances between vehicles are not measured, cells
 

@@ -21,7 +21,7 @@ ALLOWED = set("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.
 
 class Work(NamedTuple):
     id: str
-    kind: str               # work or visit
+    kind: str               # "work" (task with duration) or "visit"
     task: str
     steps: int
 
@@ -29,7 +29,7 @@ class Work(NamedTuple):
 class Node(NamedTuple):
     id: str
     place: tuple            # place in the passing order
-    at: tuple               # metres
+    at: tuple               # (x, y) in metres
     begin: int              # index of the first action of the passing order that is done on the node
     end: int                # index after its last action
     works: tuple            # Works (VDA 5050 actions) on the node, in order
